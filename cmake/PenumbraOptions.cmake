@@ -1,0 +1,50 @@
+# Build options, warnings, sanitizers and the helpers that define our targets.
+
+option(PENUMBRA_TESTS "Build the tests" ON)
+option(PENUMBRA_EXPERIMENTS "Build the benchmarks and studies" ON)
+option(PENUMBRA_CHECKS "Keep the internal checks (PENUMBRA_DCHECK) alive" OFF)
+set(PENUMBRA_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,undefined or thread")
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+endif()
+
+# What every target of ours is compiled with. No contraction: the same bytes on every run.
+add_library(penumbra_options INTERFACE)
+target_compile_features(penumbra_options INTERFACE cxx_std_20)
+target_include_directories(penumbra_options INTERFACE "${PROJECT_SOURCE_DIR}")
+target_compile_options(penumbra_options INTERFACE -ffp-contract=off)
+if(PENUMBRA_CHECKS)
+  target_compile_definitions(penumbra_options INTERFACE PENUMBRA_CHECKS)
+endif()
+if(PENUMBRA_SANITIZE)
+  target_compile_options(penumbra_options INTERFACE -fsanitize=${PENUMBRA_SANITIZE}
+                         -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(penumbra_options INTERFACE -fsanitize=${PENUMBRA_SANITIZE})
+  if(PENUMBRA_SANITIZE MATCHES "thread")
+    # oneTBB is not instrumented and reports races of its own: a std::thread back end instead.
+    target_compile_definitions(penumbra_options INTERFACE PENUMBRA_STD_THREADS)
+  endif()
+endif()
+
+add_library(penumbra_warnings INTERFACE)
+target_compile_options(penumbra_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+  -Woverloaded-virtual -Wold-style-cast -Werror)
+
+# penumbra_library(NAME [LIBS...]): the static library penumbra_NAME from this folder's sources.
+function(penumbra_library name)
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/*.h")
+  if(NOT sources)
+    message(FATAL_ERROR "no sources in ${CMAKE_CURRENT_SOURCE_DIR}")
+  endif()
+  add_library(penumbra_${name} STATIC ${sources})
+  set_target_properties(penumbra_${name} PROPERTIES LINKER_LANGUAGE CXX)
+  target_link_libraries(penumbra_${name} PUBLIC penumbra_options PRIVATE penumbra_warnings)
+  target_link_libraries(penumbra_${name} PUBLIC ${ARGN})
+endfunction()

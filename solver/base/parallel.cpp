@@ -1,0 +1,84 @@
+#include "solver/base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "solver/base/check.h"
+
+#ifndef PENUMBRA_STD_THREADS
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#endif
+
+namespace penumbra {
+namespace {
+
+int HardwareThreads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+std::atomic<int> thread_count{0};
+
+#ifdef PENUMBRA_STD_THREADS
+// Plain threads that take chunk after chunk: nothing here that the thread sanitizer cannot see into.
+void RunChunks(std::size_t chunks, int threads, const std::function<void(std::size_t)>& run) {
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr error;
+  std::mutex error_mutex;
+  const auto work = [&] {
+    for (std::size_t chunk; (chunk = next.fetch_add(1)) < chunks;) {
+      try {
+        run(chunk);
+      } catch (...) {
+        const std::lock_guard lock(error_mutex);
+        if (!error) error = std::current_exception();
+        next = chunks;
+      }
+    }
+  };
+  std::vector<std::thread> pool;
+  for (int i = 1; i < threads; ++i) pool.emplace_back(work);
+  work();
+  for (std::thread& thread : pool) thread.join();
+  if (error) std::rethrow_exception(error);
+}
+#else
+void RunChunks(std::size_t chunks, int threads, const std::function<void(std::size_t)>& run) {
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, chunks, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t chunk = range.begin(); chunk != range.end(); ++chunk) run(chunk);
+        },
+        tbb::simple_partitioner());
+  });
+}
+#endif
+
+}  // namespace
+
+void SetThreadCount(int threads) { thread_count = std::max(0, threads); }
+
+int ThreadCount() {
+  const int threads = thread_count;
+  return threads > 0 ? threads : HardwareThreads();
+}
+
+void ParallelForChunks(std::size_t count, std::size_t grain,
+                       const std::function<void(std::size_t begin, std::size_t end)>& body) {
+  PENUMBRA_CHECK(grain > 0);
+  const std::size_t chunks = (count + grain - 1) / grain;
+  const auto run = [&](std::size_t chunk) { body(chunk * grain, std::min(count, (chunk + 1) * grain)); };
+  const int threads = static_cast<int>(std::min<std::size_t>(chunks, static_cast<std::size_t>(ThreadCount())));
+  if (threads <= 1) {
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk) run(chunk);
+  } else {
+    RunChunks(chunks, threads, run);
+  }
+}
+
+}  // namespace penumbra

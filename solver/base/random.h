@@ -1,0 +1,62 @@
+// solver/base/random.h
+//
+// Seeded generators that give the same numbers with every standard library, and a low-discrepancy sequence.
+
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace penumbra {
+
+// PCG32 (O'Neill 2014): small, fast, statistically sound; `sequence` selects independent streams of one seed.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed, std::uint64_t sequence = 0) : increment_((sequence << 1) | 1) {
+    Next();
+    state_ += seed;
+    Next();
+  }
+
+  std::uint32_t Next() {
+    const std::uint64_t old = state_;
+    state_ = old * 6364136223846793005ULL + increment_;
+    const auto xorshifted = static_cast<std::uint32_t>(((old >> 18) ^ old) >> 27);
+    const auto rotation = static_cast<std::uint32_t>(old >> 59);
+    return (xorshifted >> rotation) | (xorshifted << ((32 - rotation) & 31));
+  }
+
+  // Uniform in [0, 1), with 53 random bits.
+  double Uniform() {
+    const std::uint64_t high = Next() >> 5, low = Next() >> 6;
+    return (static_cast<double>(high) * 67108864.0 + static_cast<double>(low)) * 0x1p-53;
+  }
+
+  // Uniform in [a, b).
+  double Uniform(double a, double b) { return a + (b - a) * Uniform(); }
+
+  // Log-uniform in [a, b), a > 0.
+  double LogUniform(double a, double b) { return a * std::exp(Uniform() * std::log(b / a)); }
+
+  // Uniform in {0, …, n - 1}.
+  std::uint32_t Index(std::uint32_t n) {
+    return static_cast<std::uint32_t>((static_cast<std::uint64_t>(Next()) * n) >> 32);
+  }
+
+ private:
+  std::uint64_t state_ = 0;
+  std::uint64_t increment_;
+};
+
+// The i-th element of the additive recurrence with step `alpha`, shifted by `offset`: fractions in [0, 1).
+// With the alphas below the points (R(i, kR2Alpha0), R(i, kR2Alpha1)) spread evenly over the square.
+inline double AdditiveRecurrence(std::uint64_t i, double alpha, double offset = 0.5) {
+  const double x = offset + alpha * static_cast<double>(i);
+  return x - std::floor(x);
+}
+// Powers of the inverse of the root of x^(d+1) = x + 1 for d = 2 and d = 4 (Roberts 2018).
+inline constexpr double kR2Alpha[2] = {0.7548776662466927, 0.5698402909980532};
+inline constexpr double kR4Alpha[4] = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
+                                       0.5385972572236101};
+
+}  // namespace penumbra

@@ -1,0 +1,94 @@
+#include "solver/geometry/polygon.h"
+
+#include <cmath>
+
+#include "solver/base/check.h"
+
+namespace penumbra {
+
+Vec3 VectorArea(std::span<const Vec3> polygon) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    sum += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
+  return 0.5 * sum;
+}
+
+Vec3 Centroid(std::span<const Vec3> polygon) {
+  PENUMBRA_CHECK(!polygon.empty());
+  const Vec3 normal = VectorArea(polygon);
+  Vec3 moment = Vec3::Zero();
+  double weight = 0;
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    const Vec3 a = polygon[i - 1] - polygon[0], b = polygon[i] - polygon[0];
+    const double w = a.cross(b).dot(normal);
+    moment += w * (a + b) / 3.0;
+    weight += w;
+  }
+  if (weight > 0) return polygon[0] + moment / weight;
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& v : polygon) mean += v / static_cast<double>(polygon.size());
+  return mean;
+}
+
+double Diameter(std::span<const Vec3> polygon) {
+  double largest = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    for (std::size_t j = i + 1; j < polygon.size(); ++j)
+      largest = std::max(largest, (polygon[i] - polygon[j]).squaredNorm());
+  return std::sqrt(largest);
+}
+
+double SignedArea(std::span<const Vec2> polygon) {
+  double sum = 0;
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    sum += Cross2(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  return 0.5 * sum;
+}
+
+Frame MakeFrame(const Vec3& origin, const Vec3& normal) {
+  // The axis least aligned with the normal gives the best conditioned tangent.
+  int axis = 0;
+  normal.cwiseAbs().minCoeff(&axis);
+  const Vec3 u = Vec3::Unit(axis).cross(normal).normalized();
+  return {origin, u, normal.cross(u), normal};
+}
+
+Frame PolygonFrame(std::span<const Vec3> polygon) {
+  const Vec3 area = VectorArea(polygon);
+  PENUMBRA_CHECK(area.squaredNorm() > 0);
+  const Vec3 normal = area.normalized();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    Vec3 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+    edge -= edge.dot(normal) * normal;
+    if (edge.squaredNorm() == 0) continue;
+    const Vec3 u = edge.normalized();
+    return {polygon[0], u, normal.cross(u), normal};
+  }
+  return MakeFrame(polygon[0], normal);
+}
+
+Polygon3 ClipToHalfSpace(std::span<const Vec3> polygon, const Vec3& normal, const Vec3& point) {
+  Polygon3 kept;
+  kept.reserve(polygon.size() + 1);
+  bool inside = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3& a = polygon[i];
+    const Vec3& b = polygon[(i + 1) % polygon.size()];
+    const double ha = normal.dot(a - point), hb = normal.dot(b - point);
+    if (ha >= 0) kept.push_back(a);
+    if (ha > 0) inside = true;
+    if ((ha > 0 && hb < 0) || (ha < 0 && hb > 0)) kept.push_back(a + (b - a) * (ha / (ha - hb)));
+  }
+  if (!inside || kept.size() < 3) kept.clear();
+  return kept;
+}
+
+bool ConvexContains(std::span<const Vec3> polygon, const Vec3& normal, const Vec3& p, double tolerance) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+    if (normal.cross(edge).dot(p - polygon[i]) < -tolerance * edge.norm()) return false;
+  }
+  return true;
+}
+
+}  // namespace penumbra
