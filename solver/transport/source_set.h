@@ -1,0 +1,47 @@
+// solver/transport/source_set.h
+//
+// The light sources of IrradianceAtPoint(): the radiosities of a solution's leaves, in an order that a walk down the
+// trees can follow. The same set serves every receiver point, so that no step shows between receiver elements.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/geometry/vec.h"
+#include "solver/scene/scene.h"
+
+namespace penumbra {
+
+struct RadiositySolution;
+
+class SourceSet {
+ public:
+  // A node of a source's quadtree, in depth-first order. Subtrees of one radiosity are a single leaf: the polygon's
+  // integral is exact whatever its size.
+  struct Node {
+    std::array<Vec3, 4> vertex;  // [m]
+    std::int32_t size = 0;       // corners: 3 or 4
+    std::int32_t skip = 1;       // nodes in this subtree, this one counted: a leaf has 1
+    Rgb radiosity = Rgb::Zero();  // [W/m^2]; of a leaf
+  };
+
+  // What the leaves of the solution emit and reflect.
+  static SourceSet FromSolution(const RadiositySolution& solution);
+  // What surfaces emit of themselves: direct light.
+  static SourceSet Emitters(const Scene& scene);
+
+  // The tree of a patch; empty if it sends no light.
+  std::span<const Node> Tree(PatchId patch) const {
+    return {nodes_.data() + first_[patch], nodes_.data() + first_[patch + 1]};
+  }
+  std::size_t LeafCount() const;
+
+ private:
+  std::vector<std::size_t> first_;  // per patch, into nodes_
+  std::vector<Node> nodes_;
+};
+
+}  // namespace penumbra
