@@ -49,12 +49,13 @@ struct Patch {
   std::int32_t object = 0;      // index in Scene::objects
   Vec3 normal = Vec3::Zero();   // unit, front
   double area = 0;              // [m^2]
+  double extent = 0;            // the largest absolute coordinate [m]: the scale of rounding
   std::vector<std::int32_t> faces;  // the faces it covers: one, or the two that were merged
 
   std::span<const Vec3> Vertices() const { return {vertex.data(), static_cast<std::size_t>(size)}; }
 };
 
-// A patch from its vertices; normal and area are computed. REQUIRES: 3 or 4 vertices, convex, nonzero area.
+// A patch from its vertices; normal, area and extent are computed. REQUIRES: 3 or 4 vertices, convex, nonzero area.
 Patch MakePatch(std::span<const Vec3> vertices, std::int32_t material, std::int32_t object,
                 std::vector<std::int32_t> faces);
 

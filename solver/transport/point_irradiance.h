@@ -8,7 +8,7 @@
 
 #pragma once
 
-#include <memory>
+#include <vector>
 
 #include "solver/geometry/vec.h"
 #include "solver/scene/scene.h"
@@ -29,8 +29,6 @@ class PointIrradiance {
  public:
   // Everything referred to must outlive this object.
   PointIrradiance(const Scene& scene, const PatchVisibility& visibility, const SourceSet& sources);
-  ~PointIrradiance();
-  PointIrradiance(PointIrradiance&&) noexcept;
 
   // At a point on the front of a patch: only the patch's sources and their blockers are looked at, and the patch
   // itself neither lights nor blocks. Safe from any thread.
@@ -40,8 +38,10 @@ class PointIrradiance {
   PointIrradianceResult Anywhere(const ReceiverPoint& at) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  const Scene& scene_;
+  const PatchVisibility& visibility_;
+  const SourceSet& sources_;
+  std::vector<PatchId> all_patches_;
 };
 
 }  // namespace penumbra
