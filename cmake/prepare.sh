@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2119,SC2120
 # What ./demo and ./check share; they source it from the root of the checkout. For bash.
 
 Say() { printf '== %s\n' "$*"; }
