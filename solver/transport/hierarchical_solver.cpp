@@ -12,7 +12,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 // Elements a task gathers, and receivers a task links.
 constexpr std::size_t kGatherGrain = 256;
@@ -29,8 +31,9 @@ struct Group {
 
 std::vector<LinkSet> FormGroups(const ElementForest& forest, const std::vector<Group>& groups) {
   std::vector<LinkSet> formed(groups.size());
-  ParallelFor(groups.size(), kLinkGrain,
-              [&](std::size_t g) { formed[g] = FormLinks(forest, groups[g].receiver, groups[g].candidates); });
+  ParallelFor(groups.size(), kLinkGrain, [&](std::size_t g) {
+    formed[g] = FormLinks(forest, groups[g].receiver, groups[g].candidates);
+  });
   return formed;
 }
 
@@ -47,7 +50,8 @@ HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility
     for (const PatchPair& pair : visibility.SourcesOf(patch))
       group.candidates.push_back({ElementForest::Root(pair.source), visibility.Blockers(pair)});
     groups.push_back(std::move(group));
-    max_reflectance_ = std::max(max_reflectance_, scene.materials[scene.patches[p].material].reflectance.maxCoeff());
+    max_reflectance_ =
+        std::max(max_reflectance_, scene.materials[scene.patches[p].material].reflectance.maxCoeff());
   }
   Install(FormGroups(solution_.forest, groups), {});
   ResizeLight();
@@ -152,8 +156,8 @@ double HierarchicalSolver::Sweep() {
   return largest > 0 ? change / largest : 0;
 }
 
-// Sweeps until what is missing is below the cut-off; returns the bound reached. The change of one sweep understates
-// what is missing by 1 / (1 - rho).
+// Sweeps until what is missing is below the cut-off; returns the bound reached. The change of one sweep
+// understates what is missing by 1 / (1 - rho).
 double HierarchicalSolver::SweepToCutoff(IterationReport& report, const ExecutionContext& context) {
   const double remaining = max_reflectance_ / (1 - max_reflectance_);
   double bound = INFINITY;

@@ -1,7 +1,7 @@
 // solver/transport/hierarchical_solver.h
 //
-// The hierarchical radiosity solver (thesis, chapter 4; Hanrahan, Salzman and Aupperle 1991): gather over links,
-// push-pull through the quadtrees, refine links, until nothing changes beyond the relative cut-off.
+// The hierarchical radiosity solver (thesis, chapter 4; Hanrahan, Salzman and Aupperle 1991): gather over
+// links, push-pull through the quadtrees, refine links, until nothing changes beyond the relative cut-off.
 
 #pragma once
 
@@ -16,16 +16,17 @@
 namespace penumbra {
 
 struct SolverOptions {
-  double eps = 0.1;             // largest transport error of a link [W/m^2] (thesis, Appendix A, 1)
-  double min_area = 1e-5;       // smallest area of an element [m^2] (Appendix A, 2)
-  double relative_cutoff = 1e-4;  // converged when no radiosity is farther off, relative to the largest (Appendix A, 7)
-  int max_iterations = 100;     // iterations: each gathers until it settles, then refines
+  double eps = 0.1;        // largest transport error of a link [W/m^2] (thesis, Appendix A, 1)
+  double min_area = 1e-5;  // smallest area of an element [m^2] (Appendix A, 2)
+  double relative_cutoff =
+      1e-4;  // converged when no radiosity is farther off, relative to the largest (Appendix A, 7)
+  int max_iterations = 100;  // iterations: each gathers until it settles, then refines
 };
 
 struct IterationReport {
-  double residual = 0;       // bound of what is missing from the largest radiosity, relative to it
+  double residual = 0;  // bound of what is missing from the largest radiosity, relative to it
   std::size_t elements = 0, links = 0;
-  std::size_t sweeps = 0;    // gathers with push-pull
+  std::size_t sweeps = 0;  // gathers with push-pull
   std::size_t links_split = 0;
   double seconds = 0;
 };
@@ -35,12 +36,13 @@ class HierarchicalSolver {
   // Links the roots. The scene and the visibility must outlive the solver.
   HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options);
 
-  // One iteration: gather and push-pull until the cut-off is met, then refine every link that the oracle rejects, and
-  // its children in turn. Returns what it did; links_split == 0 and a residual below the cut-off mean convergence.
+  // One iteration: gather and push-pull until the cut-off is met, then refine every link that the oracle
+  // rejects, and its children in turn. Returns what it did; links_split == 0 and a residual below the cut-off
+  // mean convergence.
   IterationReport Iterate(const ExecutionContext& context);
 
-  // Iterates to convergence, to the most iterations, or until the context is cancelled; what is left then is the
-  // solution of the last whole iteration.
+  // Iterates to convergence, to the most iterations, or until the context is cancelled; what is left then is
+  // the solution of the last whole iteration.
   std::vector<IterationReport> Solve(const ExecutionContext& context);
 
   bool Converged() const { return converged_; }

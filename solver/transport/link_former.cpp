@@ -11,8 +11,9 @@
 namespace penumbra {
 namespace {
 
-// Receivers nearer to the source than this many of their own radii see the form factor bend towards the contact: the
-// rule is refined twice there. Beyond, the 9-point rule is good to about 1e-4 of the form factor.
+// Receivers nearer to the source than this many of their own radii see the form factor bend towards the
+// contact: the rule is refined twice there. Beyond, the 9-point rule is good to about 1e-4 of the form
+// factor.
 constexpr double kNear = 1.0;
 constexpr int kNearRefinement = 2;
 
@@ -46,12 +47,17 @@ double Lowest(std::span<const Vec3> polygon, const Patch& above) {
 class Former {
  public:
   Former(const ElementForest& forest, ElementId receiver)
-      : forest_(forest), receiver_(forest[receiver]), id_(receiver), patch_(forest.scene().patches[receiver_.patch]),
-        centre_(Centroid(receiver_.Vertices())), radius_(Radius(receiver_, centre_)) {}
+      : forest_(forest),
+        receiver_(forest[receiver]),
+        id_(receiver),
+        patch_(forest.scene().patches[receiver_.patch]),
+        centre_(Centroid(receiver_.Vertices())),
+        radius_(Radius(receiver_, centre_)) {}
 
   LinkSet Form(std::span<const LinkCandidate> candidates) {
     for (const LinkCandidate& candidate : candidates) Consider(candidate);
-    // Points outermost: what a point sees of a blocker serves all sources. Groups of equal rules share their points.
+    // Points outermost: what a point sees of a blocker serves all sources. Groups of equal rules share their
+    // points.
     for (int refinement : {0, kNearRefinement}) {
       std::vector<std::size_t> whole;
       for (std::size_t i = 0; i < pending_.size(); ++i) {
@@ -78,7 +84,9 @@ class Former {
     const Element& source = forest_[candidate.source];
     const Patch& source_patch = forest_.scene().patches[source.patch];
     const double rounding = HeightRounding(std::max(patch_.extent, source_patch.extent));
-    if (Highest(receiver_.Vertices(), source_patch) <= rounding || Highest(source.Vertices(), patch_) <= rounding) return;
+    if (Highest(receiver_.Vertices(), source_patch) <= rounding ||
+        Highest(source.Vertices(), patch_) <= rounding)
+      return;
 
     Pending pending;
     pending.link = set_.links.size();
@@ -159,7 +167,8 @@ class Former {
 
 }  // namespace
 
-LinkSet FormLinks(const ElementForest& forest, ElementId receiver, std::span<const LinkCandidate> candidates) {
+LinkSet FormLinks(const ElementForest& forest, ElementId receiver,
+                  std::span<const LinkCandidate> candidates) {
   return Former(forest, receiver).Form(candidates);
 }
 

@@ -18,10 +18,10 @@ class RefinementOracle {
   virtual Refinement Judge(const RadiositySolution& solution, const Link& link) const = 0;
 };
 
-// Transport error (thesis 4.4.1), in W/m^2 of irradiance, for the largest channel. Our point form factors are exact
-// whatever the size of the source, so that a link errs in two ways only: the receiver's irradiance varies over it,
-// B x variation(F), and the source's radiosity varies over its leaves, F x spread(B). The larger of the two is split
-// if it exceeds eps. (The thesis splits the larger element.)
+// Transport error (thesis 4.4.1), in W/m^2 of irradiance, for the largest channel. Our point form factors are
+// exact whatever the size of the source, so that a link errs in two ways only: the receiver's irradiance
+// varies over it, B x variation(F), and the source's radiosity varies over its leaves, F x spread(B). The
+// larger of the two is split if it exceeds eps. (The thesis splits the larger element.)
 class TransportOracle : public RefinementOracle {
  public:
   TransportOracle(double eps, double min_area) : eps_(eps), min_area_(min_area) {}

@@ -10,7 +10,9 @@ namespace {
 
 using Node = SourceSet::Node;
 
-std::span<const Vec3> Vertices(const Node& node) { return {node.vertex.data(), static_cast<std::size_t>(node.size)}; }
+std::span<const Vec3> Vertices(const Node& node) {
+  return {node.vertex.data(), static_cast<std::size_t>(node.size)};
+}
 
 // Adds up one source after the other, walking down the source's tree only where shadows fall.
 class Gathering {
@@ -30,7 +32,8 @@ class Gathering {
   PointIrradianceResult Result() const { return {irradiance_, view_.one_sided()}; }
 
  private:
-  // Gathers from the subtree at node i; the cones from `first_cone` to the top of the stack may hide parts of it.
+  // Gathers from the subtree at node i; the cones from `first_cone` to the top of the stack may hide parts of
+  // it.
   void GatherNode(std::span<const Node> tree, std::size_t i, std::size_t first_cone) {
     const Node& node = tree[i];
     const auto skip = static_cast<std::size_t>(node.skip);
@@ -61,7 +64,8 @@ class Gathering {
 
   void GatherVisible(std::span<const Node> nodes) {
     for (const Node& node : nodes)
-      if (node.skip == 1) irradiance_ += view_.VisibleFormFactor(view_.SeeSource(Vertices(node)), {}) * node.radiosity;
+      if (node.skip == 1)
+        irradiance_ += view_.VisibleFormFactor(view_.SeeSource(Vertices(node)), {}) * node.radiosity;
   }
 
   const SourceSet& sources_;
@@ -72,7 +76,8 @@ class Gathering {
 
 }  // namespace
 
-PointIrradiance::PointIrradiance(const Scene& scene, const PatchVisibility& visibility, const SourceSet& sources)
+PointIrradiance::PointIrradiance(const Scene& scene, const PatchVisibility& visibility,
+                                 const SourceSet& sources)
     : scene_(scene), visibility_(visibility), sources_(sources), all_patches_(scene.patches.size()) {
   std::iota(all_patches_.begin(), all_patches_.end(), 0);
 }

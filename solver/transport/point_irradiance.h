@@ -1,10 +1,10 @@
 // solver/transport/point_irradiance.h
 //
-// IrradianceAtPoint() (thesis, chapter 6): the irradiance at a point from the leaves of a solution, with exact form
-// factors and exact visibility. Blockers are cut out of the sources, never sampled.
+// IrradianceAtPoint() (thesis, chapter 6): the irradiance at a point from the leaves of a solution, with
+// exact form factors and exact visibility. Blockers are cut out of the sources, never sampled.
 //
-// Contact (thesis 6.3, 6.4) is handled as a limit, with no distance in it: where the point lies in the plane of a
-// source or a blocker, the direction from which it is approached decides on which side it lies.
+// Contact (thesis 6.3, 6.4) is handled as a limit, with no distance in it: where the point lies in the plane
+// of a source or a blocker, the direction from which it is approached decides on which side it lies.
 
 #pragma once
 
@@ -20,8 +20,8 @@ namespace penumbra {
 
 struct PointIrradianceResult {
   Rgb irradiance = Rgb::Zero();  // [W/m^2]
-  // The approach direction decided something: another side of this point may have another value, and samples there
-  // must not be shared between triangles.
+  // The approach direction decided something: another side of this point may have another value, and samples
+  // there must not be shared between triangles.
   bool one_sided = false;
 };
 
@@ -30,8 +30,8 @@ class PointIrradiance {
   // Everything referred to must outlive this object.
   PointIrradiance(const Scene& scene, const PatchVisibility& visibility, const SourceSet& sources);
 
-  // At a point on the front of a patch: only the patch's sources and their blockers are looked at, and the patch
-  // itself neither lights nor blocks. Safe from any thread.
+  // At a point on the front of a patch: only the patch's sources and their blockers are looked at, and the
+  // patch itself neither lights nor blocks. Safe from any thread.
   PointIrradianceResult OnPatch(PatchId patch, const ReceiverPoint& at) const;
 
   // Anywhere, in free space too: every patch may light and block. Safe from any thread.

@@ -24,10 +24,10 @@ void Append(const RadiositySolution& solution, ElementId id, std::vector<SourceS
   for (ElementId child = element.first_child; child < element.first_child + 4; ++child)
     Append(solution, child, nodes);
   const Rgb& first = nodes[at + 1].radiosity;
-  const bool uniform = nodes.size() == at + 5 && std::all_of(nodes.begin() + static_cast<std::ptrdiff_t>(at) + 1, nodes.end(),
-                                                             [&](const SourceSet::Node& node) {
-                                                               return (node.radiosity == first).all();
-                                                             });
+  const bool uniform =
+      nodes.size() == at + 5 &&
+      std::all_of(nodes.begin() + static_cast<std::ptrdiff_t>(at) + 1, nodes.end(),
+                  [&](const SourceSet::Node& node) { return (node.radiosity == first).all(); });
   if (uniform) {
     nodes[at].radiosity = first;
     nodes.resize(at + 1);

@@ -8,19 +8,20 @@
 namespace penumbra {
 namespace {
 
-// A height n . (x - p) is off by at most this, relative to the coordinates: roundings of the input, the difference,
-// the normal and the sum.
+// A height n . (x - p) is off by at most this, relative to the coordinates: roundings of the input, the
+// difference, the normal and the sum.
 constexpr double kHeightError = 16 * std::numeric_limits<double>::epsilon();
 
-// An approach that leaves a plane at less than this angle [rad] runs within it: coplanar polygons of tilted planes
-// differ by roundings only, while a triangle never approaches a contact edge this flatly.
+// An approach that leaves a plane at less than this angle [rad] runs within it: coplanar polygons of tilted
+// planes differ by roundings only, while a triangle never approaches a contact edge this flatly.
 constexpr double kParallelApproach = 1e-10;
 
-// The edge's normal a x b. Both neighbours of an edge compute it from the same end, the nearer one, with the same
-// operations: the results are opposite to the bit.
+// The edge's normal a x b. Both neighbours of an edge compute it from the same end, the nearer one, with the
+// same operations: the results are opposite to the bit.
 Vec3 EdgeNormal(const Vec3& a, const Vec3& b) {
   const double aa = a.squaredNorm(), bb = b.squaredNorm();
-  const bool a_first = aa < bb || (aa == bb && std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3));
+  const bool a_first =
+      aa < bb || (aa == bb && std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3));
   return a_first ? Vec3(a.cross(b - a)) : Vec3(-b.cross(a - b));
 }
 
@@ -93,7 +94,8 @@ DirectionPolygon Seen(const ReceiverPoint& at, std::span<const Vec3> polygon, bo
   // Counter-clockwise about a normal that points to x is clockwise about the direction of sight.
   DirectionPolygon seen;
   const auto n = static_cast<int>(polygon.size());
-  for (int i = 0; i < n; ++i) seen.Add(polygon[static_cast<std::size_t>(from_front ? n - 1 - i : i)] - at.position);
+  for (int i = 0; i < n; ++i)
+    seen.Add(polygon[static_cast<std::size_t>(from_front ? n - 1 - i : i)] - at.position);
   return seen;
 }
 
@@ -102,7 +104,8 @@ DirectionPolygon SeenInContact(const ReceiverPoint& at, std::span<const Vec3> po
   for (const Vec3& v : polygon) extent = std::max(extent, MaxAbs(v));
   const double rounding = Rounding(at, extent);
 
-  // What lies in the receiver's plane but for rounding shall lie in it: the horizon then passes through the contact.
+  // What lies in the receiver's plane but for rounding shall lie in it: the horizon then passes through the
+  // contact.
   DirectionPolygon seen = Seen(at, polygon, from_front), level;
   for (int i = 0; i < seen.size(); ++i) {
     const double height = at.normal.dot(seen[i]);
@@ -207,7 +210,8 @@ void Subtract(const Cone& cone, std::vector<DirectionPolygon>& pieces) {
       continue;
     }
     switch (Classify(cone, rest)) {
-      case Overlap::kAll: break;
+      case Overlap::kAll:
+        break;
       case Overlap::kNone:
         if (kept != p) pieces[kept] = rest;
         ++kept;
@@ -221,7 +225,8 @@ void Subtract(const Cone& cone, std::vector<DirectionPolygon>& pieces) {
         break;
     }
   }
-  pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(kept), pieces.begin() + static_cast<std::ptrdiff_t>(count));
+  pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(kept),
+               pieces.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
 }  // namespace penumbra

@@ -1,10 +1,10 @@
 // solver/visibility/direction_polygon.h
 //
-// What a point sees of a convex polygon, as directions: form factor and occlusion depend on nothing else. Vertices
-// are vectors from the point, of any length; edges are arcs of great circles shorter than pi.
+// What a point sees of a convex polygon, as directions: form factor and occlusion depend on nothing else.
+// Vertices are vectors from the point, of any length; edges are arcs of great circles shorter than pi.
 //
-// Notation: x the point, a -> b an edge as seen from x, m = a x b its normal. Vertices run so that every direction
-// inside has m . direction > 0 for all edges.
+// Notation: x the point, a -> b an edge as seen from x, m = a x b its normal. Vertices run so that every
+// direction inside has m . direction > 0 for all edges.
 
 #pragma once
 
@@ -43,27 +43,30 @@ class DirectionPolygon {
 enum class Side {
   kFront,
   kBack,
-  kInPlane,        // the plane contains the point and no approach tells the sides apart: the polygon has no effect
-  kFrontInLimit,   // the plane contains the point, which is approached from the front
+  kInPlane,  // the plane contains the point and no approach tells the sides apart: the polygon has no effect
+  kFrontInLimit,  // the plane contains the point, which is approached from the front
   kBackInLimit,
 };
 
 // How far the height of a point above a plane may be off by rounding, for coordinates up to `extent` [m].
 double HeightRounding(double extent);
 
-// The side of the plane through `on` with unit normal `normal`; `extent` bounds the polygon's coordinates [m].
+// The side of the plane through `on` with unit normal `normal`; `extent` bounds the polygon's coordinates
+// [m].
 Side SideOf(const ReceiverPoint& at, const Vec3& normal, const Vec3& on, double extent);
 
-// What the viewpoint sees of a convex polygon (counter-clockwise about `normal`) whose plane does not contain it.
+// What the viewpoint sees of a convex polygon (counter-clockwise about `normal`) whose plane does not contain
+// it.
 DirectionPolygon Seen(const ReceiverPoint& at, std::span<const Vec3> polygon, bool from_front);
 
-// The same in the limit, for a polygon whose plane contains the viewpoint: empty unless the point touches it. The part
-// above the receiver's horizon only. A vertex at the point is seen in the direction opposite to the approach, and so
-// is the middle of an edge through the point.
+// The same in the limit, for a polygon whose plane contains the viewpoint: empty unless the point touches it.
+// The part above the receiver's horizon only. A vertex at the point is seen in the direction opposite to the
+// approach, and so is the middle of an edge through the point.
 DirectionPolygon SeenInContact(const ReceiverPoint& at, std::span<const Vec3> polygon, bool from_front);
 
-// Form factor of the point to what it sees: (1 / 2 pi) sum gamma n . m / |m| (Baum, Rushmeier and Winget 1989; thesis
-// eq. 6.1), gamma by atan2 on vectors that are not normalised. The polygon must lie above the horizon.
+// Form factor of the point to what it sees: (1 / 2 pi) sum gamma n . m / |m| (Baum, Rushmeier and Winget
+// 1989; thesis eq. 6.1), gamma by atan2 on vectors that are not normalised. The polygon must lie above the
+// horizon.
 double FormFactor(const DirectionPolygon& polygon, const Vec3& receiver_normal);
 
 // The part above the horizon n . direction >= 0. Crossings are taken as directions, n x (a x b).
@@ -76,8 +79,8 @@ struct Cone {
   std::array<Vec3, 12> direction;  // the blocker's vertices as seen
 };
 
-// The cone over what is seen of a blocker. Two blockers that share an edge get opposite normals for it, to the bit,
-// so that no light leaks between them.
+// The cone over what is seen of a blocker. Two blockers that share an edge get opposite normals for it, to
+// the bit, so that no light leaks between them.
 Cone MakeCone(const DirectionPolygon& blocker);
 
 enum class Overlap { kNone, kPart, kAll };

@@ -9,8 +9,8 @@
 namespace penumbra {
 namespace {
 
-// Of a height above a plane, relative to the coordinates: what rounding of vertices and normal can make of zero.
-// Patches that see each other only by less than this lie in one plane.
+// Of a height above a plane, relative to the coordinates: what rounding of vertices and normal can make of
+// zero. Patches that see each other only by less than this lie in one plane.
 constexpr double kCoplanar = 1e-12;
 
 // The part of `patch` before the plane of `other`; empty if that is nothing beyond rounding.

@@ -32,7 +32,8 @@ PointView::Buffers& PointView::ThreadBuffers() {
   return buffers;
 }
 
-PointView::PointView(const Scene& scene, const ReceiverPoint& at) : scene_(scene), at_(at), buffers_(ThreadBuffers()) {
+PointView::PointView(const Scene& scene, const ReceiverPoint& at)
+    : scene_(scene), at_(at), buffers_(ThreadBuffers()) {
   buffers_.Begin(scene.patches.size());
 }
 
@@ -70,7 +71,8 @@ PointView::BlockerView PointView::ViewBlocker(std::span<const Vec3> polygon, con
   if (side == Side::kInPlane) return view;
   const bool from_front = side == Side::kFront || side == Side::kFrontInLimit;
   view.in_limit = side == Side::kFrontInLimit || side == Side::kBackInLimit;
-  view.cone = MakeCone(view.in_limit ? SeenInContact(at_, polygon, from_front) : Seen(at_, polygon, from_front));
+  view.cone =
+      MakeCone(view.in_limit ? SeenInContact(at_, polygon, from_front) : Seen(at_, polygon, from_front));
   return view;
 }
 

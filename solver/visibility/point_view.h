@@ -1,7 +1,7 @@
 // solver/visibility/point_view.h
 //
-// The scene as one receiver point sees it: sources one after the other, and the blockers before them. What is seen of
-// a blocker is computed once a point, whatever the number of sources behind it.
+// The scene as one receiver point sees it: sources one after the other, and the blockers before them. What is
+// seen of a blocker is computed once a point, whatever the number of sources behind it.
 
 #pragma once
 
@@ -14,7 +14,8 @@
 
 namespace penumbra {
 
-// At most one PointView is alive a thread at any time: all share the thread's buffers. Both arguments must outlive it.
+// At most one PointView is alive a thread at any time: all share the thread's buffers. Both arguments must
+// outlive it.
 class PointView {
  public:
   PointView(const Scene& scene, const ReceiverPoint& at);
@@ -22,15 +23,16 @@ class PointView {
   PointView(const PointView&) = delete;
   PointView& operator=(const PointView&) = delete;
 
-  // Turns to a source. False if none of its front is above the receiver's horizon and to be seen from the point.
+  // Turns to a source. False if none of its front is above the receiver's horizon and to be seen from the
+  // point.
   bool FaceSource(PatchId source);
 
   // What is seen, above the horizon, of a convex part of the source that the view is turned to.
   DirectionPolygon SeeSource(std::span<const Vec3> part) const;
 
-  // Appends the cones of those candidates that may hide parts of `seen`, before the plane of the source at hand;
-  // `own`, the receiver's patch, is left out. False if one candidate hides all of it: then nothing is appended.
-  // The cones live until the view turns to another source.
+  // Appends the cones of those candidates that may hide parts of `seen`, before the plane of the source at
+  // hand; `own`, the receiver's patch, is left out. False if one candidate hides all of it: then nothing is
+  // appended. The cones live until the view turns to another source.
   bool FindBlockers(std::span<const PatchId> candidates, PatchId own, const DirectionPolygon& seen,
                     std::vector<const Cone*>& cones);
 

@@ -9,7 +9,8 @@ namespace {
 // A height n . (p - q) of coordinates of size 1 is off by at most about this: a few roundings of each term.
 constexpr double kHeightError = 16 * std::numeric_limits<double>::epsilon();
 
-// Two edges whose cross product is this small beside their lengths are parallel but for rounding: they span no plane.
+// Two edges whose cross product is this small beside their lengths are parallel but for rounding: they span
+// no plane.
 constexpr double kParallel = 1e-12;
 
 }  // namespace
@@ -78,7 +79,8 @@ bool Tube::Misses(std::span<const Vec3> polygon, const Vec3& normal) const {
 }
 
 bool Tube::HiddenBy(std::span<const Vec3> polygon, const Vec3& normal) const {
-  // The points where segments from a to b cross a plane between them are the hull of those between their vertices.
+  // The points where segments from a to b cross a plane between them are the hull of those between their
+  // vertices.
   const double side = normal.dot(a_[0] - polygon[0]) > 0 ? 1 : -1;
   for (const Vec3& p : a_) {
     const double hp = side * normal.dot(p - polygon[0]);

@@ -17,8 +17,8 @@ class Tube {
   // REQUIRES: a and b are convex and planar, and each lies on or before the other's plane.
   Tube(std::span<const Vec3> a, std::span<const Vec3> b);
 
-  // True if the convex polygon, whose plane has the unit normal `normal`, does not meet the tube's interior: it then
-  // cannot block. Conservative: false may be returned for polygons just outside.
+  // True if the convex polygon, whose plane has the unit normal `normal`, does not meet the tube's interior:
+  // it then cannot block. Conservative: false may be returned for polygons just outside.
   bool Misses(std::span<const Vec3> polygon, const Vec3& normal) const;
 
   // True if the convex polygon cuts every segment from a to b, so that it alone hides one from the other.

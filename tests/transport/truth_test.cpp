@@ -1,5 +1,5 @@
-// Irradiance at points against reference values with 12 to 30 digits, where they are at hand: a folder `shared/truth`
-// beside the checkout, or the one that PENUMBRA_TRUTH names.
+// Irradiance at points against reference values with 12 to 30 digits, where they are at hand: a folder
+// `shared/truth` beside the checkout, or the one that PENUMBRA_TRUTH names.
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,8 @@ Polygon3 FacingTowards(Polygon3 polygon, const Vec3& point) {
 bool IsConvex(const Polygon3& polygon) {
   const Vec3 area = VectorArea(polygon);
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()], &c = polygon[(i + 2) % polygon.size()];
+    const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()],
+               &c = polygon[(i + 2) % polygon.size()];
     if ((b - a).cross(c - b).dot(area) < 0) return false;
   }
   return true;
@@ -92,8 +93,8 @@ TEST(Truth, OccludedLights) {
     at.normal = ToVec3(c["normal"]).normalized();
     const double got = irradiance.Anywhere(at).irradiance[0], want = std::stod(c["E"].get<std::string>());
     const double allowed = std::max(c.value("atol", 0.0), c["rtol"].get<double>() * std::abs(want));
-    EXPECT_LE(std::abs(got - want), allowed) << c["id"] << ": got " << got << ", want " << want << " ("
-                                             << c["description"] << ")";
+    EXPECT_LE(std::abs(got - want), allowed)
+        << c["id"] << ": got " << got << ", want " << want << " (" << c["description"] << ")";
     worst = std::max(worst, std::abs(got - want) / std::max(allowed, 1e-300));
     ++tested;
   }
