@@ -142,10 +142,8 @@ TEST(PatchBuilder, RandomStarsAndCombs) {
         for (const Vec2& p : {Vec2(i, 0), Vec2(i, tooth), Vec2(i + 0.5, tooth), Vec2(i + 0.5, 0)})
           polygon.push_back({-p.x(), p.y(), 0});
       }
-      polygon.push_back({-n, -1, 0});
+      polygon.push_back({-1.0 * n, -1, 0});
       polygon.push_back({0, -1, 0});
-      std::reverse(polygon.begin(), polygon.end());
-      if (VectorArea(polygon).z() < 0) std::reverse(polygon.begin(), polygon.end());
     }
     if (VectorArea(polygon).z() <= 0) continue;
     const double scale = random.LogUniform(1e-3, 1e3);
