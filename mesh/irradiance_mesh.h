@@ -1,7 +1,7 @@
 // mesh/irradiance_mesh.h
 //
-// Where the offline half and the online half meet (thesis, abstract): a list of triangles, each with an irradiance
-// interpolant. The display needs nothing else but the materials.
+// Where the offline half and the online half meet (thesis, abstract): a list of triangles, each with an
+// irradiance interpolant. The display needs nothing else but the materials.
 
 #pragma once
 
@@ -23,9 +23,9 @@ struct IrradianceMesh {
     std::array<bool, 3> discontinuity = {false, false, false};
   };
 
-  std::vector<Vec3> positions;  // [m]; triangles of one patch share vertices, patches do not
-  std::vector<Triangle> triangles;                 // the triangles of a patch are consecutive, patches ascending
-  std::vector<QuadraticInterpolant> irradiance;    // one a triangle [W/m^2]
+  std::vector<Vec3> positions;      // [m]; triangles of one patch share vertices, patches do not
+  std::vector<Triangle> triangles;  // the triangles of a patch are consecutive, patches ascending
+  std::vector<QuadraticInterpolant> irradiance;  // one a triangle [W/m^2]
 };
 
 }  // namespace penumbra

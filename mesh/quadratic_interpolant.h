@@ -12,12 +12,13 @@
 
 namespace penumbra {
 
-// The order of the six samples (thesis 3.3): vertices and edge midpoints in turn, from vertex 0 along edge 01.
+// The order of the six samples (thesis 3.3): vertices and edge midpoints in turn, from vertex 0 along edge
+// 01.
 inline constexpr std::array<std::array<double, 2>, 6> kSampleAt = {
     {{0, 0}, {0.5, 0}, {1, 0}, {0.5, 0.5}, {0, 1}, {0, 0.5}}};
 
-// R(s, t) = a s^2 + b2 s t + c2 s + d t^2 + e2 t + f, in W/m^2 for each channel. The doubled coefficients 2B, 2C
-// and 2E are what is stored, as in the thesis.
+// R(s, t) = a s^2 + b2 s t + c2 s + d t^2 + e2 t + f, in W/m^2 for each channel. The doubled coefficients 2B,
+// 2C and 2E are what is stored, as in the thesis.
 struct QuadraticInterpolant {
   Rgb a = Rgb::Zero(), b2 = Rgb::Zero(), c2 = Rgb::Zero(), d = Rgb::Zero(), e2 = Rgb::Zero(), f = Rgb::Zero();
 

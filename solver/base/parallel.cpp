@@ -73,7 +73,8 @@ void ParallelForChunks(std::size_t count, std::size_t grain,
   PENUMBRA_CHECK(grain > 0);
   const std::size_t chunks = (count + grain - 1) / grain;
   const auto run = [&](std::size_t chunk) { body(chunk * grain, std::min(count, (chunk + 1) * grain)); };
-  const int threads = static_cast<int>(std::min<std::size_t>(chunks, static_cast<std::size_t>(ThreadCount())));
+  const int threads =
+      static_cast<int>(std::min<std::size_t>(chunks, static_cast<std::size_t>(ThreadCount())));
   if (threads <= 1) {
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) run(chunk);
   } else {

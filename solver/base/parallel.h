@@ -16,9 +16,9 @@ void SetThreadCount(int threads);
 // The number of threads that parallel loops use, at least 1.
 int ThreadCount();
 
-// Calls body(begin, end) for consecutive chunks of at most `grain` indices that cover [0, count) once each, from
-// several threads and in any order. An exception thrown by a body ends the loop and is thrown again here.
-// REQUIRES: grain > 0; body is safe to call from several threads at once.
+// Calls body(begin, end) for consecutive chunks of at most `grain` indices that cover [0, count) once each,
+// from several threads and in any order. An exception thrown by a body ends the loop and is thrown again
+// here. REQUIRES: grain > 0; body is safe to call from several threads at once.
 void ParallelForChunks(std::size_t count, std::size_t grain,
                        const std::function<void(std::size_t begin, std::size_t end)>& body);
 

@@ -1,7 +1,7 @@
 // solver/geometry/polygon.h
 //
-// Planar polygons in space and the frames that carry them to two dimensions. Vertices run counter-clockwise seen
-// from the front; lengths are in metres.
+// Planar polygons in space and the frames that carry them to two dimensions. Vertices run counter-clockwise
+// seen from the front; lengths are in metres.
 
 #pragma once
 
@@ -16,7 +16,8 @@ using Polygon3 = std::vector<Vec3>;
 using Polygon2 = std::vector<Vec2>;
 
 // The vector area of the polygon: its length is the area [m^2], its direction the front normal (Newell's sum,
-// taken about the first vertex so that distant polygons keep their digits). Zero for fewer than three vertices.
+// taken about the first vertex so that distant polygons keep their digits). Zero for fewer than three
+// vertices.
 Vec3 VectorArea(std::span<const Vec3> polygon);
 
 // The area's centroid; the mean of the vertices where the area is zero.
@@ -44,7 +45,8 @@ Frame MakeFrame(const Vec3& origin, const Vec3& normal);
 // REQUIRES: the polygon's area is not zero.
 Frame PolygonFrame(std::span<const Vec3> polygon);
 
-// The part of the convex polygon where normal . (p - point) >= 0; empty where nothing of positive area can remain.
+// The part of the convex polygon where normal . (p - point) >= 0; empty where nothing of positive area can
+// remain.
 Polygon3 ClipToHalfSpace(std::span<const Vec3> polygon, const Vec3& normal, const Vec3& point);
 
 // True if p lies in the convex polygon or within `tolerance` [m] of it; p is taken to lie in its plane.

@@ -18,6 +18,7 @@ Patch MakePatch(std::span<const Vec3> vertices, std::int32_t material, std::int3
   patch.area = area.norm();
   PENUMBRA_CHECK(patch.area > 0);
   patch.normal = area / patch.area;
+  for (const Vec3& v : vertices) patch.extent = std::max(patch.extent, MaxAbs(v));
   patch.material = material;
   patch.object = object;
   patch.faces = std::move(faces);

@@ -1,7 +1,7 @@
 // solver/scene/scene.h
 //
-// What a scene is to every later stage: faces as the user gave them, and patches, the convex planar polygons of
-// three or four vertices that the solver works on (the thesis's Quadrilaterals).
+// What a scene is to every later stage: faces as the user gave them, and patches, the convex planar polygons
+// of three or four vertices that the solver works on (the thesis's Quadrilaterals).
 //
 // Units: lengths in metres; emittance (radiant exitance) in W/m^2; reflectance in [0, 1).
 
@@ -28,9 +28,10 @@ struct Material {
   Rgb emittance = Rgb::Zero();  // [W/m^2]
 };
 
-// An `f` line of the file. Its index in Scene::faces is what users see as `patch`; dropped faces keep their index.
+// An `f` line of the file. Its index in Scene::faces is what users see as `patch`; dropped faces keep their
+// index.
 struct Face {
-  Polygon3 vertices;      // as given; empty if the face was dropped
+  Polygon3 vertices;          // as given; empty if the face was dropped
   std::int32_t material = 0;  // index in Scene::materials
   std::int32_t object = 0;    // index in Scene::objects
 };
@@ -43,18 +44,20 @@ struct Object {
 
 // A convex planar polygon of three or four vertices, the root of a quadtree of elements.
 struct Patch {
-  std::array<Vec3, 4> vertex;   // counter-clockwise from the front; the fourth is unused in a triangle
-  std::int32_t size = 0;        // 3 or 4
-  std::int32_t material = 0;    // index in Scene::materials
-  std::int32_t object = 0;      // index in Scene::objects
-  Vec3 normal = Vec3::Zero();   // unit, front
-  double area = 0;              // [m^2]
+  std::array<Vec3, 4> vertex;       // counter-clockwise from the front; the fourth is unused in a triangle
+  std::int32_t size = 0;            // 3 or 4
+  std::int32_t material = 0;        // index in Scene::materials
+  std::int32_t object = 0;          // index in Scene::objects
+  Vec3 normal = Vec3::Zero();       // unit, front
+  double area = 0;                  // [m^2]
+  double extent = 0;                // the largest absolute coordinate [m]: the scale of rounding
   std::vector<std::int32_t> faces;  // the faces it covers: one, or the two that were merged
 
   std::span<const Vec3> Vertices() const { return {vertex.data(), static_cast<std::size_t>(size)}; }
 };
 
-// A patch from its vertices; normal and area are computed. REQUIRES: 3 or 4 vertices, convex, nonzero area.
+// A patch from its vertices; normal, area and extent are computed. REQUIRES: 3 or 4 vertices, convex, nonzero
+// area.
 Patch MakePatch(std::span<const Vec3> vertices, std::int32_t material, std::int32_t object,
                 std::vector<std::int32_t> faces);
 
@@ -72,8 +75,8 @@ struct Scene {
   std::vector<Object> objects;
   std::vector<Face> faces;
   std::vector<Patch> patches;
-  std::vector<Camera> cameras;         // those that the scene brings along; may be empty
-  std::vector<std::string> warnings;   // one line each: what was repaired, dropped or looks wrong
+  std::vector<Camera> cameras;        // those that the scene brings along; may be empty
+  std::vector<std::string> warnings;  // one line each: what was repaired, dropped or looks wrong
 
   const Material& MaterialOf(PatchId patch) const { return materials[patches[patch].material]; }
 

@@ -8,10 +8,12 @@
 namespace penumbra {
 namespace {
 
-// The corners of the four children of a triangle (first three) or quadrilateral, each a pair of parent corners whose
-// midpoint it is; the pair (0, 2) of a quadrilateral is its centre.
-constexpr std::array<std::array<std::array<int, 2>, 3>, 4> kTriangleChildren = {
-    {{{{0, 0}, {0, 1}, {2, 0}}}, {{{0, 1}, {1, 1}, {1, 2}}}, {{{2, 0}, {1, 2}, {2, 2}}}, {{{1, 2}, {2, 0}, {0, 1}}}}};
+// The corners of the four children of a triangle (first three) or quadrilateral, each a pair of parent
+// corners whose midpoint it is; the pair (0, 2) of a quadrilateral is its centre.
+constexpr std::array<std::array<std::array<int, 2>, 3>, 4> kTriangleChildren = {{{{{0, 0}, {0, 1}, {2, 0}}},
+                                                                                 {{{0, 1}, {1, 1}, {1, 2}}},
+                                                                                 {{{2, 0}, {1, 2}, {2, 2}}},
+                                                                                 {{{1, 2}, {2, 0}, {0, 1}}}}};
 constexpr std::array<std::array<std::array<int, 2>, 4>, 4> kQuadrilateralChildren = {
     {{{{0, 0}, {0, 1}, {0, 2}, {3, 0}}},
      {{{0, 1}, {1, 1}, {1, 2}, {0, 2}}},
@@ -82,7 +84,8 @@ std::size_t ElementForest::Balance(PatchId patch) {
   const auto too_coarse = [&](const Element& e) {
     for (int k = 0; k < e.size; ++k) {
       const LatticePoint a = e.corner[k], b = e.corner[(k + 1) % e.size], m = Midpoint(a, b);
-      if (corners.contains(m) && (corners.contains(Midpoint(a, m)) || corners.contains(Midpoint(m, b)))) return true;
+      if (corners.contains(m) && (corners.contains(Midpoint(a, m)) || corners.contains(Midpoint(m, b))))
+        return true;
     }
     return false;
   };

@@ -1,11 +1,12 @@
 // solver/transport/element_forest.h
 //
-// The quadtrees of elements, one a patch (the thesis's Tree, 4.1). This is their geometry and topology only; what
-// light falls on them lies beside it, in arrays indexed by ElementId.
+// The quadtrees of elements, one a patch (the thesis's Tree, 4.1). This is their geometry and topology only;
+// what light falls on them lies beside it, in arrays indexed by ElementId.
 //
-// Every corner of an element lies on its patch's integer lattice: (0,0), (N,0), (N,N), (0,N) are the corners of a
-// quadrilateral, (0,0), (N,0), (0,N) those of a triangle, N = kLatticeSize. Equal lattice points are equal positions,
-// to the bit, so that neighbours, shared corners and hanging vertices are found by integers and not by distances.
+// Every corner of an element lies on its patch's integer lattice: (0,0), (N,0), (N,N), (0,N) are the corners
+// of a quadrilateral, (0,0), (N,0), (0,N) those of a triangle, N = kLatticeSize. Equal lattice points are
+// equal positions, to the bit, so that neighbours, shared corners and hanging vertices are found by integers
+// and not by distances.
 
 #pragma once
 
@@ -40,14 +41,14 @@ inline LatticePoint Midpoint(const LatticePoint& a, const LatticePoint& b) {
 
 struct LatticePointHash {
   std::size_t operator()(const LatticePoint& p) const {
-    const std::uint64_t key = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(p.x)) << 32) |
-                              static_cast<std::uint32_t>(p.y);
+    const std::uint64_t key =
+        (static_cast<std::uint64_t>(static_cast<std::uint32_t>(p.x)) << 32) | static_cast<std::uint32_t>(p.y);
     return static_cast<std::size_t>(key * 0x9E3779B97F4A7C15ULL >> 7);
   }
 };
 
-// The position of a lattice point on a patch [m]: bilinear over a quadrilateral, affine over a triangle. The corners
-// come back with the bits of the patch's vertices.
+// The position of a lattice point on a patch [m]: bilinear over a quadrilateral, affine over a triangle. The
+// corners come back with the bits of the patch's vertices.
 Vec3 LatticePosition(const Patch& patch, const LatticePoint& p);
 
 struct Element {
@@ -82,7 +83,8 @@ class ElementForest {
   // Returns the first child. REQUIRES: a leaf above kMaxLevel.
   ElementId Subdivide(ElementId leaf);
 
-  // Subdivides leaves until no two that share an edge differ by more than one level. Returns how many were split.
+  // Subdivides leaves until no two that share an edge differ by more than one level. Returns how many were
+  // split.
   std::size_t Balance(PatchId patch);
 
   // The leaves of a patch, in depth-first order.

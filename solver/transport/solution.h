@@ -1,11 +1,12 @@
 // solver/transport/solution.h
 //
-// What the hierarchical solver leaves behind (thesis, chapter 4): quadtrees, links with their blockers, and the light
-// on every element.
+// What the hierarchical solver leaves behind (thesis, chapter 4): quadtrees, links with their blockers, and
+// the light on every element.
 
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "solver/transport/element_forest.h"
@@ -13,19 +14,34 @@
 
 namespace penumbra {
 
-// The transport from one element to another, at one level of each.
+// The transport from one element to another, at one level of each. For any two mutually visible points there
+// is one link each way between elements that contain them.
 struct Link {
   ElementId receiver = kNoElement, source = kNoElement;
-  double form_factor = 0;      // F(receiver <- source): irradiance on the receiver per unit radiosity of the source
-  double variation = 0;        // the spread of the point form factors over the receiver, the root mean square
-  Visibility visibility = Visibility::kVisible;
+  double form_factor =
+      0;  // F(receiver <- source) [1]: mean irradiance of the receiver per unit radiosity of the source
+  double variation = 0;  // root mean square deviation of the point form factors over the receiver [1]
+  Visibility visibility = Visibility::kVisible;  // kVisible just if there are no blockers
   std::uint32_t first_blocker = 0, blocker_count = 0;
+};
+
+struct LinkSet {
+  std::vector<Link> links;  // by receiver, then by source
+  std::vector<PatchId> blockers;
+
+  std::span<const PatchId> Blockers(const Link& link) const {
+    return {blockers.data() + link.first_blocker, link.blocker_count};
+  }
 };
 
 struct RadiositySolution {
   ElementForest forest;
-  // Per element [W/m^2]; a parent's is the area-weighted mean of its children's.
+  LinkSet links;
+  // Per element [W/m^2]. A parent's is the area-weighted mean of its children's.
   std::vector<Rgb> irradiance, radiosity;
+  // Per element [W/m^2]: root mean square deviation of the leaves' radiosities below it, of its largest
+  // channel.
+  std::vector<double> radiosity_spread;
 };
 
 }  // namespace penumbra

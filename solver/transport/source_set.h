@@ -1,7 +1,8 @@
 // solver/transport/source_set.h
 //
-// The light sources of IrradianceAtPoint(): the radiosities of a solution's leaves, in an order that a walk down the
-// trees can follow. The same set serves every receiver point, so that no step shows between receiver elements.
+// The light sources of IrradianceAtPoint(): the radiosities of a solution's leaves, in an order that a walk
+// down the trees can follow. The same set serves every receiver point, so that no step shows between receiver
+// elements.
 
 #pragma once
 
@@ -19,12 +20,12 @@ struct RadiositySolution;
 
 class SourceSet {
  public:
-  // A node of a source's quadtree, in depth-first order. Subtrees of one radiosity are a single leaf: the polygon's
-  // integral is exact whatever its size.
+  // A node of a source's quadtree, in depth-first order. Subtrees of one radiosity are a single leaf: the
+  // polygon's integral is exact whatever its size.
   struct Node {
-    std::array<Vec3, 4> vertex;  // [m]
-    std::int32_t size = 0;       // corners: 3 or 4
-    std::int32_t skip = 1;       // nodes in this subtree, this one counted: a leaf has 1
+    std::array<Vec3, 4> vertex;   // [m]
+    std::int32_t size = 0;        // corners: 3 or 4
+    std::int32_t skip = 1;        // nodes in this subtree, this one counted: a leaf has 1
     Rgb radiosity = Rgb::Zero();  // [W/m^2]; of a leaf
   };
 

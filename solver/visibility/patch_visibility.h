@@ -1,7 +1,8 @@
 // solver/visibility/patch_visibility.h
 //
-// Which patches see which, and what may stand between them: the initial links of the solver with the blockers of
-// their tubes (thesis 4.1; Teller and Hanrahan 1993). Everything below a pair of patches inherits its blockers.
+// Which patches see which, and what may stand between them: the initial links of the solver with the blockers
+// of their tubes (thesis 4.1; Teller and Hanrahan 1993). Everything below a pair of patches inherits its
+// blockers.
 
 #pragma once
 
@@ -27,13 +28,15 @@ class PatchVisibility {
   PatchVisibility() = default;
   explicit PatchVisibility(const Scene& scene);
 
-  // The sources that receiver's front may see, ascending: their fronts and its front each have a part before the
-  // other's plane, and no single blocker hides them wholly. Symmetric: s is a source of r just if r is one of s.
+  // The sources that receiver's front may see, ascending: their fronts and its front each have a part before
+  // the other's plane, and no single blocker hides them wholly. Symmetric: s is a source of r just if r is
+  // one of s.
   std::span<const PatchPair> SourcesOf(PatchId receiver) const {
     return {pairs_.data() + first_[receiver], pairs_.data() + first_[receiver + 1]};
   }
 
-  // The patches that meet the interior of the tube between the pair, ascending; never a true blocker left out.
+  // The patches that meet the interior of the tube between the pair, ascending; never a true blocker left
+  // out.
   std::span<const PatchId> Blockers(const PatchPair& pair) const {
     return {blockers_.data() + pair.first_blocker, pair.blocker_count};
   }

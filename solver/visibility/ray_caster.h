@@ -22,7 +22,8 @@ class RayCaster {
   explicit RayCaster(const Scene& scene);
   ~RayCaster();
 
-  // The first patch that the ray from `origin` along `direction` meets, `ignore` left out. Safe from any thread.
+  // The first patch that the ray from `origin` along `direction` meets, `ignore` left out. Safe from any
+  // thread.
   Hit Cast(const Vec3& origin, const Vec3& direction, PatchId ignore = kNoPatch) const;
 
  private:

@@ -1,0 +1,113 @@
+// mesh/pipeline.h
+//
+// The offline half from a scene to its irradiance mesh, as stages that the command line, the viewer and the
+// experiments drive alike: visibility, links, iterations, discontinuities, triangulations, interpolants.
+
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/irradiance_mesh.h"
+#include "solver/base/progress.h"
+#include "solver/scene/scene.h"
+#include "solver/transport/energy.h"
+#include "solver/transport/hierarchical_solver.h"
+#include "solver/transport/point_irradiance.h"
+#include "solver/transport/solution.h"
+#include "solver/visibility/patch_visibility.h"
+
+namespace penumbra {
+
+// What a user may set. Everything left out follows from `error` and the scene.
+struct PipelineOptions {
+  double error = 0.02;  // asked for: 99th percentile of |shown - true| / max(true, 1 % of the channel's mean)
+  std::optional<double> eps;                       // [W/m^2] thesis, Appendix A, 1
+  std::optional<double> min_area;                  // [m^2] Appendix A, 2
+  std::optional<double> min_discontinuity_weight;  // [W/m^2] Appendix A, 4
+  int max_leaf_dsets = 10;                         // Appendix A, 5
+  std::optional<double> relative_cutoff;           // Appendix A, 7
+  int max_iterations = 100;
+  std::size_t error_points = 1000;  // random points that measure the interpolants' error; 0 leaves it out
+  std::uint64_t seed = 1;
+};
+
+// The values that a solve works with.
+struct ResolvedOptions {
+  SolverOptions solver;
+  double min_discontinuity_weight = 0;  // [W/m^2]
+  int max_leaf_dsets = 10;
+};
+ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options);
+
+// How the interpolants of a mesh are made.
+enum class MeshKind {
+  kFlat,         // quadtree leaves, the constant basis
+  kGouraud,      // quadtree leaves, exact irradiance at the vertices, linear
+  kGouraudMesh,  // the discontinuity mesh, linear
+  kInterpolant,  // the discontinuity mesh, quadratic
+};
+
+struct Phase {
+  std::string name;
+  double seconds = 0;
+};
+
+// A distribution of relative errors, |shown - true| / max(true, 1 % of the channel's mean irradiance).
+struct ErrorStatistics {
+  std::size_t points = 0;
+  double max = 0, p99 = 0, p95 = 0, rms = 0;
+};
+
+struct PipelineReport {
+  std::vector<Phase>
+      phases;  // load (by the caller), link, iterate, discontinuities, triangulate, interpolate
+  struct Counts {
+    std::size_t patches = 0, emitters = 0, elements = 0, leaves = 0, links = 0, links_visible = 0,
+                links_partial = 0, discontinuities = 0, dsets_active = 0, triangles = 0, interpolants = 0,
+                point_evaluations = 0;
+  } counts;
+  std::vector<IterationReport> iterations;
+  EnergyBalance energy;
+  ErrorStatistics interpolant_error;
+  double solution_error_estimate = 0;
+  double error_asked = 0;
+  bool error_met = false;
+  std::vector<std::string> unmet;  // what missed the target, and why; one line each
+};
+
+// Runs the stages and keeps what they made. The scene must outlive it.
+class Pipeline {
+ public:
+  Pipeline(const Scene& scene, const PipelineOptions& options);
+  ~Pipeline();
+
+  const Scene& scene() const;
+  const ResolvedOptions& resolved() const;
+
+  // Stages link and iterate: the hierarchical solution.
+  void Solve(const ExecutionContext& context);
+  // Stages discontinuities, triangulate, interpolate, for what a display mode needs. REQUIRES: Solve().
+  void BuildMesh(MeshKind kind, const ExecutionContext& context);
+  // Measures the energy balance and the error at random points. REQUIRES: BuildMesh().
+  void Measure(const ExecutionContext& context);
+
+  const RadiositySolution& solution() const;
+  const PatchVisibility& visibility() const;
+  const PointIrradiance& irradiance() const;  // exact, from the solution's leaves. REQUIRES: Solve()
+  const IrradianceMesh& mesh() const;         // REQUIRES: BuildMesh()
+
+  // The interpolant's irradiance at a point of a patch [W/m^2]. REQUIRES: BuildMesh().
+  std::optional<Rgb> Interpolated(PatchId patch, const Vec3& point) const;
+
+  const PipelineReport& report() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace penumbra

@@ -1,0 +1,77 @@
+#include "solver/transport/cubature.h"
+
+#include <array>
+#include <cmath>
+
+#include "solver/base/check.h"
+
+namespace penumbra {
+namespace {
+
+double TriangleArea(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * (b - a).cross(c - a).norm(); }
+
+// Radon's seven points (1948), weights times the area.
+void AddTriangle(const Vec3& a, const Vec3& b, const Vec3& c, int refinement,
+                 std::vector<CubaturePoint>& points) {
+  if (refinement > 0) {
+    const Vec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
+    AddTriangle(a, ab, ca, refinement - 1, points);
+    AddTriangle(ab, b, bc, refinement - 1, points);
+    AddTriangle(ca, bc, c, refinement - 1, points);
+    AddTriangle(bc, ca, ab, refinement - 1, points);
+    return;
+  }
+  static const double root = std::sqrt(15.0);
+  const double area = TriangleArea(a, b, c);
+  points.push_back({(a + b + c) / 3, area * 9 / 40});
+  for (const double sign : {-1.0, 1.0}) {
+    const double near = (6 - sign * root) / 21, far = 1 - 2 * near,
+                 weight = area * (155 - sign * root) / 1200;
+    points.push_back({near * (a + b) + far * c, weight});
+    points.push_back({near * (b + c) + far * a, weight});
+    points.push_back({near * (c + a) + far * b, weight});
+  }
+}
+
+// Three Gauss-Legendre points along each parameter of the bilinear map, weights times its Jacobian.
+void AddQuadrilateral(const std::array<Vec3, 4>& v, int refinement, std::vector<CubaturePoint>& points) {
+  if (refinement > 0) {
+    const std::array<Vec3, 4> mid = {0.5 * (v[0] + v[1]), 0.5 * (v[1] + v[2]), 0.5 * (v[2] + v[3]),
+                                     0.5 * (v[3] + v[0])};
+    const Vec3 centre = 0.25 * (v[0] + v[1] + v[2] + v[3]);
+    AddQuadrilateral({v[0], mid[0], centre, mid[3]}, refinement - 1, points);
+    AddQuadrilateral({mid[0], v[1], mid[1], centre}, refinement - 1, points);
+    AddQuadrilateral({centre, mid[1], v[2], mid[2]}, refinement - 1, points);
+    AddQuadrilateral({mid[3], centre, mid[2], v[3]}, refinement - 1, points);
+    return;
+  }
+  static const double offset = 0.5 * std::sqrt(0.6);
+  const std::array<double, 3> at = {0.5 - offset, 0.5, 0.5 + offset}, weight = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double s = at[i], t = at[j];
+      const Vec3 ds = (1 - t) * (v[1] - v[0]) + t * (v[2] - v[3]),
+                 dt = (1 - s) * (v[3] - v[0]) + s * (v[2] - v[1]);
+      points.push_back({(1 - t) * ((1 - s) * v[0] + s * v[1]) + t * ((1 - s) * v[3] + s * v[2]),
+                        weight[i] * weight[j] * ds.cross(dt).norm()});
+    }
+}
+
+}  // namespace
+
+std::vector<CubaturePoint> Cubature(std::span<const Vec3> polygon, int refinement) {
+  PENUMBRA_CHECK(polygon.size() >= 3);
+  std::vector<CubaturePoint> points;
+  if (polygon.size() == 4) {
+    AddQuadrilateral({polygon[0], polygon[1], polygon[2], polygon[3]}, refinement, points);
+  } else {
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+      AddTriangle(polygon[0], polygon[i - 1], polygon[i], refinement, points);
+  }
+  double total = 0;
+  for (const CubaturePoint& point : points) total += point.weight;
+  for (CubaturePoint& point : points) point.weight /= total;
+  return points;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,248 @@
+#include "solver/transport/hierarchical_solver.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "solver/base/parallel.h"
+#include "solver/transport/link_former.h"
+
+namespace penumbra {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Elements a task gathers, and receivers a task links.
+constexpr std::size_t kGatherGrain = 256;
+constexpr std::size_t kLinkGrain = 2;
+
+// The most sweeps before an iteration refines all the same: rooms of reflectance 0.99 need some 1,400.
+constexpr std::size_t kMaxSweeps = 5000;
+
+// All new links of one receiver.
+struct Group {
+  ElementId receiver;
+  std::vector<LinkCandidate> candidates;
+};
+
+std::vector<LinkSet> FormGroups(const ElementForest& forest, const std::vector<Group>& groups) {
+  std::vector<LinkSet> formed(groups.size());
+  ParallelFor(groups.size(), kLinkGrain, [&](std::size_t g) {
+    formed[g] = FormLinks(forest, groups[g].receiver, groups[g].candidates);
+  });
+  return formed;
+}
+
+}  // namespace
+
+HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility,
+                                       const SolverOptions& options)
+    : scene_(scene), options_(options), oracle_(options.eps, options.min_area) {
+  solution_.forest = ElementForest(scene);
+  std::vector<Group> groups;
+  for (std::size_t p = 0; p < scene.patches.size(); ++p) {
+    const auto patch = static_cast<PatchId>(p);
+    Group group{ElementForest::Root(patch), {}};
+    for (const PatchPair& pair : visibility.SourcesOf(patch))
+      group.candidates.push_back({ElementForest::Root(pair.source), visibility.Blockers(pair)});
+    groups.push_back(std::move(group));
+    max_reflectance_ =
+        std::max(max_reflectance_, scene.materials[scene.patches[p].material].reflectance.maxCoeff());
+  }
+  Install(FormGroups(solution_.forest, groups), {});
+  ResizeLight();
+  for (std::size_t p = 0; p < scene.patches.size(); ++p)
+    solution_.radiosity[p] = scene.materials[scene.patches[p].material].emittance;
+}
+
+// Replaces the links by those not dropped and the groups' new ones, ordered by receiver, then source.
+void HierarchicalSolver::Install(std::vector<LinkSet> groups, const std::vector<char>& dropped) {
+  struct Origin {
+    const LinkSet* set;
+    const Link* link;
+  };
+  std::vector<Origin> origins;
+  for (std::size_t i = 0; i < solution_.links.links.size(); ++i)
+    if (dropped.empty() || !dropped[i]) origins.push_back({&solution_.links, &solution_.links.links[i]});
+  for (const LinkSet& set : groups)
+    for (const Link& link : set.links) origins.push_back({&set, &link});
+  std::sort(origins.begin(), origins.end(), [](const Origin& a, const Origin& b) {
+    return std::pair(a.link->receiver, a.link->source) < std::pair(b.link->receiver, b.link->source);
+  });
+
+  LinkSet merged;
+  merged.links.reserve(origins.size());
+  for (const Origin& origin : origins) {
+    Link link = *origin.link;
+    const std::span<const PatchId> blockers = origin.set->Blockers(link);
+    link.first_blocker = static_cast<std::uint32_t>(merged.blockers.size());
+    merged.blockers.insert(merged.blockers.end(), blockers.begin(), blockers.end());
+    merged.links.push_back(link);
+  }
+  solution_.links = std::move(merged);
+  first_link_.assign(solution_.forest.size() + 1, 0);
+  for (const Link& link : solution_.links.links) ++first_link_[static_cast<std::size_t>(link.receiver) + 1];
+  for (std::size_t e = 0; e < solution_.forest.size(); ++e) first_link_[e + 1] += first_link_[e];
+}
+
+// Gives elements that are new the light of their parents.
+void HierarchicalSolver::ResizeLight() {
+  const std::size_t before = solution_.radiosity.size(), count = solution_.forest.size();
+  solution_.irradiance.resize(count, Rgb::Zero());
+  solution_.radiosity.resize(count, Rgb::Zero());
+  solution_.radiosity_spread.resize(count, 0);
+  gathered_.resize(count, Rgb::Zero());
+  first_link_.resize(count + 1, solution_.links.links.size());
+  for (std::size_t e = before; e < count; ++e) {
+    const ElementId parent = solution_.forest[static_cast<ElementId>(e)].parent;
+    if (parent == kNoElement) continue;
+    solution_.irradiance[e] = solution_.irradiance[parent];
+    solution_.radiosity[e] = solution_.radiosity[parent];
+  }
+}
+
+void HierarchicalSolver::PushPull(ElementId id, const Rgb& from_above) {
+  const Element& element = solution_.forest[id];
+  const Rgb irradiance = from_above + gathered_[id];
+  if (element.IsLeaf()) {
+    const Material& material = scene_.MaterialOf(element.patch);
+    solution_.irradiance[id] = irradiance;
+    solution_.radiosity[id] = material.emittance + material.reflectance * irradiance;
+    solution_.radiosity_spread[id] = 0;
+    return;
+  }
+  Rgb irradiance_sum = Rgb::Zero(), radiosity_sum = Rgb::Zero();
+  double area = 0;
+  for (ElementId child = element.first_child; child < element.first_child + 4; ++child) {
+    PushPull(child, irradiance);
+    const double a = solution_.forest[child].area;
+    irradiance_sum += a * solution_.irradiance[child];
+    radiosity_sum += a * solution_.radiosity[child];
+    area += a;
+  }
+  solution_.irradiance[id] = irradiance_sum / area;
+  solution_.radiosity[id] = radiosity_sum / area;
+  double variance = 0;
+  for (ElementId child = element.first_child; child < element.first_child + 4; ++child) {
+    const double deviation = (solution_.radiosity[child] - solution_.radiosity[id]).abs().maxCoeff();
+    const double below = solution_.radiosity_spread[child];
+    variance += solution_.forest[child].area * (deviation * deviation + below * below);
+  }
+  solution_.radiosity_spread[id] = std::sqrt(variance / area);
+}
+
+// One Jacobi sweep. Returns the largest change of a leaf's radiosity, relative to the largest radiosity.
+double HierarchicalSolver::Sweep() {
+  const RadiositySolution& s = solution_;
+  ParallelFor(s.forest.size(), kGatherGrain, [&](std::size_t e) {
+    Rgb sum = Rgb::Zero();
+    for (std::size_t i = first_link_[e]; i < first_link_[e + 1]; ++i)
+      sum += s.links.links[i].form_factor * s.radiosity[s.links.links[i].source];
+    gathered_[e] = sum;
+  });
+  const std::vector<Rgb> before = s.radiosity;
+  ParallelFor(scene_.patches.size(), 1,
+              [&](std::size_t p) { PushPull(ElementForest::Root(static_cast<PatchId>(p)), Rgb::Zero()); });
+  double change = 0, largest = 0;
+  for (std::size_t e = 0; e < before.size(); ++e) {
+    if (!s.forest[static_cast<ElementId>(e)].IsLeaf()) continue;
+    change = std::max(change, (s.radiosity[e] - before[e]).abs().maxCoeff());
+    largest = std::max(largest, s.radiosity[e].maxCoeff());
+  }
+  return largest > 0 ? change / largest : 0;
+}
+
+// Sweeps until what is missing is below the cut-off; returns the bound reached. The change of one sweep
+// understates what is missing by 1 / (1 - rho).
+double HierarchicalSolver::SweepToCutoff(IterationReport& report, const ExecutionContext& context) {
+  const double remaining = max_reflectance_ / (1 - max_reflectance_);
+  double bound = INFINITY;
+  while (bound > options_.relative_cutoff && report.sweeps < kMaxSweeps && !context.Cancelled()) {
+    bound = Sweep() * remaining;
+    ++report.sweeps;
+  }
+  return bound;
+}
+
+// Splits every link that the oracle rejects, once. Returns how many.
+std::size_t HierarchicalSolver::RefineOnce() {
+  const std::vector<Link>& links = solution_.links.links;
+  std::vector<Refinement> verdict(links.size());
+  ParallelFor(links.size(), kGatherGrain,
+              [&](std::size_t i) { verdict[i] = oracle_.Judge(solution_, links[i]); });
+
+  std::vector<char> dropped(links.size(), 0);
+  std::size_t split = 0;
+  std::vector<Group> groups;
+  for (std::size_t begin = 0; begin < links.size();) {
+    const ElementId receiver = links[begin].receiver;
+    std::size_t end = begin;
+    std::vector<LinkCandidate> down, here;
+    for (; end < links.size() && links[end].receiver == receiver; ++end) {
+      const Link& link = links[end];
+      if (verdict[end] == Refinement::kAccept) continue;
+      dropped[end] = 1;
+      ++split;
+      const std::span<const PatchId> blockers = solution_.links.Blockers(link);
+      if (verdict[end] == Refinement::kSplitReceiver) {
+        down.push_back({link.source, blockers});
+      } else {
+        const ElementId first = solution_.forest[link.source].first_child;
+        for (ElementId child = first; child < first + 4; ++child) here.push_back({child, blockers});
+      }
+    }
+    if (!down.empty()) {
+      const ElementId first = solution_.forest[receiver].IsLeaf() ? solution_.forest.Subdivide(receiver)
+                                                                  : solution_.forest[receiver].first_child;
+      for (ElementId child = first; child < first + 4; ++child) groups.push_back({child, down});
+    }
+    if (!here.empty()) groups.push_back({receiver, std::move(here)});
+    begin = end;
+  }
+  if (split > 0) {
+    Install(FormGroups(solution_.forest, groups), dropped);
+    ResizeLight();
+  }
+  return split;
+}
+
+void HierarchicalSolver::Balance() {
+  for (std::size_t p = 0; p < scene_.patches.size(); ++p) solution_.forest.Balance(static_cast<PatchId>(p));
+  ResizeLight();
+}
+
+IterationReport HierarchicalSolver::Iterate(const ExecutionContext& context) {
+  const Clock::time_point start = Clock::now();
+  IterationReport report;
+  report.residual = SweepToCutoff(report, context);
+  while (!context.Cancelled()) {
+    const std::size_t split = RefineOnce();
+    report.links_split += split;
+    if (split == 0) break;
+  }
+  if (report.links_split > 0) {
+    Balance();
+    // The new links carry light at once, so that what is left is a solution on all of them.
+    report.residual = SweepToCutoff(report, context);
+  }
+  converged_ = report.links_split == 0 && report.residual <= options_.relative_cutoff;
+  report.elements = solution_.forest.size();
+  report.links = solution_.links.links.size();
+  report.seconds = SecondsSince(start);
+  return report;
+}
+
+std::vector<IterationReport> HierarchicalSolver::Solve(const ExecutionContext& context) {
+  std::vector<IterationReport> reports;
+  while (!converged_ && static_cast<int>(reports.size()) < options_.max_iterations && !context.Cancelled()) {
+    reports.push_back(Iterate(context));
+    context.Report("iterate", static_cast<double>(reports.size()) / options_.max_iterations);
+  }
+  return reports;
+}
+
+}  // namespace penumbra

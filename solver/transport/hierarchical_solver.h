@@ -1,0 +1,71 @@
+// solver/transport/hierarchical_solver.h
+//
+// The hierarchical radiosity solver (thesis, chapter 4; Hanrahan, Salzman and Aupperle 1991): gather over
+// links, push-pull through the quadtrees, refine links, until nothing changes beyond the relative cut-off.
+
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solver/base/progress.h"
+#include "solver/transport/oracle.h"
+#include "solver/transport/solution.h"
+#include "solver/visibility/patch_visibility.h"
+
+namespace penumbra {
+
+struct SolverOptions {
+  double eps = 0.1;        // largest transport error of a link [W/m^2] (thesis, Appendix A, 1)
+  double min_area = 1e-5;  // smallest area of an element [m^2] (Appendix A, 2)
+  double relative_cutoff =
+      1e-4;  // converged when no radiosity is farther off, relative to the largest (Appendix A, 7)
+  int max_iterations = 100;  // iterations: each gathers until it settles, then refines
+};
+
+struct IterationReport {
+  double residual = 0;  // bound of what is missing from the largest radiosity, relative to it
+  std::size_t elements = 0, links = 0;
+  std::size_t sweeps = 0;  // gathers with push-pull
+  std::size_t links_split = 0;
+  double seconds = 0;
+};
+
+class HierarchicalSolver {
+ public:
+  // Links the roots. The scene and the visibility must outlive the solver.
+  HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options);
+
+  // One iteration: gather and push-pull until the cut-off is met, then refine every link that the oracle
+  // rejects, and its children in turn. Returns what it did; links_split == 0 and a residual below the cut-off
+  // mean convergence.
+  IterationReport Iterate(const ExecutionContext& context);
+
+  // Iterates to convergence, to the most iterations, or until the context is cancelled; what is left then is
+  // the solution of the last whole iteration.
+  std::vector<IterationReport> Solve(const ExecutionContext& context);
+
+  bool Converged() const { return converged_; }
+  const RadiositySolution& solution() const { return solution_; }
+  RadiositySolution TakeSolution() && { return std::move(solution_); }
+
+ private:
+  double Sweep();
+  double SweepToCutoff(IterationReport& report, const ExecutionContext& context);
+  std::size_t RefineOnce();
+  void Balance();
+  void Install(std::vector<LinkSet> groups, const std::vector<char>& dropped);
+  void ResizeLight();
+  void PushPull(ElementId element, const Rgb& from_above);
+
+  const Scene& scene_;
+  SolverOptions options_;
+  TransportOracle oracle_;
+  RadiositySolution solution_;
+  std::vector<std::size_t> first_link_;  // per element, into links
+  std::vector<Rgb> gathered_;            // per element: over its own links [W/m^2]
+  double max_reflectance_ = 0;
+  bool converged_ = false;
+};
+
+}  // namespace penumbra

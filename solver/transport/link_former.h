@@ -1,0 +1,27 @@
+// solver/transport/link_former.h
+//
+// Makes links: culls the blockers that a child inherits with its own tube (Teller and Hanrahan 1993) and
+// averages exact point form factors over the receiver (thesis 4.2, method 3), occlusion exact.
+
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/transport/solution.h"
+
+namespace penumbra {
+
+// A source to be linked to a receiver, with what may block: the blockers of the parent link.
+struct LinkCandidate {
+  ElementId source = kNoElement;
+  std::span<const PatchId> blockers;
+};
+
+// The links of one receiver to all candidates that it may see, in their order; `blockers` indices start at 0
+// there. Candidates whose fronts do not face the receiver or which one blocker hides wholly get no link.
+// Points of the receiver behind the source's plane count as dark, so that the form factor is that of the
+// whole receiver.
+LinkSet FormLinks(const ElementForest& forest, ElementId receiver, std::span<const LinkCandidate> candidates);
+
+}  // namespace penumbra

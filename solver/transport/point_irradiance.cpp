@@ -1,0 +1,98 @@
+#include "solver/transport/point_irradiance.h"
+
+#include <numeric>
+#include <vector>
+
+#include "solver/visibility/point_view.h"
+
+namespace penumbra {
+namespace {
+
+using Node = SourceSet::Node;
+
+std::span<const Vec3> Vertices(const Node& node) {
+  return {node.vertex.data(), static_cast<std::size_t>(node.size)};
+}
+
+// Adds up one source after the other, walking down the source's tree only where shadows fall.
+class Gathering {
+ public:
+  Gathering(const Scene& scene, const SourceSet& sources, const ReceiverPoint& at)
+      : sources_(sources), view_(scene, at), cones_(view_.cone_stack()) {}
+
+  void AddSource(PatchId source, std::span<const PatchId> candidates, PatchId own) {
+    const std::span<const Node> tree = sources_.Tree(source);
+    if (tree.empty() || !view_.FaceSource(source)) return;
+    const DirectionPolygon seen = view_.SeeSource(Vertices(tree[0]));
+    if (seen.empty()) return;
+    if (view_.FindBlockers(candidates, own, seen, cones_)) GatherNode(tree, 0, 0);
+    cones_.clear();
+  }
+
+  PointIrradianceResult Result() const { return {irradiance_, view_.one_sided()}; }
+
+ private:
+  // Gathers from the subtree at node i; the cones from `first_cone` to the top of the stack may hide parts of
+  // it.
+  void GatherNode(std::span<const Node> tree, std::size_t i, std::size_t first_cone) {
+    const Node& node = tree[i];
+    const auto skip = static_cast<std::size_t>(node.skip);
+    if (first_cone == cones_.size()) return GatherVisible(tree.subspan(i, skip));
+
+    const DirectionPolygon seen = view_.SeeSource(Vertices(node));
+    if (seen.empty()) return;
+    const std::size_t top = cones_.size();
+    bool hidden = false;
+    for (std::size_t c = first_cone; c < top && !hidden; ++c) {
+      const Cone* cone = cones_[c];
+      const Overlap overlap = Classify(*cone, seen);
+      hidden = overlap == Overlap::kAll;
+      if (overlap == Overlap::kPart) cones_.push_back(cone);
+    }
+    if (!hidden) {
+      if (cones_.size() == top) {
+        GatherVisible(tree.subspan(i, skip));
+      } else if (skip == 1) {
+        irradiance_ += view_.VisibleFormFactor(seen, std::span(cones_).subspan(top)) * node.radiosity;
+      } else {
+        for (std::size_t child = i + 1; child < i + skip; child += static_cast<std::size_t>(tree[child].skip))
+          GatherNode(tree, child, top);
+      }
+    }
+    cones_.resize(top);
+  }
+
+  void GatherVisible(std::span<const Node> nodes) {
+    for (const Node& node : nodes)
+      if (node.skip == 1)
+        irradiance_ += view_.VisibleFormFactor(view_.SeeSource(Vertices(node)), {}) * node.radiosity;
+  }
+
+  const SourceSet& sources_;
+  PointView view_;
+  std::vector<const Cone*>& cones_;  // a stack: what may still hide the node at hand
+  Rgb irradiance_ = Rgb::Zero();
+};
+
+}  // namespace
+
+PointIrradiance::PointIrradiance(const Scene& scene, const PatchVisibility& visibility,
+                                 const SourceSet& sources)
+    : scene_(scene), visibility_(visibility), sources_(sources), all_patches_(scene.patches.size()) {
+  std::iota(all_patches_.begin(), all_patches_.end(), 0);
+}
+
+PointIrradianceResult PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& at) const {
+  Gathering gathering(scene_, sources_, at);
+  for (const PatchPair& pair : visibility_.SourcesOf(patch))
+    gathering.AddSource(pair.source, visibility_.Blockers(pair), patch);
+  return gathering.Result();
+}
+
+PointIrradianceResult PointIrradiance::Anywhere(const ReceiverPoint& at) const {
+  Gathering gathering(scene_, sources_, at);
+  for (const PatchId source : all_patches_) gathering.AddSource(source, all_patches_, kNoPatch);
+  return gathering.Result();
+}
+
+}  // namespace penumbra

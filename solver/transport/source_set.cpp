@@ -1,0 +1,68 @@
+#include "solver/transport/source_set.h"
+
+#include <algorithm>
+
+#include "solver/transport/solution.h"
+
+namespace penumbra {
+namespace {
+
+SourceSet::Node MakeNode(std::span<const Vec3> vertices, const Rgb& radiosity) {
+  SourceSet::Node node;
+  node.size = static_cast<std::int32_t>(vertices.size());
+  std::copy(vertices.begin(), vertices.end(), node.vertex.begin());
+  node.radiosity = radiosity;
+  return node;
+}
+
+// Appends the subtree below `id`; one whose leaves all have the same radiosity becomes a single node.
+void Append(const RadiositySolution& solution, ElementId id, std::vector<SourceSet::Node>& nodes) {
+  const Element& element = solution.forest[id];
+  const std::size_t at = nodes.size();
+  nodes.push_back(MakeNode(element.Vertices(), solution.radiosity[id]));
+  if (element.IsLeaf()) return;
+  for (ElementId child = element.first_child; child < element.first_child + 4; ++child)
+    Append(solution, child, nodes);
+  const Rgb& first = nodes[at + 1].radiosity;
+  const bool uniform =
+      nodes.size() == at + 5 &&
+      std::all_of(nodes.begin() + static_cast<std::ptrdiff_t>(at) + 1, nodes.end(),
+                  [&](const SourceSet::Node& node) { return (node.radiosity == first).all(); });
+  if (uniform) {
+    nodes[at].radiosity = first;
+    nodes.resize(at + 1);
+  } else {
+    nodes[at].skip = static_cast<std::int32_t>(nodes.size() - at);
+  }
+}
+
+}  // namespace
+
+SourceSet SourceSet::FromSolution(const RadiositySolution& solution) {
+  SourceSet set;
+  for (std::size_t p = 0; p < solution.forest.scene().patches.size(); ++p) {
+    set.first_.push_back(set.nodes_.size());
+    const ElementId root = ElementForest::Root(static_cast<PatchId>(p));
+    if ((solution.radiosity[root] != 0).any()) Append(solution, root, set.nodes_);
+  }
+  set.first_.push_back(set.nodes_.size());
+  return set;
+}
+
+SourceSet SourceSet::Emitters(const Scene& scene) {
+  SourceSet set;
+  for (const Patch& patch : scene.patches) {
+    set.first_.push_back(set.nodes_.size());
+    const Rgb& emittance = scene.materials[patch.material].emittance;
+    if ((emittance != 0).any()) set.nodes_.push_back(MakeNode(patch.Vertices(), emittance));
+  }
+  set.first_.push_back(set.nodes_.size());
+  return set;
+}
+
+std::size_t SourceSet::LeafCount() const {
+  return static_cast<std::size_t>(
+      std::count_if(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.skip == 1; }));
+}
+
+}  // namespace penumbra

@@ -1,0 +1,232 @@
+#include "solver/visibility/direction_polygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace penumbra {
+namespace {
+
+// A height n . (x - p) is off by at most this, relative to the coordinates: roundings of the input, the
+// difference, the normal and the sum.
+constexpr double kHeightError = 16 * std::numeric_limits<double>::epsilon();
+
+// An approach that leaves a plane at less than this angle [rad] runs within it: coplanar polygons of tilted
+// planes differ by roundings only, while a triangle never approaches a contact edge this flatly.
+constexpr double kParallelApproach = 1e-10;
+
+// The edge's normal a x b. Both neighbours of an edge compute it from the same end, the nearer one, with the
+// same operations: the results are opposite to the bit.
+Vec3 EdgeNormal(const Vec3& a, const Vec3& b) {
+  const double aa = a.squaredNorm(), bb = b.squaredNorm();
+  const bool a_first =
+      aa < bb || (aa == bb && std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3));
+  return a_first ? Vec3(a.cross(b - a)) : Vec3(-b.cross(a - b));
+}
+
+// What the plane m . direction = 0 cuts off. `crossing` makes the direction where an edge meets the plane.
+template <class Crossing>
+void Split(const DirectionPolygon& polygon, const Vec3& m, const Crossing& crossing, DirectionPolygon* inside,
+           DirectionPolygon* outside) {
+  std::array<double, DirectionPolygon::kCapacity> height;
+  bool any_inside = false, any_outside = false;
+  for (int i = 0; i < polygon.size(); ++i) {
+    height[static_cast<std::size_t>(i)] = m.dot(polygon[i]);
+    any_inside |= height[static_cast<std::size_t>(i)] > 0;
+    any_outside |= height[static_cast<std::size_t>(i)] < 0;
+  }
+  if (!any_outside) {
+    if (inside) *inside = polygon;
+    if (outside) outside->clear();
+    return;
+  }
+  if (!any_inside) {
+    if (outside) *outside = polygon;
+    if (inside) inside->clear();
+    return;
+  }
+  DirectionPolygon in, out;
+  for (int i = 0; i < polygon.size(); ++i) {
+    const int j = i + 1 == polygon.size() ? 0 : i + 1;
+    const double ha = height[static_cast<std::size_t>(i)], hb = height[static_cast<std::size_t>(j)];
+    if (ha >= 0) in.Add(polygon[i]);
+    if (ha <= 0) out.Add(polygon[i]);
+    if ((ha > 0 && hb < 0) || (ha < 0 && hb > 0)) {
+      const Vec3 c = crossing(polygon[i], polygon[j], std::abs(ha), std::abs(hb));
+      in.Add(c);
+      out.Add(c);
+    }
+  }
+  if (inside) *inside = in;
+  if (outside) *outside = out;
+}
+
+const auto kBetween = [](const Vec3& a, const Vec3& b, double ha, double hb) -> Vec3 {
+  return (hb * a + ha * b) / (ha + hb);
+};
+
+// Whether x lies on the segment from a to b (seen from x), within `tolerance`.
+bool OnEdge(const Vec3& a, const Vec3& b, double tolerance) {
+  const Vec3 edge = b - a;
+  return a.dot(b) < 0 && EdgeNormal(a, b).squaredNorm() <= tolerance * tolerance * edge.squaredNorm();
+}
+
+double Rounding(const ReceiverPoint& at, double extent) {
+  return at.uncertainty + HeightRounding(MaxAbs(at.position) + extent);
+}
+
+}  // namespace
+
+double HeightRounding(double extent) { return kHeightError * extent; }
+
+Side SideOf(const ReceiverPoint& at, const Vec3& normal, const Vec3& on, double extent) {
+  const double height = normal.dot(at.position - on), rounding = Rounding(at, extent);
+  if (height > rounding) return Side::kFront;
+  if (height < -rounding) return Side::kBack;
+  const double rise = normal.dot(at.approach), least = kParallelApproach * at.approach.norm();
+  if (rise > least) return Side::kFrontInLimit;
+  if (rise < -least) return Side::kBackInLimit;
+  return Side::kInPlane;
+}
+
+DirectionPolygon Seen(const ReceiverPoint& at, std::span<const Vec3> polygon, bool from_front) {
+  // Counter-clockwise about a normal that points to x is clockwise about the direction of sight.
+  DirectionPolygon seen;
+  const auto n = static_cast<int>(polygon.size());
+  for (int i = 0; i < n; ++i)
+    seen.Add(polygon[static_cast<std::size_t>(from_front ? n - 1 - i : i)] - at.position);
+  return seen;
+}
+
+DirectionPolygon SeenInContact(const ReceiverPoint& at, std::span<const Vec3> polygon, bool from_front) {
+  double extent = 0;
+  for (const Vec3& v : polygon) extent = std::max(extent, MaxAbs(v));
+  const double rounding = Rounding(at, extent);
+
+  // What lies in the receiver's plane but for rounding shall lie in it: the horizon then passes through the
+  // contact.
+  DirectionPolygon seen = Seen(at, polygon, from_front), level;
+  for (int i = 0; i < seen.size(); ++i) {
+    const double height = at.normal.dot(seen[i]);
+    level.Add(std::abs(height) <= rounding ? Vec3(seen[i] - height * at.normal) : seen[i]);
+  }
+  DirectionPolygon above;
+  Split(level, at.normal, kBetween, &above, nullptr);
+
+  DirectionPolygon limit;
+  bool touches = false;
+  const auto at_point = [&](const Vec3& v) { return v.squaredNorm() <= rounding * rounding; };
+  for (int i = 0; i < above.size(); ++i) {
+    const Vec3 &a = above[i], &b = above.Next(i);
+    if (at_point(a)) {
+      touches = true;
+      limit.Add(-at.approach);
+      continue;
+    }
+    limit.Add(a);
+    if (!at_point(b) && OnEdge(a, b, rounding)) {
+      touches = true;
+      limit.Add(-at.approach);
+    }
+  }
+  if (!touches) limit.clear();
+  return limit;
+}
+
+double FormFactor(const DirectionPolygon& polygon, const Vec3& receiver_normal) {
+  double sum = 0;
+  for (int i = 0; i < polygon.size(); ++i) {
+    const Vec3 &a = polygon[i], &b = polygon.Next(i);
+    const Vec3 m = EdgeNormal(a, b);
+    const double length = m.norm();
+    if (length > 0) sum += receiver_normal.dot(m) / length * std::atan2(length, a.dot(b));
+  }
+  return std::max(0.0, sum / (2 * std::numbers::pi));
+}
+
+DirectionPolygon ClipToHorizon(const DirectionPolygon& polygon, const Vec3& receiver_normal) {
+  const auto crossing = [&](const Vec3& a, const Vec3& b, double ha, double hb) -> Vec3 {
+    const Vec3 c = receiver_normal.cross(EdgeNormal(a, b)) / (ha + hb);
+    return c.dot(hb * a + ha * b) < 0 ? Vec3(-c) : c;
+  };
+  DirectionPolygon above;
+  Split(polygon, receiver_normal, crossing, &above, nullptr);
+  return above;
+}
+
+Cone MakeCone(const DirectionPolygon& blocker) {
+  Cone cone;
+  for (int i = 0; i < blocker.size(); ++i) {
+    const Vec3 m = EdgeNormal(blocker[i], blocker.Next(i));
+    const double length = m.norm();
+    if (length == 0) continue;
+    PENUMBRA_CHECK(cone.size < static_cast<int>(cone.normal.size()));
+    cone.normal[static_cast<std::size_t>(cone.size)] = m / length;
+    cone.direction[static_cast<std::size_t>(cone.size)] = blocker[i];
+    ++cone.size;
+  }
+  if (cone.size < 3) cone.size = 0;
+  return cone;
+}
+
+Overlap Classify(const Cone& cone, const DirectionPolygon& polygon) {
+  bool all = true;
+  for (int k = 0; k < cone.size; ++k) {
+    bool any_inside = false, any_outside = false;
+    for (int i = 0; i < polygon.size(); ++i) {
+      const double h = cone.normal[static_cast<std::size_t>(k)].dot(polygon[i]);
+      any_inside |= h > 0;
+      any_outside |= h < 0;
+    }
+    if (!any_inside) return Overlap::kNone;
+    all &= !any_outside;
+  }
+  if (all) return cone.size > 0 ? Overlap::kAll : Overlap::kNone;
+  for (int i = 0; i < polygon.size(); ++i) {
+    const Vec3 m = EdgeNormal(polygon[i], polygon.Next(i));
+    bool any_inside = false;
+    for (int k = 0; k < cone.size; ++k) any_inside |= m.dot(cone.direction[static_cast<std::size_t>(k)]) > 0;
+    if (!any_inside) return Overlap::kNone;
+  }
+  return Overlap::kPart;
+}
+
+void Subtract(const Cone& cone, std::vector<DirectionPolygon>& pieces) {
+  const std::size_t count = pieces.size();
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < count; ++p) {
+    DirectionPolygon rest = pieces[p];
+    if (rest.Full()) {
+      // Two halves, so that a cut can never overflow a piece.
+      DirectionPolygon half;
+      half.Add(rest[0]);
+      for (int i = rest.size() / 2; i < rest.size(); ++i) half.Add(rest[i]);
+      DirectionPolygon other;
+      for (int i = 0; i <= rest.size() / 2; ++i) other.Add(rest[i]);
+      std::vector<DirectionPolygon> halves{other, half};
+      Subtract(cone, halves);
+      pieces.insert(pieces.end(), halves.begin(), halves.end());
+      continue;
+    }
+    switch (Classify(cone, rest)) {
+      case Overlap::kAll:
+        break;
+      case Overlap::kNone:
+        if (kept != p) pieces[kept] = rest;
+        ++kept;
+        break;
+      case Overlap::kPart:
+        for (int k = 0; k < cone.size && !rest.empty(); ++k) {
+          DirectionPolygon outside;
+          Split(rest, cone.normal[static_cast<std::size_t>(k)], kBetween, &rest, &outside);
+          if (!outside.empty()) pieces.push_back(outside);
+        }
+        break;
+    }
+  }
+  pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(kept),
+               pieces.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+}  // namespace penumbra

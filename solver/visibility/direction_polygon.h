@@ -1,0 +1,93 @@
+// solver/visibility/direction_polygon.h
+//
+// What a point sees of a convex polygon, as directions: form factor and occlusion depend on nothing else.
+// Vertices are vectors from the point, of any length; edges are arcs of great circles shorter than pi.
+//
+// Notation: x the point, a -> b an edge as seen from x, m = a x b its normal. Vertices run so that every
+// direction inside has m . direction > 0 for all edges.
+
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "solver/base/check.h"
+#include "solver/geometry/vec.h"
+#include "solver/visibility/receiver_point.h"
+
+namespace penumbra {
+
+class DirectionPolygon {
+ public:
+  static constexpr int kCapacity = 32;
+
+  int size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  void clear() { size_ = 0; }
+  const Vec3& operator[](int i) const { return vertex_[static_cast<std::size_t>(i)]; }
+  const Vec3& Next(int i) const { return vertex_[static_cast<std::size_t>(i + 1 == size_ ? 0 : i + 1)]; }
+  void Add(const Vec3& direction) {
+    PENUMBRA_CHECK(size_ < kCapacity);
+    vertex_[static_cast<std::size_t>(size_++)] = direction;
+  }
+  // No room for the vertex that one more cut adds.
+  bool Full() const { return size_ >= kCapacity - 1; }
+
+ private:
+  std::array<Vec3, kCapacity> vertex_;
+  int size_ = 0;
+};
+
+// On which side of a polygon's plane the viewpoint lies.
+enum class Side {
+  kFront,
+  kBack,
+  kInPlane,  // the plane contains the point and no approach tells the sides apart: the polygon has no effect
+  kFrontInLimit,  // the plane contains the point, which is approached from the front
+  kBackInLimit,
+};
+
+// How far the height of a point above a plane may be off by rounding, for coordinates up to `extent` [m].
+double HeightRounding(double extent);
+
+// The side of the plane through `on` with unit normal `normal`; `extent` bounds the polygon's coordinates
+// [m].
+Side SideOf(const ReceiverPoint& at, const Vec3& normal, const Vec3& on, double extent);
+
+// What the viewpoint sees of a convex polygon (counter-clockwise about `normal`) whose plane does not contain
+// it.
+DirectionPolygon Seen(const ReceiverPoint& at, std::span<const Vec3> polygon, bool from_front);
+
+// The same in the limit, for a polygon whose plane contains the viewpoint: empty unless the point touches it.
+// The part above the receiver's horizon only. A vertex at the point is seen in the direction opposite to the
+// approach, and so is the middle of an edge through the point.
+DirectionPolygon SeenInContact(const ReceiverPoint& at, std::span<const Vec3> polygon, bool from_front);
+
+// Form factor of the point to what it sees: (1 / 2 pi) sum gamma n . m / |m| (Baum, Rushmeier and Winget
+// 1989; thesis eq. 6.1), gamma by atan2 on vectors that are not normalised. The polygon must lie above the
+// horizon.
+double FormFactor(const DirectionPolygon& polygon, const Vec3& receiver_normal);
+
+// The part above the horizon n . direction >= 0. Crossings are taken as directions, n x (a x b).
+DirectionPolygon ClipToHorizon(const DirectionPolygon& polygon, const Vec3& receiver_normal);
+
+// The cone that a blocker fills: all directions with normal[k] . direction >= 0.
+struct Cone {
+  int size = 0;
+  std::array<Vec3, 12> normal;
+  std::array<Vec3, 12> direction;  // the blocker's vertices as seen
+};
+
+// The cone over what is seen of a blocker. Two blockers that share an edge get opposite normals for it, to
+// the bit, so that no light leaks between them.
+Cone MakeCone(const DirectionPolygon& blocker);
+
+enum class Overlap { kNone, kPart, kAll };
+// How the cone covers the polygon. kPart may be returned for a cone just beside it.
+Overlap Classify(const Cone& cone, const DirectionPolygon& polygon);
+
+// Cuts the cone out of every piece: what remains visible, as convex pieces.
+void Subtract(const Cone& cone, std::vector<DirectionPolygon>& pieces);
+
+}  // namespace penumbra

@@ -1,0 +1,134 @@
+#include "solver/visibility/point_view.h"
+
+#include <algorithm>
+#include <deque>
+
+namespace penumbra {
+
+struct PointView::Buffers {
+  std::vector<std::uint32_t> stamp;  // of the view that computed the entry of `view`
+  std::vector<BlockerView> view;
+  std::uint32_t now = 0;
+  std::deque<BlockerView> cut;  // blockers cut at the plane of the source at hand; addresses stay
+  std::vector<const Cone*> cones;
+  std::vector<DirectionPolygon> pieces;
+
+  void Begin(std::size_t patches) {
+    if (stamp.size() < patches) {
+      stamp.resize(patches, 0);
+      view.resize(patches);
+    }
+    if (++now == 0) {
+      std::fill(stamp.begin(), stamp.end(), 0U);
+      now = 1;
+    }
+    cut.clear();
+    cones.clear();
+  }
+};
+
+PointView::Buffers& PointView::ThreadBuffers() {
+  thread_local Buffers buffers;
+  return buffers;
+}
+
+PointView::PointView(const Scene& scene, const ReceiverPoint& at)
+    : scene_(scene), at_(at), buffers_(ThreadBuffers()) {
+  buffers_.Begin(scene.patches.size());
+}
+
+PointView::~PointView() = default;
+
+std::vector<const Cone*>& PointView::cone_stack() { return buffers_.cones; }
+
+bool PointView::FaceSource(PatchId source) {
+  source_ = &scene_.patches[source];
+  buffers_.cut.clear();
+  const Side side = SideOf(at_, source_->normal, source_->vertex[0], source_->extent);
+  if (side != Side::kFront && side != Side::kFrontInLimit) return false;
+  source_in_contact_ = side == Side::kFrontInLimit;
+  double lowest = 0, highest = 0;
+  for (const Vec3& v : source_->Vertices()) {
+    const double height = at_.normal.dot(v - at_.position);
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+  }
+  source_crosses_horizon_ = lowest < 0;
+  if (highest <= 0) return false;
+  if (source_in_contact_ && !SeenInContact(at_, source_->Vertices(), true).empty()) one_sided_ = true;
+  return true;
+}
+
+DirectionPolygon PointView::SeeSource(std::span<const Vec3> part) const {
+  if (source_in_contact_) return SeenInContact(at_, part, true);
+  const DirectionPolygon seen = Seen(at_, part, true);
+  return source_crosses_horizon_ ? ClipToHorizon(seen, at_.normal) : seen;
+}
+
+PointView::BlockerView PointView::ViewBlocker(std::span<const Vec3> polygon, const Patch& patch) const {
+  BlockerView view;
+  const Side side = SideOf(at_, patch.normal, patch.vertex[0], patch.extent);
+  if (side == Side::kInPlane) return view;
+  const bool from_front = side == Side::kFront || side == Side::kFrontInLimit;
+  view.in_limit = side == Side::kFrontInLimit || side == Side::kBackInLimit;
+  view.cone =
+      MakeCone(view.in_limit ? SeenInContact(at_, polygon, from_front) : Seen(at_, polygon, from_front));
+  return view;
+}
+
+// The blocker's part strictly between the point and the source's plane, as seen; null if it has none.
+const PointView::BlockerView* PointView::FindBlocker(PatchId blocker) {
+  const Patch& patch = scene_.patches[blocker];
+  const double rounding = HeightRounding(std::max(patch.extent, source_->extent));
+  double lowest = 0, highest = 0;
+  for (const Vec3& v : patch.Vertices()) {
+    const double height = source_->normal.dot(v - source_->vertex[0]);
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+  }
+  if (highest <= rounding) return nullptr;
+  if (lowest < -rounding) {
+    const Polygon3 before = ClipToHalfSpace(patch.Vertices(), source_->normal, source_->vertex[0]);
+    if (before.empty()) return nullptr;
+    return &buffers_.cut.emplace_back(ViewBlocker(before, patch));
+  }
+  if (buffers_.stamp[blocker] != buffers_.now) {
+    buffers_.stamp[blocker] = buffers_.now;
+    buffers_.view[blocker] = ViewBlocker(patch.Vertices(), patch);
+  }
+  return &buffers_.view[blocker];
+}
+
+bool PointView::FindBlockers(std::span<const PatchId> candidates, PatchId own, const DirectionPolygon& seen,
+                             std::vector<const Cone*>& cones) {
+  const std::size_t before = cones.size();
+  for (const PatchId blocker : candidates) {
+    if (blocker == own || &scene_.patches[blocker] == source_) continue;
+    const BlockerView* view = FindBlocker(blocker);
+    if (!view || view->cone.size == 0) continue;
+    const Overlap overlap = Classify(view->cone, seen);
+    if (overlap == Overlap::kNone) continue;
+    one_sided_ = one_sided_ || view->in_limit;
+    if (overlap == Overlap::kAll) {
+      cones.resize(before);
+      return false;
+    }
+    cones.push_back(&view->cone);
+  }
+  return true;
+}
+
+double PointView::VisibleFormFactor(const DirectionPolygon& seen, std::span<const Cone* const> cones) const {
+  if (cones.empty()) return FormFactor(seen, at_.normal);
+  std::vector<DirectionPolygon>& pieces = buffers_.pieces;
+  pieces.assign(1, seen);
+  for (const Cone* cone : cones) {
+    if (pieces.empty()) break;
+    Subtract(*cone, pieces);
+  }
+  double factor = 0;
+  for (const DirectionPolygon& piece : pieces) factor += FormFactor(piece, at_.normal);
+  return factor;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,68 @@
+// solver/visibility/point_view.h
+//
+// The scene as one receiver point sees it: sources one after the other, and the blockers before them. What is
+// seen of a blocker is computed once a point, whatever the number of sources behind it.
+
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/scene/scene.h"
+#include "solver/visibility/direction_polygon.h"
+#include "solver/visibility/receiver_point.h"
+
+namespace penumbra {
+
+// At most one PointView is alive a thread at any time: all share the thread's buffers. Both arguments must
+// outlive it.
+class PointView {
+ public:
+  PointView(const Scene& scene, const ReceiverPoint& at);
+  ~PointView();
+  PointView(const PointView&) = delete;
+  PointView& operator=(const PointView&) = delete;
+
+  // Turns to a source. False if none of its front is above the receiver's horizon and to be seen from the
+  // point.
+  bool FaceSource(PatchId source);
+
+  // What is seen, above the horizon, of a convex part of the source that the view is turned to.
+  DirectionPolygon SeeSource(std::span<const Vec3> part) const;
+
+  // Appends the cones of those candidates that may hide parts of `seen`, before the plane of the source at
+  // hand; `own`, the receiver's patch, is left out. False if one candidate hides all of it: then nothing is
+  // appended. The cones live until the view turns to another source.
+  bool FindBlockers(std::span<const PatchId> candidates, PatchId own, const DirectionPolygon& seen,
+                    std::vector<const Cone*>& cones);
+
+  // The form factor of the point to what the cones leave of `seen`; exact visibility.
+  double VisibleFormFactor(const DirectionPolygon& seen, std::span<const Cone* const> cones) const;
+
+  // Whether the approach direction of the point has decided anything so far.
+  bool one_sided() const { return one_sided_; }
+
+  // A buffer for cones, empty at construction.
+  std::vector<const Cone*>& cone_stack();
+
+ private:
+  struct BlockerView {
+    bool in_limit = false;
+    Cone cone;  // size 0: it blocks nothing
+  };
+  struct Buffers;
+
+  static Buffers& ThreadBuffers();
+  BlockerView ViewBlocker(std::span<const Vec3> polygon, const Patch& patch) const;
+  const BlockerView* FindBlocker(PatchId blocker);
+
+  const Scene& scene_;
+  const ReceiverPoint& at_;
+  Buffers& buffers_;
+  const Patch* source_ = nullptr;
+  bool source_in_contact_ = false;
+  bool source_crosses_horizon_ = false;
+  bool one_sided_ = false;
+};
+
+}  // namespace penumbra
