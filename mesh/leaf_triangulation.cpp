@@ -186,22 +186,27 @@ class LeafTriangulator {
   void AddSegment(std::int32_t number) {
     const DiscontinuityLine& line = dsets_.lines[number];
     const LineInterval inner = ClipLine(line.origin, line.direction, outline_, kLeafMargin * borders_.snap);
-    double t0 = inner.t1, t1 = inner.t0;
-    double cover0 = t0, cover1 = t1;  // how far the discontinuities reach that give the hull its ends
+    LineInterval hull = {0, 0},
+                 reach = {0, 0};  // within the leaf; and as far as its outer discontinuities go
+    bool any = false;
     for (const LineInterval& i : line.cover) {
-      if (std::max(i.t0, inner.t0) > std::min(i.t1, inner.t1)) continue;
-      if (t0 > t1) {
-        t0 = std::max(i.t0, inner.t0);
-        cover0 = i.t0;
+      const LineInterval part = {std::max(i.t0, inner.t0), std::min(i.t1, inner.t1)};
+      if (part.t0 > part.t1) continue;
+      if (!any) {
+        hull.t0 = part.t0;
+        reach.t0 = i.t0;
       }
-      t1 = std::min(i.t1, inner.t1);
-      cover1 = i.t1;
+      any = true;
+      hull.t1 = part.t1;
+      reach.t1 = i.t1;
     }
-    if (t1 - t0 <= kLeafMargin * borders_.snap) return;
-    const std::int32_t from = t0 <= inner.t0 + Reach() ? BorderVertexOn(line, cover0, t0, true) : -1;
-    const std::int32_t to = t1 >= inner.t1 - Reach() ? BorderVertexOn(line, t1, cover1, false) : -1;
-    const Segment segment = {from >= 0 ? from : AddPoint(line.At(t0)), to >= 0 ? to : AddPoint(line.At(t1)),
-                             number};
+    if (!any || hull.t1 - hull.t0 <= kLeafMargin * borders_.snap) return;
+    const bool from_border = hull.t0 <= inner.t0 + Reach(), to_border = hull.t1 >= inner.t1 - Reach();
+    std::int32_t from = from_border ? BorderVertexOn(line, reach.t0, hull.t0, true) : -1;
+    std::int32_t to = to_border ? BorderVertexOn(line, hull.t1, reach.t1, false) : -1;
+    if (from < 0) from = AddPoint(line.At(hull.t0));
+    if (to < 0) to = AddPoint(line.At(hull.t1));
+    const Segment segment = {from, to, number};
     if (segment.from != segment.to) segments_.push_back(segment);
   }
 
