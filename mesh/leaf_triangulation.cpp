@@ -104,15 +104,30 @@ class Borders {
     return {place->second, reversed};
   }
 
-  // Notes where the line crosses the stretch. A corner within the snap distance of the line lies on it.
+  // Notes where the line crosses the stretch, or where discontinuities end that run along it. A corner within
+  // the snap distance of the line lies on it.
   void Cross(Stretch& stretch, std::int32_t number) const {
     const DiscontinuityLine& line = dsets_.lines[number];
     const double da = line.Distance(in_plane[stretch.a]), db = line.Distance(in_plane[stretch.b]);
-    if (std::abs(da) <= snap || std::abs(db) <= snap || (da > 0) == (db > 0)) return;
+    const bool a_on = std::abs(da) <= snap, b_on = std::abs(db) <= snap;
+    if (a_on && b_on) NoteEnds(stretch, number);
+    if (a_on || b_on || (da > 0) == (db > 0)) return;
     const double fraction = da / (da - db);
     const Vec2 at = in_plane[stretch.a] + fraction * (in_plane[stretch.b] - in_plane[stretch.a]);
     if (Covers(line.cover, line.Along(at), kLeafReach * snap))
       stretch.crossings.push_back({fraction, number});
+  }
+
+  // The stretch lies on the line: what ends within it needs a vertex there, or its edge would be marked too
+  // far.
+  void NoteEnds(Stretch& stretch, std::int32_t number) const {
+    const DiscontinuityLine& line = dsets_.lines[number];
+    const double a = line.Along(in_plane[stretch.a]), b = line.Along(in_plane[stretch.b]);
+    for (const auto* intervals : {&line.cover, &line.contact})
+      for (const LineInterval& i : *intervals)
+        for (const double end : {i.t0, i.t1})
+          if (end > std::min(a, b) + snap && end < std::max(a, b) - snap)
+            stretch.crossings.push_back({(end - a) / (b - a), number});
   }
 
   // Crossings within the snap distance of each other become one vertex.
@@ -206,8 +221,20 @@ class LeafTriangulator {
     std::int32_t to = to_border ? BorderVertexOn(line, hull.t1, reach.t1, false) : -1;
     if (from < 0) from = AddPoint(line.At(hull.t0));
     if (to < 0) to = AddPoint(line.At(hull.t1));
-    const Segment segment = {from, to, number};
-    if (segment.from != segment.to) segments_.push_back(segment);
+    // A contact that ends on the way gets a vertex, so that each edge jumps along its whole length or
+    // nowhere.
+    for (const LineInterval& i : line.contact)
+      for (const double end : {i.t0, i.t1}) {
+        if (end <= hull.t0 + borders_.snap || end >= hull.t1 - borders_.snap) continue;
+        const std::int32_t next = AddPoint(line.At(end));
+        PushSegment(from, next, number);
+        from = next;
+      }
+    PushSegment(from, to, number);
+  }
+
+  void PushSegment(std::int32_t from, std::int32_t to, std::int32_t line) {
+    if (from != to) segments_.push_back({from, to, line});
   }
 
   double Reach() const { return kLeafReach * borders_.snap; }
@@ -250,7 +277,8 @@ class LeafTriangulator {
   void TriangulateSegments(LeafMesh& mesh) {
     // A border that is split would leave a T-vertex: rather go without the weakest of the segments.
     while (!Split()) {
-      segments_.pop_back();
+      const std::int32_t weakest = segments_.back().line;
+      while (!segments_.empty() && segments_.back().line == weakest) segments_.pop_back();
       ++mesh.dropped_segments;
     }
     constraints_.clear();

@@ -17,7 +17,8 @@ using mesh_test::EmptyScene;
 using mesh_test::RefineAtRandom;
 using mesh_test::Segment;
 
-// The shapes of patches: a square, a general quadrilateral, a triangle, a long tilted rectangle far from the origin.
+// The shapes of patches: a square, a general quadrilateral, a triangle, a long tilted rectangle far from the
+// origin.
 Scene PatchOfShape(int shape) {
   Scene scene = EmptyScene();
   switch (shape) {
@@ -42,8 +43,8 @@ struct Corpus {
   std::size_t meshes = 0, triangles = 0, dropped = 0, wanted = 0;
 };
 
-void Check(const Scene& scene, const ElementForest& forest, const std::vector<Discontinuity>& found, int max_dsets,
-           Corpus& corpus) {
+void Check(const Scene& scene, const ElementForest& forest, const std::vector<Discontinuity>& found,
+           int max_dsets, Corpus& corpus) {
   DiscontinuityOptions options;
   options.max_leaf_dsets = max_dsets;
   const PatchDSets dsets = ActivateDiscontinuities(forest, 0, found, options);
@@ -74,8 +75,8 @@ Vec2 PointAt(const Scene& scene, double s, double t) {
   return frame.ToPlane(LatticePosition(patch, {at(s), at(t)}));
 }
 
-// Random segments on random balanced quadtrees of every shape: the triangulation covers the patch, every triangle
-// runs counter-clockwise, and no edge inside the patch has a T-vertex.
+// Random segments on random balanced quadtrees of every shape: the triangulation covers the patch, every
+// triangle runs counter-clockwise, and no edge inside the patch has a T-vertex.
 TEST(TriangulateLeaves, RandomSegmentsConform) {
   Corpus corpus;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
@@ -98,8 +99,8 @@ TEST(TriangulateLeaves, RandomSegmentsConform) {
   EXPECT_LT(corpus.worst_area, 1e-12);
 }
 
-// A point that is special on purpose: a lattice point of some level, moved by nothing or by a distance around the
-// tolerances.
+// A point that is special on purpose: a lattice point of some level, moved by nothing or by a distance around
+// the tolerances.
 Vec2 SpecialPoint(const Scene& scene, Random& random) {
   const double cells = static_cast<double>(1 << random.Index(5));
   const auto fraction = [&] {
@@ -113,8 +114,9 @@ Vec2 SpecialPoint(const Scene& scene, Random& random) {
   return p;
 }
 
-// The same with degenerate input: ends on lattice points or within 1e-16 … 1e-6 of them, segments along quadtree
-// lines, through corners, collinear, overlapping, repeated, ending on each other, parallel at tiny distances.
+// The same with degenerate input: ends on lattice points or within 1e-16 … 1e-6 of them, segments along
+// quadtree lines, through corners, collinear, overlapping, repeated, ending on each other, parallel at tiny
+// distances.
 TEST(TriangulateLeaves, DegenerateSegmentsConform) {
   Corpus corpus;
   for (std::uint64_t seed = 1; seed <= 1500; ++seed) {
@@ -124,9 +126,12 @@ TEST(TriangulateLeaves, DegenerateSegmentsConform) {
     ElementForest forest(scene);
     RefineAtRandom(forest, 0, random, static_cast<int>(random.Index(12)), 4);
     std::vector<Discontinuity> found;
-    const auto degree = [&] { return random.Uniform() < 0.3 ? DiscontinuityDegree::kD0 : DiscontinuityDegree::kD2; };
+    const auto degree = [&] {
+      return random.Uniform() < 0.3 ? DiscontinuityDegree::kD0 : DiscontinuityDegree::kD2;
+    };
     const auto add = [&](const Vec2& a, const Vec2& b) {
-      if ((b - a).norm() > SnapDistance(scene.patches[0])) found.push_back(Segment(a, b, random.Uniform(), degree()));
+      if ((b - a).norm() > SnapDistance(scene.patches[0]))
+        found.push_back(Segment(a, b, random.Uniform(), degree()));
     };
     for (std::uint32_t i = 1 + random.Index(10); i > 0; --i) {
       const Vec2 a = SpecialPoint(scene, random), b = SpecialPoint(scene, random);
@@ -162,8 +167,8 @@ TEST(TriangulateLeaves, DegenerateSegmentsConform) {
   EXPECT_LT(corpus.dropped, corpus.wanted / 100);
 }
 
-// A star of lines through one lattice corner, and an axis-aligned grid partly along quadtree lines, conform, and all
-// their edges are there: the lengths marked as discontinuity add up to the lengths given.
+// A star of lines through one lattice corner, and an axis-aligned grid partly along quadtree lines, conform,
+// and all their edges are there: the lengths marked as discontinuity add up to the lengths given.
 TEST(TriangulateLeaves, StarsAndGridsAreCompleteAndConform) {
   const Scene scene = PatchOfShape(0);
   ElementForest forest(scene);
@@ -203,14 +208,15 @@ TEST(TriangulateLeaves, StarsAndGridsAreCompleteAndConform) {
   }
 }
 
-// A contact along a leaf's border adds no edge but marks the border as a jump, from both sides; a contact across a
-// leaf marks its edges, and none beyond its ends.
+// A contact along a leaf's border adds no edge but marks the border as a jump, from both sides; a contact
+// across a leaf marks its edges, and none beyond its ends.
 TEST(TriangulateLeaves, ContactsMarkBothSides) {
   const Scene scene = PatchOfShape(0);
   ElementForest forest(scene);
   forest.Subdivide(0);
-  const std::vector<Discontinuity> found = {Segment({0.5, 0.5}, {0.5, 1}, kInfiniteWeight, DiscontinuityDegree::kD0),
-                                            Segment({0.1, 0.2}, {0.4, 0.3}, kInfiniteWeight, DiscontinuityDegree::kD0)};
+  const std::vector<Discontinuity> found = {
+      Segment({0.5, 0.5}, {0.5, 1}, kInfiniteWeight, DiscontinuityDegree::kD0),
+      Segment({0.1, 0.2}, {0.4, 0.3}, kInfiniteWeight, DiscontinuityDegree::kD0)};
   const PatchDSets dsets = ActivateDiscontinuities(forest, 0, found, {});
   EXPECT_EQ(dsets.dsets_active, 1U);
   const PatchTriangulation mesh = TriangulateLeaves(forest, 0, dsets);
@@ -228,8 +234,8 @@ TEST(TriangulateLeaves, ContactsMarkBothSides) {
   EXPECT_NEAR(jump, 2 * (0.5 + std::hypot(0.3, 0.1)), 1e-12);
 }
 
-// Without discontinuities a balanced quadtree conforms, and each hanging vertex is a corner of its coarse neighbour's
-// triangles (case A of the thesis's 3.6).
+// Without discontinuities a balanced quadtree conforms, and each hanging vertex is a corner of its coarse
+// neighbour's triangles (case A of the thesis's 3.6).
 TEST(TriangulateLeaves, HangingVerticesAreUsed) {
   const Scene scene = PatchOfShape(0);
   ElementForest forest(scene);
@@ -257,7 +263,8 @@ TEST(TriangulateLeaves, ThreadsDoNotMatter) {
   const PatchTriangulation many = TriangulateLeaves(forest, 0, dsets);
   ASSERT_EQ(one.triangles.size(), many.triangles.size());
   ASSERT_EQ(one.positions.size(), many.positions.size());
-  for (std::size_t i = 0; i < one.triangles.size(); ++i) EXPECT_EQ(one.triangles[i].vertex, many.triangles[i].vertex);
+  for (std::size_t i = 0; i < one.triangles.size(); ++i)
+    EXPECT_EQ(one.triangles[i].vertex, many.triangles[i].vertex);
   for (std::size_t i = 0; i < one.positions.size(); ++i) EXPECT_EQ(one.positions[i], many.positions[i]);
 }
 

@@ -33,7 +33,8 @@ inline Scene EmptyScene() {
 // A horizontal square around (x, y) at height z; up tells where its front looks.
 inline PatchId AddSquare(Scene& scene, double x, double y, double z, double half, bool up,
                          std::int32_t material = 0) {
-  const Vec3 a(x - half, y - half, z), b(x + half, y - half, z), c(x + half, y + half, z), d(x - half, y + half, z);
+  const Vec3 a(x - half, y - half, z), b(x + half, y - half, z), c(x + half, y + half, z),
+      d(x - half, y + half, z);
   return up ? AddPatch(scene, {a, b, c, d}, material) : AddPatch(scene, {a, d, c, b}, material);
 }
 
