@@ -25,14 +25,15 @@ Vec3 EdgeNormal(const Vec3& a, const Vec3& b) {
   return a_first ? Vec3(a.cross(b - a)) : Vec3(-b.cross(a - b));
 }
 
-// What the plane m . direction = 0 cuts off. `crossing` makes the direction where an edge meets the plane.
+using Heights = std::array<double, DirectionPolygon::kCapacity>;
+
+// The parts of the polygon on either side of a plane, from the heights of its vertices above it. `crossing`
+// makes the direction where an edge meets the plane.
 template <class Crossing>
-void Split(const DirectionPolygon& polygon, const Vec3& m, const Crossing& crossing, DirectionPolygon* inside,
-           DirectionPolygon* outside) {
-  std::array<double, DirectionPolygon::kCapacity> height;
+void SplitAt(const DirectionPolygon& polygon, const Heights& height, const Crossing& crossing,
+             DirectionPolygon* inside, DirectionPolygon* outside) {
   bool any_inside = false, any_outside = false;
   for (int i = 0; i < polygon.size(); ++i) {
-    height[static_cast<std::size_t>(i)] = m.dot(polygon[i]);
     any_inside |= height[static_cast<std::size_t>(i)] > 0;
     any_outside |= height[static_cast<std::size_t>(i)] < 0;
   }
@@ -60,6 +61,15 @@ void Split(const DirectionPolygon& polygon, const Vec3& m, const Crossing& cross
   }
   if (inside) *inside = in;
   if (outside) *outside = out;
+}
+
+// The same for the plane m . direction = 0.
+template <class Crossing>
+void Split(const DirectionPolygon& polygon, const Vec3& m, const Crossing& crossing, DirectionPolygon* inside,
+           DirectionPolygon* outside) {
+  Heights height;
+  for (int i = 0; i < polygon.size(); ++i) height[static_cast<std::size_t>(i)] = m.dot(polygon[i]);
+  SplitAt(polygon, height, crossing, inside, outside);
 }
 
 const auto kBetween = [](const Vec3& a, const Vec3& b, double ha, double hb) -> Vec3 {
@@ -107,12 +117,16 @@ DirectionPolygon SeenInContact(const ReceiverPoint& at, std::span<const Vec3> po
   // What lies in the receiver's plane but for rounding shall lie in it: the horizon then passes through the
   // contact.
   DirectionPolygon seen = Seen(at, polygon, from_front), level;
+  // Its height is exactly zero from here on: the rounding that is left must not cut an edge in two.
+  Heights heights;
   for (int i = 0; i < seen.size(); ++i) {
     const double height = at.normal.dot(seen[i]);
-    level.Add(std::abs(height) <= rounding ? Vec3(seen[i] - height * at.normal) : seen[i]);
+    const bool in_plane = std::abs(height) <= rounding;
+    level.Add(in_plane ? Vec3(seen[i] - height * at.normal) : seen[i]);
+    heights[static_cast<std::size_t>(i)] = in_plane ? 0 : height;
   }
   DirectionPolygon above;
-  Split(level, at.normal, kBetween, &above, nullptr);
+  SplitAt(level, heights, kBetween, &above, nullptr);
 
   DirectionPolygon limit;
   bool touches = false;

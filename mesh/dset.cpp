@@ -1,0 +1,236 @@
+#include "mesh/dset.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "mesh/leaf_margins.h"
+#include "solver/base/check.h"
+
+namespace penumbra {
+namespace {
+
+// For each discontinuity the line that it lies on. Longest first: a line's direction is then known at least
+// as well as that of any segment that joins it.
+struct Lines {
+  std::vector<DiscontinuityLine> lines;
+  std::vector<std::int32_t> line_of;
+};
+
+Lines GroupCollinear(std::span<const Discontinuity> found, double tolerance) {
+  Lines result;
+  result.line_of.resize(found.size());
+  std::vector<std::size_t> order(found.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<double> length(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) length[i] = (found[i].end[1] - found[i].end[0]).norm();
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return length[a] > length[b]; });
+  for (const std::size_t i : order) {
+    const auto& [a, b] = found[i].end;
+    const auto holds = [&](const DiscontinuityLine& line) {
+      return std::abs(line.Distance(a)) <= tolerance && std::abs(line.Distance(b)) <= tolerance;
+    };
+    const auto line = std::find_if(result.lines.begin(), result.lines.end(), holds);
+    result.line_of[i] = static_cast<std::int32_t>(line - result.lines.begin());
+    if (line == result.lines.end()) result.lines.push_back({a, (b - a) / length[i], {}, {}});
+  }
+  return result;
+}
+
+void Unite(std::vector<LineInterval>& intervals) {
+  std::sort(intervals.begin(), intervals.end(), [](const LineInterval& a, const LineInterval& b) {
+    return std::pair(a.t0, a.t1) < std::pair(b.t0, b.t1);
+  });
+  std::size_t kept = 0;
+  for (const LineInterval& i : intervals) {
+    if (kept > 0 && i.t0 <= intervals[kept - 1].t1) {
+      intervals[kept - 1].t1 = std::max(intervals[kept - 1].t1, i.t1);
+    } else {
+      intervals[kept++] = i;
+    }
+  }
+  intervals.resize(kept);
+}
+
+// A leaf on which a discontinuity impinges.
+struct Impinged {
+  std::size_t leaf;  // index in PatchDSets::leaves
+  bool inside;       // it crosses the leaf's inside, not just its border
+};
+
+// Activates discontinuities one by one on the leaves of a patch.
+class Activation {
+ public:
+  Activation(const ElementForest& forest, PatchId patch, int max_leaf_dsets)
+      : forest_(forest),
+        frame_(PolygonFrame(forest.scene().patches[patch].Vertices())),
+        snap_(SnapDistance(forest.scene().patches[patch])),
+        max_leaf_dsets_(max_leaf_dsets),
+        root_(BuildNode(ElementForest::Root(patch))) {
+    touching.resize(leaves.size());
+    inside_.resize(leaves.size());
+  }
+
+  // True if the segment on the line now belongs to every leaf that it meets; false if one of them is full.
+  bool Try(const Vec2& a, const Vec2& b, std::int32_t line) {
+    impinged_.clear();
+    Descend(root_, a, b);
+    for (const Impinged& i : impinged_)
+      if (i.inside && !Contains(inside_[i.leaf], line) &&
+          static_cast<int>(inside_[i.leaf].size()) >= max_leaf_dsets_)
+        return false;
+    for (const Impinged& i : impinged_) {
+      if (i.inside && !Contains(inside_[i.leaf], line)) inside_[i.leaf].push_back(line);
+      if (!Contains(touching[i.leaf], line)) touching[i.leaf].push_back(line);
+    }
+    return true;
+  }
+
+  std::size_t InsideCount() const {
+    std::size_t count = 0;
+    for (const auto& lines : inside_) count += lines.size();
+    return count;
+  }
+
+  std::vector<ElementId> leaves;
+  std::vector<std::vector<std::int32_t>> touching;  // per leaf, in order of activation
+
+ private:
+  struct Node {
+    Polygon2 outline;
+    std::int32_t first_child = -1;  // in nodes_; -1: a leaf
+    std::size_t leaf = 0;           // index in `leaves`
+  };
+
+  static bool Contains(const std::vector<std::int32_t>& lines, std::int32_t line) {
+    return std::find(lines.begin(), lines.end(), line) != lines.end();
+  }
+
+  std::int32_t BuildNode(ElementId id) {
+    nodes_.push_back({LeafOutline(forest_[id], frame_)});
+    FillNode(0, id);
+    return 0;
+  }
+
+  void FillNode(std::int32_t index, ElementId id) {
+    if (forest_[id].IsLeaf()) {
+      nodes_[index].leaf = leaves.size();
+      leaves.push_back(id);
+      return;
+    }
+    const auto first = static_cast<std::int32_t>(nodes_.size());
+    nodes_[index].first_child = first;
+    const ElementId child = forest_[id].first_child;
+    for (ElementId c = child; c < child + 4; ++c) nodes_.push_back({LeafOutline(forest_[c], frame_)});
+    for (std::int32_t c = 0; c < 4; ++c) FillNode(first + c, child + c);
+  }
+
+  void Descend(std::int32_t index, const Vec2& a, const Vec2& b) {
+    const Node& node = nodes_[index];
+    const double length = (b - a).norm();
+    const auto meets = [&](double inset) {
+      const LineInterval clip = ClipLine(a, (b - a) / length, node.outline, inset);
+      return std::max(clip.t0, 0.0) <= std::min(clip.t1, length);
+    };
+    if (!meets(-kLeafMargin * snap_)) return;
+    if (node.first_child < 0) {
+      impinged_.push_back({node.leaf, meets(kLeafMargin * snap_)});
+      return;
+    }
+    for (std::int32_t c = 0; c < 4; ++c) Descend(node.first_child + c, a, b);
+  }
+
+  const ElementForest& forest_;
+  Frame frame_;
+  double snap_;
+  int max_leaf_dsets_;
+  std::vector<Node> nodes_;
+  std::int32_t root_;
+  std::vector<std::vector<std::int32_t>> inside_;
+  std::vector<Impinged> impinged_;
+};
+
+}  // namespace
+
+bool Covers(std::span<const LineInterval> intervals, double t, double reach) {
+  return std::any_of(intervals.begin(), intervals.end(),
+                     [&](const LineInterval& i) { return t >= i.t0 - reach && t <= i.t1 + reach; });
+}
+
+Polygon2 LeafOutline(const Element& leaf, const Frame& frame) {
+  Polygon2 outline;
+  outline.reserve(4);
+  for (const Vec3& v : leaf.Vertices()) outline.push_back(frame.ToPlane(v));
+  return outline;
+}
+
+LineInterval ClipLine(const Vec2& origin, const Vec2& direction, const Polygon2& outline, double inset) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  LineInterval clip = {-kInfinity, kInfinity};
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Vec2& a = outline[k];
+    const Vec2 side = (outline[(k + 1) % outline.size()] - a).normalized();
+    const double depth = Cross2(side, origin - a) - inset;  // of the origin within the half-plane
+    const double rate = Cross2(side, direction);
+    if (rate == 0) {
+      if (depth < 0) return {1, 0};
+    } else if (rate > 0) {
+      clip.t0 = std::max(clip.t0, -depth / rate);
+    } else {
+      clip.t1 = std::min(clip.t1, -depth / rate);
+    }
+  }
+  return clip;
+}
+
+PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
+                                   std::span<const Discontinuity> found,
+                                   const DiscontinuityOptions& options) {
+  PENUMBRA_CHECK(options.max_leaf_dsets >= 0);
+  PatchDSets result;
+  Activation activation(forest, patch, options.max_leaf_dsets);
+  Lines grouped;
+  std::vector<std::size_t> order;
+  if (options.enabled) {
+    grouped = GroupCollinear(found, SnapDistance(forest.scene().patches[patch]));
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (found[i].weight >= options.min_weight) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return found[a].weight > found[b].weight; });
+
+  std::vector<std::int32_t> number(grouped.lines.size(), -1);  // of a line among the active ones
+  for (const std::size_t i : order) {
+    const Discontinuity& d = found[i];
+    std::int32_t& line = number[grouped.line_of[i]];
+    const auto candidate = line >= 0 ? line : static_cast<std::int32_t>(result.lines.size());
+    if (!activation.Try(d.end[0], d.end[1], candidate)) {
+      ++result.refused;
+      if (d.kind == DiscontinuityKind::kContact) ++result.refused_contacts;
+      continue;
+    }
+    ++result.activated;
+    if (line < 0) {
+      line = candidate;
+      result.lines.push_back(grouped.lines[grouped.line_of[i]]);
+    }
+    DiscontinuityLine& active = result.lines[line];
+    const double t0 = active.Along(d.end[0]), t1 = active.Along(d.end[1]);
+    const LineInterval interval = {std::min(t0, t1), std::max(t0, t1)};
+    active.cover.push_back(interval);
+    if (d.degree == DiscontinuityDegree::kD0) active.contact.push_back(interval);
+  }
+  for (DiscontinuityLine& line : result.lines) {
+    Unite(line.cover);
+    Unite(line.contact);
+  }
+  result.dsets_active = activation.InsideCount();
+  result.leaves = std::move(activation.leaves);
+  result.leaf_lines = std::move(activation.touching);
+  for (auto& lines : result.leaf_lines) std::sort(lines.begin(), lines.end());
+  return result;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,73 @@
+// mesh/dset.h
+//
+// DSets (thesis 5.5.4-5.5.7): which discontinuities of a patch become edges of its leaves' triangulations. A
+// DSet is a line together with those of its discontinuities that impinge on one leaf, and gives the leaf at
+// most one edge.
+//
+// Where the thesis keeps DSets in every tree node and passes them down when a node splits, the lines of a
+// patch are found once, here, when the quadtree is final, and leaves refer to them by number.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/discontinuity.h"
+#include "mesh/mesh_options.h"
+#include "solver/transport/element_forest.h"
+
+namespace penumbra {
+
+// A part of a line, from t0 to t1 along it [m].
+struct LineInterval {
+  double t0 = 0, t1 = 0;
+};
+
+// Collinear active discontinuities, in the frame of their patch.
+struct DiscontinuityLine {
+  Vec2 origin = Vec2::Zero(), direction = Vec2::UnitX();  // direction is unit
+  std::vector<LineInterval> cover;                        // where any of them lies: ascending, disjoint
+  std::vector<LineInterval> contact;                      // where a contact (D0) lies: ascending, disjoint
+
+  double Along(const Vec2& p) const { return direction.dot(p - origin); }
+  // Positive to the left of the line [m].
+  double Distance(const Vec2& p) const { return Cross2(direction, p - origin); }
+  Vec2 At(double t) const { return origin + t * direction; }
+};
+
+// True if t lies in one of the intervals or within `reach` of it.
+bool Covers(std::span<const LineInterval> intervals, double t, double reach);
+
+// A leaf's corners in the plane of its patch, counter-clockwise.
+Polygon2 LeafOutline(const Element& leaf, const Frame& frame);
+
+// The part of the line inside the convex counter-clockwise outline and at least `inset` [m] from each of its
+// sides (beyond them, for a negative inset). Empty if t0 > t1.
+LineInterval ClipLine(const Vec2& origin, const Vec2& direction, const Polygon2& outline, double inset);
+
+// The active DSets of one patch.
+struct PatchDSets {
+  std::vector<DiscontinuityLine> lines;  // those with an active discontinuity, strongest first
+  std::vector<ElementId> leaves;         // of the patch, depth first
+  std::vector<std::vector<std::int32_t>>
+      leaf_lines;                    // per leaf, ascending: lines active on it or along its border
+  std::size_t activated = 0;         // discontinuities
+  std::size_t dsets_active = 0;      // DSets that cross the inside of their leaf
+  std::size_t refused = 0;           // discontinuities that would have crowded a leaf
+  std::size_t refused_contacts = 0;  // of these, contacts
+};
+
+// Activates the discontinuities in order of weight, contacts first, each for all leaves on which it impinges
+// or for none (thesis 5.5.7).
+//  (1) An active discontinuity weighs at least options.min_weight.
+//  (2) At most options.max_leaf_dsets lines run through the inside of any leaf. Those along a leaf's border
+//  add no
+//      edge and do not count.
+//  (3) The heaviest come first; of equal weight, the one found first.
+// REQUIRES: the patch's quadtree is balanced; `found` are discontinuities on this patch.
+PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
+                                   std::span<const Discontinuity> found, const DiscontinuityOptions& options);
+
+}  // namespace penumbra

@@ -1,0 +1,45 @@
+// mesh/irradiance_mesh_builder.h
+//
+// Interpolants over triangulated patches (thesis 3.2, 3.3): six samples a triangle, each evaluated once.
+//
+// A node is a vertex or an edge midpoint. Its irradiance is the limit from inside the triangle that asks
+// (6.3). Where the sampler says that the side matters, every triangle at the node gets a value of its own, so
+// that nothing leaks across a contact (D0) edge, and each corner at the end of one has the value of its own
+// direction (6.4).
+
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+
+#include "mesh/irradiance_mesh.h"
+#include "mesh/leaf_triangulation.h"
+#include "mesh/mesh_options.h"
+#include "solver/base/progress.h"
+#include "solver/transport/element_forest.h"
+#include "solver/transport/point_irradiance.h"
+
+namespace penumbra {
+
+// PointIrradiance::OnPatch(), or whatever stands in for it. Called from several threads at once.
+using IrradianceSampler = std::function<PointIrradianceResult(PatchId, const ReceiverPoint&)>;
+
+struct BuiltMesh {
+  IrradianceMesh mesh;
+  std::size_t point_evaluations = 0;
+};
+
+// The mesh of all patches, with linear or quadratic interpolants. Patches ascend, triangles keep their order.
+// The result does not depend on the number of threads. REQUIRES: patches[i] belongs to patch i of the scene;
+// order is not kConstant.
+BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangulation> patches,
+                              InterpolantOrder order, const IrradianceSampler& sampler,
+                              const ExecutionContext& context);
+
+// The same triangles with the irradiance of their leaves in the solution [W/m^2], indexed by ElementId: flat
+// shading of the constant basis.
+IrradianceMesh BuildConstantMesh(std::span<const PatchTriangulation> patches,
+                                 std::span<const Rgb> element_irradiance);
+
+}  // namespace penumbra

@@ -1,0 +1,42 @@
+// mesh/local_pass.h
+//
+// The second half of the offline computation (Lischinski, Tampieri and Greenberg's local pass): from the
+// solution of the global pass to the irradiance mesh. Discontinuities, DSets, leaf triangulation,
+// interpolants.
+
+#pragma once
+
+#include <vector>
+
+#include "mesh/irradiance_mesh.h"
+#include "mesh/irradiance_mesh_builder.h"
+#include "mesh/leaf_triangulation.h"
+#include "mesh/mesh_options.h"
+#include "solver/base/progress.h"
+#include "solver/transport/solution.h"
+#include "solver/visibility/patch_visibility.h"
+
+namespace penumbra {
+
+struct MeshResult {
+  IrradianceMesh mesh;
+  MeshReport report;
+};
+
+// The largest radiosity of each patch, over its leaves and the channels [W/m^2].
+std::vector<double> SourceStrengths(const RadiositySolution& solution);
+
+// Triangulates all patches of the solution; counts and seconds are added to the report.
+// REQUIRES: the quadtrees are balanced.
+std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibility,
+                                                   const RadiositySolution& solution,
+                                                   const DiscontinuityOptions& options,
+                                                   const ExecutionContext& context, MeshReport& report);
+
+// The whole local pass. The sampler is not called for constant interpolants. A cancelled run returns an empty
+// mesh. REQUIRES: the quadtrees are balanced.
+MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySolution& solution,
+                        const IrradianceSampler& sampler, const MeshOptions& options,
+                        const ExecutionContext& context);
+
+}  // namespace penumbra

@@ -1,0 +1,180 @@
+#include "solver/geometry/segment_splitter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "solver/base/check.h"
+#include "solver/geometry/orientation.h"
+
+namespace penumbra {
+namespace {
+
+std::int32_t Size(const auto& container) { return static_cast<std::int32_t>(container.size()); }
+
+// Where the lines ab and cd meet; a coordinate that a line holds constant is kept to the bit.
+Vec2 Crossing(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const Vec2 ab = b - a, cd = d - c;
+  Vec2 p = a + ab * (Cross2(c - a, cd) / Cross2(ab, cd));
+  for (int axis = 0; axis < 2; ++axis) {
+    if (a[axis] == b[axis]) p[axis] = a[axis];
+    if (c[axis] == d[axis]) p[axis] = c[axis];
+  }
+  return p;
+}
+
+// Where a point stands in the order along ab: its coordinate on the longer axis, free of rounding.
+double Along(const Vec2& a, const Vec2& b, const Vec2& p) {
+  const Vec2 ab = b - a;
+  const int axis = std::abs(ab.x()) >= std::abs(ab.y()) ? 0 : 1;
+  return ab[axis] >= 0 ? p[axis] : -p[axis];
+}
+
+}  // namespace
+
+void SegmentSplitter::Split(std::vector<Vec2>& vertices, std::vector<bool>& used,
+                            std::vector<SegmentPiece>& pieces, double snap) {
+  vertices_ = &vertices;
+  used_ = &used;
+  pieces_ = &pieces;
+  snap_ = snap;
+  fresh_vertex_ = 0;
+  fresh_.assign(pieces.size(), 1);
+  // A piece is only ever replaced by shorter ones between vertices that are at least `snap` apart or were
+  // given, so that the loop ends; in practice after two or three turns.
+  constexpr int kMostTurns = 1000;
+  for (int turn = 0;; ++turn) {
+    PENUMBRA_CHECK(turn < kMostTurns);
+    cuts_.clear();
+    const std::int32_t known = Size(vertices);
+    CutAtVertices();
+    CutAtCrossings();
+    fresh_vertex_ = known;
+    if (!ApplyCuts()) return;
+  }
+}
+
+// True if the vertex lies on the piece, or within snap_ of it and nearer to each end than they are to each
+// other.
+bool SegmentSplitter::Splits(const SegmentPiece& piece, std::int32_t vertex) const {
+  if (vertex == piece.from || vertex == piece.to) return false;
+  const Vec2& a = (*vertices_)[piece.from];
+  const Vec2& b = (*vertices_)[piece.to];
+  const Vec2& p = (*vertices_)[vertex];
+  const Vec2 ab = b - a, ap = p - a;
+  if (std::abs(Cross2(ab, ap)) > snap_ * ab.norm()) return false;
+  const double at = Along(a, b, p);
+  if (!(at > Along(a, b, a) && at < Along(a, b, b))) return false;
+  const double squared = ab.squaredNorm();
+  return (ap.squaredNorm() < squared && (b - p).squaredNorm() < squared) || Orientation(a, b, p) == 0;
+}
+
+void SegmentSplitter::Cut(std::int32_t piece, std::int32_t vertex) {
+  const Vec2& a = (*vertices_)[(*pieces_)[piece].from];
+  const Vec2& b = (*vertices_)[(*pieces_)[piece].to];
+  cuts_.push_back({piece, Along(a, b, (*vertices_)[vertex]), vertex});
+}
+
+void SegmentSplitter::CutAtVertices() {
+  order_.clear();
+  for (std::int32_t v = 0; v < Size(*vertices_); ++v)
+    if ((*used_)[v]) order_.push_back(v);
+  std::stable_sort(order_.begin(), order_.end(),
+                   [&](std::int32_t a, std::int32_t b) { return (*vertices_)[a].x() < (*vertices_)[b].x(); });
+  low_.resize(order_.size());
+  for (std::size_t k = 0; k < order_.size(); ++k) low_[k] = (*vertices_)[order_[k]].x();
+  for (std::int32_t i = 0; i < Size(*pieces_); ++i) {
+    const SegmentPiece& piece = (*pieces_)[i];
+    const Vec2 low = (*vertices_)[piece.from].cwiseMin((*vertices_)[piece.to]).array() - snap_;
+    const Vec2 high = (*vertices_)[piece.from].cwiseMax((*vertices_)[piece.to]).array() + snap_;
+    auto k = static_cast<std::size_t>(std::lower_bound(low_.begin(), low_.end(), low.x()) - low_.begin());
+    for (; k < low_.size() && low_[k] <= high.x(); ++k) {
+      const std::int32_t v = order_[k];
+      if (!fresh_[i] && v < fresh_vertex_) continue;
+      const double y = (*vertices_)[v].y();
+      if (y >= low.y() && y <= high.y() && Splits(piece, v)) Cut(i, v);
+    }
+  }
+}
+
+void SegmentSplitter::CutAtCrossings() {
+  const auto left = [&](std::int32_t i) {
+    const SegmentPiece& piece = (*pieces_)[i];
+    return std::min((*vertices_)[piece.from].x(), (*vertices_)[piece.to].x());
+  };
+  order_.resize(pieces_->size());
+  std::iota(order_.begin(), order_.end(), 0);
+  std::stable_sort(order_.begin(), order_.end(),
+                   [&](std::int32_t a, std::int32_t b) { return left(a) < left(b); });
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    const std::int32_t i = order_[k];
+    const SegmentPiece& piece = (*pieces_)[i];
+    const double right = std::max((*vertices_)[piece.from].x(), (*vertices_)[piece.to].x());
+    for (std::size_t l = k + 1; l < order_.size() && left(order_[l]) <= right; ++l) {
+      const std::int32_t j = order_[l];
+      if (fresh_[i] || fresh_[j]) CutCrossing(std::min(i, j), std::max(i, j));
+    }
+  }
+}
+
+void SegmentSplitter::CutCrossing(std::int32_t i, std::int32_t j) {
+  const SegmentPiece p = (*pieces_)[i], q = (*pieces_)[j];
+  if (p.from == q.from || p.from == q.to || p.to == q.from || p.to == q.to) return;
+  const Vec2 a = (*vertices_)[p.from], b = (*vertices_)[p.to];
+  const Vec2 c = (*vertices_)[q.from], d = (*vertices_)[q.to];
+  if (std::max(a.y(), b.y()) < std::min(c.y(), d.y()) || std::max(c.y(), d.y()) < std::min(a.y(), b.y()))
+    return;
+  if (Orientation(a, b, c) * Orientation(a, b, d) >= 0) return;
+  if (Orientation(c, d, a) * Orientation(c, d, b) >= 0) return;
+  // Where an end lies within the snap distance of the other piece, CutAtVertices has joined them there.
+  if (Splits(p, q.from) || Splits(p, q.to) || Splits(q, p.from) || Splits(q, p.to)) return;
+  const std::int32_t v = VertexNear(Crossing(a, b, c, d));
+  if (v != p.from && v != p.to) Cut(i, v);
+  if (v != q.from && v != q.to) Cut(j, v);
+}
+
+// The vertex nearest to p if it is within snap_, else p as a new one.
+std::int32_t SegmentSplitter::VertexNear(const Vec2& p) {
+  std::int32_t nearest = -1;
+  double least = snap_ * snap_;
+  for (std::int32_t v = 0; v < Size(*vertices_); ++v) {
+    if (!(*used_)[v]) continue;
+    const double squared = ((*vertices_)[v] - p).squaredNorm();
+    if (squared > least || (squared == least && nearest >= 0)) continue;
+    least = squared;
+    nearest = v;
+  }
+  if (nearest >= 0) return nearest;
+  vertices_->push_back(p);
+  used_->push_back(true);
+  return Size(*vertices_) - 1;
+}
+
+bool SegmentSplitter::ApplyCuts() {
+  if (cuts_.empty()) return false;
+  std::sort(cuts_.begin(), cuts_.end(), [](const CutPoint& a, const CutPoint& b) {
+    if (a.piece != b.piece) return a.piece < b.piece;
+    if (a.at != b.at) return a.at < b.at;
+    return a.vertex < b.vertex;
+  });
+  next_.clear();
+  next_fresh_.clear();
+  std::size_t c = 0;
+  for (std::int32_t i = 0; i < Size(*pieces_); ++i) {
+    const SegmentPiece& piece = (*pieces_)[i];
+    const char fresh = c < cuts_.size() && cuts_[c].piece == i;
+    std::int32_t from = piece.from;
+    for (; c < cuts_.size() && cuts_[c].piece == i; ++c) {
+      if (cuts_[c].vertex == from) continue;
+      next_.push_back({from, cuts_[c].vertex, piece.source});
+      from = cuts_[c].vertex;
+    }
+    next_.push_back({from, piece.to, piece.source});
+    next_fresh_.resize(next_.size(), fresh);
+  }
+  pieces_->swap(next_);
+  fresh_.swap(next_fresh_);
+  return true;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,106 @@
+#include "mesh/dset.h"
+
+#include <gtest/gtest.h>
+
+#include "mesh_test_scenes.h"
+
+namespace penumbra {
+namespace {
+
+using mesh_test::AddSquare;
+using mesh_test::EmptyScene;
+using mesh_test::Segment;
+
+// The unit square, its corner (0, 0) the origin of its frame, split into four.
+struct QuarteredSquare {
+  QuarteredSquare() : scene(EmptyScene()) {
+    AddSquare(scene, 0.5, 0.5, 0, 0.5, true);
+    forest = ElementForest(scene);
+    forest.Subdivide(0);
+  }
+  Scene scene;
+  ElementForest forest;
+};
+
+// Collinear discontinuities, however long, reversed or apart, are one line and fill one place in a leaf.
+TEST(ActivateDiscontinuities, CollinearOnesMerge) {
+  const QuarteredSquare square;
+  DiscontinuityOptions options;
+  options.max_leaf_dsets = 1;
+  const std::vector<Discontinuity> found = {Segment({0.05, 0.1}, {0.15, 0.2}, 1),
+                                            Segment({0.3, 0.35}, {0.2, 0.25}, 2),
+                                            Segment({0.1, 0.15}, {0.25, 0.3 + 1e-12}, 3)};
+  const PatchDSets dsets = ActivateDiscontinuities(square.forest, 0, found, options);
+  ASSERT_EQ(dsets.lines.size(), 1U);
+  EXPECT_EQ(dsets.activated, 3U);
+  EXPECT_EQ(dsets.dsets_active, 1U);
+  ASSERT_EQ(dsets.lines[0].cover.size(), 1U);
+  EXPECT_NEAR(dsets.lines[0].cover[0].t1 - dsets.lines[0].cover[0].t0, 0.25 * std::sqrt(2.0), 1e-10);
+}
+
+// The strongest are activated first, contacts before all; a discontinuity is refused for all leaves when one
+// that it crosses is full, and a weaker one elsewhere still finds its place.
+TEST(ActivateDiscontinuities, WeightDecidesForAllLeavesOrNone) {
+  const QuarteredSquare square;
+  DiscontinuityOptions options;
+  options.max_leaf_dsets = 2;
+  const std::vector<Discontinuity> found = {
+      Segment({0.1, 0.11}, {0.4, 0.13}, 5),                                          // 0: second in leaf 0
+      Segment({0.1, 0.21}, {0.9, 0.22}, 4),                                          // 1: leaf 0 is full
+      Segment({0.1, 0.31}, {0.4, 0.32}, kInfiniteWeight, DiscontinuityDegree::kD0),  // 2: first in leaf 0
+      Segment({0.6, 0.11}, {0.9, 0.12}, 3),                                          // 3: leaf 1 has room
+      Segment({0.6, 0.81}, {0.9, 0.82}, 0.5)};                                       // 4: too weak
+  options.min_weight = 1;
+  const PatchDSets dsets = ActivateDiscontinuities(square.forest, 0, found, options);
+  EXPECT_EQ(dsets.activated, 3U);
+  EXPECT_EQ(dsets.refused, 1U);
+  EXPECT_EQ(dsets.refused_contacts, 0U);
+  EXPECT_EQ(dsets.dsets_active, 3U);
+  EXPECT_EQ(dsets.leaf_lines[0], (std::vector<std::int32_t>{0, 1}));
+  EXPECT_EQ(dsets.leaf_lines[1], (std::vector<std::int32_t>{2}));
+  EXPECT_TRUE(dsets.leaf_lines[2].empty());
+  EXPECT_TRUE(dsets.leaf_lines[3].empty());
+  EXPECT_EQ(dsets.lines[0].contact.size(), 1U);
+}
+
+// A contact that finds its leaf full of other contacts is refused, and counted.
+TEST(ActivateDiscontinuities, RefusedContactsAreCounted) {
+  const QuarteredSquare square;
+  DiscontinuityOptions options;
+  options.max_leaf_dsets = 1;
+  const std::vector<Discontinuity> found = {
+      Segment({0.1, 0.11}, {0.4, 0.13}, kInfiniteWeight, DiscontinuityDegree::kD0),
+      Segment({0.1, 0.21}, {0.9, 0.22}, kInfiniteWeight, DiscontinuityDegree::kD0)};
+  const PatchDSets dsets = ActivateDiscontinuities(square.forest, 0, found, options);
+  EXPECT_EQ(dsets.activated, 1U);
+  EXPECT_EQ(dsets.refused_contacts, 1U);
+  EXPECT_TRUE(dsets.leaf_lines[1].empty());
+}
+
+// A line along the border of leaves belongs to both sides, and takes no place.
+TEST(ActivateDiscontinuities, BordersTakeNoPlace) {
+  const QuarteredSquare square;
+  DiscontinuityOptions options;
+  options.max_leaf_dsets = 0;
+  const PatchDSets dsets =
+      ActivateDiscontinuities(square.forest, 0, std::vector{Segment({0.1, 0.5}, {0.4, 0.5}, 1)}, options);
+  EXPECT_EQ(dsets.activated, 1U);
+  EXPECT_EQ(dsets.dsets_active, 0U);
+  EXPECT_EQ(dsets.leaf_lines[0].size(), 1U);
+  EXPECT_EQ(dsets.leaf_lines[3].size(), 1U);
+  EXPECT_TRUE(dsets.leaf_lines[1].empty());
+}
+
+// Switched off, nothing is active.
+TEST(ActivateDiscontinuities, CanBeSwitchedOff) {
+  const QuarteredSquare square;
+  DiscontinuityOptions options;
+  options.enabled = false;
+  const PatchDSets dsets =
+      ActivateDiscontinuities(square.forest, 0, std::vector{Segment({0.1, 0.2}, {0.4, 0.5}, 1)}, options);
+  EXPECT_TRUE(dsets.lines.empty());
+  EXPECT_EQ(dsets.leaves.size(), 4U);
+}
+
+}  // namespace
+}  // namespace penumbra

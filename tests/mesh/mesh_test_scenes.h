@@ -1,0 +1,89 @@
+// tests/mesh/mesh_test_scenes.h
+//
+// Small scenes and random quadtrees for the tests of the mesh.
+
+#pragma once
+
+#include <cmath>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "mesh/dset.h"
+#include "solver/base/random.h"
+#include "solver/scene/scene.h"
+#include "solver/transport/element_forest.h"
+
+namespace penumbra::mesh_test {
+
+inline PatchId AddPatch(Scene& scene, std::initializer_list<Vec3> vertices, std::int32_t material = 0) {
+  const std::vector<Vec3> list(vertices);
+  scene.patches.push_back(MakePatch(list, material, 0, {static_cast<std::int32_t>(scene.patches.size())}));
+  return static_cast<PatchId>(scene.patches.size()) - 1;
+}
+
+inline Scene EmptyScene() {
+  Scene scene;
+  scene.materials = {Material{"grey", Rgb::Constant(0.5), Rgb::Zero()},
+                     Material{"light", Rgb::Constant(0.0), Rgb::Constant(1.0)}};
+  scene.objects = {Object{"all", {}}};
+  return scene;
+}
+
+// A horizontal square around (x, y) at height z; up tells where its front looks.
+inline PatchId AddSquare(Scene& scene, double x, double y, double z, double half, bool up,
+                         std::int32_t material = 0) {
+  const Vec3 a(x - half, y - half, z), b(x + half, y - half, z), c(x + half, y + half, z),
+      d(x - half, y + half, z);
+  return up ? AddPatch(scene, {a, b, c, d}, material) : AddPatch(scene, {a, d, c, b}, material);
+}
+
+// The six (or, without a bottom, five) faces of a box, fronts outward; returns the first.
+inline PatchId AddBox(Scene& scene, const Vec3& low, const Vec3& high, bool bottom) {
+  const auto at = [&](int i, int j, int k) {
+    return Vec3(i ? high.x() : low.x(), j ? high.y() : low.y(), k ? high.z() : low.z());
+  };
+  const PatchId first = AddPatch(scene, {at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1)});
+  AddPatch(scene, {at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1)});
+  AddPatch(scene, {at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1)});
+  AddPatch(scene, {at(1, 1, 0), at(0, 1, 0), at(0, 1, 1), at(1, 1, 1)});
+  AddPatch(scene, {at(0, 1, 0), at(0, 0, 0), at(0, 0, 1), at(0, 1, 1)});
+  if (bottom) AddPatch(scene, {at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0)});
+  return first;
+}
+
+// Turns all patches by `degrees` about the x axis, then about z, so that nothing is axis-aligned any more.
+inline void Tilt(Scene& scene, double degrees) {
+  const double angle = degrees * M_PI / 180;
+  const Eigen::Matrix3d turn =
+      (Eigen::AngleAxisd(angle, Vec3::UnitZ()) * Eigen::AngleAxisd(angle, Vec3::UnitX())).toRotationMatrix();
+  for (Patch& patch : scene.patches) {
+    std::vector<Vec3> vertices;
+    for (const Vec3& v : patch.Vertices()) vertices.push_back(turn * v);
+    patch = MakePatch(vertices, patch.material, patch.object, patch.faces);
+  }
+}
+
+// Splits about `splits` random leaves of the patch, and balances.
+inline void RefineAtRandom(ElementForest& forest, PatchId patch, Random& random, int splits, int max_level) {
+  for (int i = 0; i < splits; ++i) {
+    ElementId id = ElementForest::Root(patch);
+    while (!forest[id].IsLeaf()) id = forest[id].first_child + static_cast<ElementId>(random.Index(4));
+    if (forest[id].level < max_level) forest.Subdivide(id);
+  }
+  forest.Balance(patch);
+}
+
+// A made-up discontinuity on the patch between two points of its plane.
+inline Discontinuity Segment(const Vec2& a, const Vec2& b, double weight,
+                             DiscontinuityDegree degree = DiscontinuityDegree::kD2) {
+  Discontinuity d;
+  d.end = {a, b};
+  d.receiver = 0;
+  d.weight = weight;
+  d.degree = degree;
+  d.kind = degree == DiscontinuityDegree::kD0 ? DiscontinuityKind::kContact : DiscontinuityKind::kVE;
+  return d;
+}
+
+}  // namespace penumbra::mesh_test
