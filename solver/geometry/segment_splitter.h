@@ -46,6 +46,7 @@ class SegmentSplitter {
   std::vector<bool>* used_ = nullptr;
   std::vector<SegmentPiece>* pieces_ = nullptr;
   double snap_ = 0;
+  double rounding_ = 0;  // a computed distance of 0 is at most this
   std::vector<CutPoint> cuts_;
   std::vector<SegmentPiece> next_;
   std::vector<char> fresh_, next_fresh_;  // pieces that changed since they were last tested
