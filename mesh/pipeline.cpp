@@ -24,10 +24,10 @@ double SecondsSince(Clock::time_point start) {
 // What follows from the error asked for. Measured on closed boxes and furnished rooms: with these the 99th
 // percentile stays at or below the error asked for where the interpolants are not limited by weak
 // discontinuities.
-constexpr double kEpsOfMeanIrradiance = 0.5;  // eps = this x error x mean irradiance
-constexpr double kWeightOfStrongest = 5;  // minimum weight = this x error x largest radiosity, at most ...
-constexpr double kLargestWeight = 0.25;   // ... this x largest radiosity
-constexpr double kMinAreaOfScene = 1e-7;  // of the fronts' total area
+constexpr double kEpsOfMeanIrradiance = 2;  // eps = this x error x mean irradiance
+constexpr double kWeightOfStrongest = 5;    // minimum weight = this x error x largest radiosity, at most ...
+constexpr double kLargestWeight = 0.25;     // ... this x largest radiosity
+constexpr double kMinAreaOfScene = 1e-7;    // of the fronts' total area
 constexpr double kCutoffOfError = 0.005;
 
 struct SceneTotals {

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "solver/base/parallel.h"
+#include "solver/transport/cubature.h"
 #include "solver/transport/link_former.h"
+#include "solver/transport/point_irradiance.h"
 
 namespace penumbra {
 namespace {
@@ -16,9 +18,10 @@ double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Elements a task gathers, and receivers a task links.
+// Elements a task gathers, receivers it links, leaves it corrects.
 constexpr std::size_t kGatherGrain = 256;
 constexpr std::size_t kLinkGrain = 2;
+constexpr std::size_t kExactGrain = 8;
 
 // The most sweeps before an iteration refines all the same: rooms of reflectance 0.99 need some 1,400.
 constexpr std::size_t kMaxSweeps = 5000;
@@ -48,7 +51,10 @@ std::vector<LinkSet> FormGroups(const ElementForest& forest, const std::vector<G
 
 HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility,
                                        const SolverOptions& options)
-    : scene_(scene), options_(options), oracle_(options.eps, options.min_area, ReferenceArea(scene)) {
+    : scene_(scene),
+      visibility_(visibility),
+      options_(options),
+      oracle_(options.eps, options.min_area, ReferenceArea(scene)) {
   solution_.forest = ElementForest(scene);
   std::vector<Group> groups;
   for (std::size_t p = 0; p < scene.patches.size(); ++p) {
@@ -104,6 +110,7 @@ void HierarchicalSolver::ResizeLight() {
   solution_.radiosity_spread.resize(count, 0);
   solution_.spread_below.resize(count, 0);
   gathered_.resize(count, Rgb::Zero());
+  correction_.resize(count, Rgb::Zero());
   first_link_.resize(count + 1, solution_.links.links.size());
   for (std::size_t e = before; e < count; ++e) {
     const ElementId parent = solution_.forest[static_cast<ElementId>(e)].parent;
@@ -118,8 +125,8 @@ void HierarchicalSolver::PushPull(ElementId id, const Rgb& from_above) {
   const Rgb irradiance = from_above + gathered_[id];
   if (element.IsLeaf()) {
     const Material& material = scene_.MaterialOf(element.patch);
-    solution_.irradiance[id] = irradiance;
-    solution_.radiosity[id] = material.emittance + material.reflectance * irradiance;
+    solution_.irradiance[id] = irradiance + correction_[id];
+    solution_.radiosity[id] = material.emittance + material.reflectance * solution_.irradiance[id];
     solution_.radiosity_spread[id] = 0;
     solution_.spread_below[id] = 0;
     return;
@@ -260,12 +267,45 @@ IterationReport HierarchicalSolver::Iterate(const ExecutionContext& context) {
   return report;
 }
 
+double HierarchicalSolver::Correct(const ExecutionContext& context) {
+  const std::vector<ElementId> leaves = solution_.forest.AllLeaves();
+  const SourceSet sources = SourceSet::FromSolution(solution_);
+  const PointIrradiance exact(scene_, visibility_, sources);
+  std::vector<Rgb> change(leaves.size(), Rgb::Zero());
+  ParallelFor(leaves.size(), kExactGrain, [&](std::size_t i) {
+    if (context.Cancelled()) return;
+    const Element& leaf = solution_.forest[leaves[i]];
+    ReceiverPoint at;
+    at.normal = scene_.patches[leaf.patch].normal;
+    for (const CubaturePoint& point : Cubature(leaf.Vertices())) {
+      at.position = point.position;
+      change[i] += point.weight * exact.OnPatch(leaf.patch, at).irradiance;
+    }
+    change[i] -= solution_.irradiance[leaves[i]];
+  });
+  if (context.Cancelled()) return 0;
+
+  double squares = 0, mean = 0, area = 0;
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const double a = solution_.forest[leaves[i]].area;
+    correction_[leaves[i]] += change[i];
+    squares += a * change[i].abs().maxCoeff() * change[i].abs().maxCoeff();
+    mean += a * solution_.irradiance[leaves[i]].maxCoeff();
+    area += a;
+  }
+  IterationReport ignored;
+  SweepToCutoff(ignored, context);
+  return mean > 0 ? std::sqrt(squares / area) / (mean / area) : 0;
+}
+
 std::vector<IterationReport> HierarchicalSolver::Solve(const ExecutionContext& context) {
   std::vector<IterationReport> reports;
   while (!converged_ && static_cast<int>(reports.size()) < options_.max_iterations && !context.Cancelled()) {
     reports.push_back(Iterate(context));
     context.Report("iterate", static_cast<double>(reports.size()) / options_.max_iterations);
   }
+  for (int pass = 0; pass < options_.max_corrections && !context.Cancelled(); ++pass)
+    if (Correct(context) <= options_.relative_cutoff) break;
   return reports;
 }
 

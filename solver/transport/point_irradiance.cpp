@@ -1,5 +1,7 @@
 #include "solver/transport/point_irradiance.h"
 
+#include <algorithm>
+#include <array>
 #include <numeric>
 #include <vector>
 
@@ -18,7 +20,7 @@ std::span<const Vec3> Vertices(const Node& node) {
 class Gathering {
  public:
   Gathering(const Scene& scene, const SourceSet& sources, const ReceiverPoint& at)
-      : sources_(sources), view_(scene, at), cones_(view_.cone_stack()) {}
+      : at_(at), sources_(sources), view_(scene, at), cones_(view_.cone_stack()) {}
 
   void AddSource(PatchId source, std::span<const PatchId> candidates, PatchId own) {
     const std::span<const Node> tree = sources_.Tree(source);
@@ -62,12 +64,27 @@ class Gathering {
     cones_.resize(top);
   }
 
+  // Adds all leaves of a subtree that nothing hides.
   void GatherVisible(std::span<const Node> nodes) {
-    for (const Node& node : nodes)
-      if (node.skip == 1)
-        irradiance_ += view_.VisibleFormFactor(view_.SeeSource(Vertices(node)), {}) * node.radiosity;
+    if (!view_.SourceIsPlain()) {
+      for (const Node& node : nodes)
+        if (node.skip == 1)
+          irradiance_ += view_.VisibleFormFactor(view_.SeeSource(Vertices(node)), {}) * node.radiosity;
+      return;
+    }
+    constexpr std::size_t kBatch = 128;
+    std::array<double, kBatch> factor;
+    const auto first = static_cast<std::size_t>(nodes[0].first_leaf);
+    const auto end = first + static_cast<std::size_t>(nodes[0].leaf_count);
+    const std::span<const Rgb> radiosity = sources_.LeafRadiosities();
+    for (std::size_t begin = first; begin < end; begin += kBatch) {
+      const std::size_t stop = std::min(end, begin + kBatch);
+      FormFactors(sources_.LeafPolygons(), begin, stop, at_.position, at_.normal, factor.data());
+      for (std::size_t i = begin; i < stop; ++i) irradiance_ += factor[i - begin] * radiosity[i];
+    }
   }
 
+  const ReceiverPoint& at_;
   const SourceSet& sources_;
   PointView view_;
   std::vector<const Cone*>& cones_;  // a stack: what may still hide the node at hand

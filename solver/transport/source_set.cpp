@@ -46,6 +46,7 @@ SourceSet SourceSet::FromSolution(const RadiositySolution& solution) {
     if ((solution.radiosity[root] != 0).any()) Append(solution, root, set.nodes_);
   }
   set.first_.push_back(set.nodes_.size());
+  set.NumberLeaves();
   return set;
 }
 
@@ -57,12 +58,22 @@ SourceSet SourceSet::Emitters(const Scene& scene) {
     if ((emittance != 0).any()) set.nodes_.push_back(MakeNode(patch.Vertices(), emittance));
   }
   set.first_.push_back(set.nodes_.size());
+  set.NumberLeaves();
   return set;
 }
 
-std::size_t SourceSet::LeafCount() const {
-  return static_cast<std::size_t>(
-      std::count_if(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.skip == 1; }));
+void SourceSet::NumberLeaves() {
+  std::vector<std::int32_t> before(nodes_.size() + 1, 0);  // leaves before each node
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    Node& node = nodes_[i];
+    node.first_leaf = before[i];
+    before[i + 1] = before[i] + (node.skip == 1 ? 1 : 0);
+    if (node.skip != 1) continue;
+    leaf_polygons_.Add({node.vertex.data(), static_cast<std::size_t>(node.size)});
+    leaf_radiosity_.push_back(node.radiosity);
+  }
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    nodes_[i].leaf_count = before[i + static_cast<std::size_t>(nodes_[i].skip)] - before[i];
 }
 
 }  // namespace penumbra

@@ -13,6 +13,7 @@
 
 #include "solver/geometry/vec.h"
 #include "solver/scene/scene.h"
+#include "solver/visibility/form_factor_batch.h"
 
 namespace penumbra {
 
@@ -23,10 +24,11 @@ class SourceSet {
   // A node of a source's quadtree, in depth-first order. Subtrees of one radiosity are a single leaf: the
   // polygon's integral is exact whatever its size.
   struct Node {
-    std::array<Vec3, 4> vertex;   // [m]
-    std::int32_t size = 0;        // corners: 3 or 4
-    std::int32_t skip = 1;        // nodes in this subtree, this one counted: a leaf has 1
-    Rgb radiosity = Rgb::Zero();  // [W/m^2]; of a leaf
+    std::array<Vec3, 4> vertex;                   // [m]
+    std::int32_t size = 0;                        // corners: 3 or 4
+    std::int32_t skip = 1;                        // nodes in this subtree, this one counted: a leaf has 1
+    std::int32_t first_leaf = 0, leaf_count = 1;  // the subtree's leaves, among all of the set
+    Rgb radiosity = Rgb::Zero();                  // [W/m^2]; of a leaf
   };
 
   // What the leaves of the solution emit and reflect.
@@ -38,11 +40,19 @@ class SourceSet {
   std::span<const Node> Tree(PatchId patch) const {
     return {nodes_.data() + first_[patch], nodes_.data() + first_[patch + 1]};
   }
-  std::size_t LeafCount() const;
+  std::size_t LeafCount() const { return leaf_radiosity_.size(); }
+
+  // All leaves, tree after tree: their polygons and radiosities.
+  const PolygonBatch& LeafPolygons() const { return leaf_polygons_; }
+  std::span<const Rgb> LeafRadiosities() const { return leaf_radiosity_; }
 
  private:
+  void NumberLeaves();
+
   std::vector<std::size_t> first_;  // per patch, into nodes_
   std::vector<Node> nodes_;
+  PolygonBatch leaf_polygons_;
+  std::vector<Rgb> leaf_radiosity_;
 };
 
 }  // namespace penumbra

@@ -30,6 +30,10 @@ class PointView {
   // What is seen, above the horizon, of a convex part of the source that the view is turned to.
   DirectionPolygon SeeSource(std::span<const Vec3> part) const;
 
+  // Whether the source at hand lies above the horizon as a whole and does not touch the point, so that its
+  // parts are seen as they are.
+  bool SourceIsPlain() const { return !source_in_contact_ && !source_crosses_horizon_; }
+
   // Appends the cones of those candidates that may hide parts of `seen`, before the plane of the source at
   // hand; `own`, the receiver's patch, is left out. False if one candidate hides all of it: then nothing is
   // appended. The cones live until the view turns to another source.

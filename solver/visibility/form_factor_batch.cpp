@@ -1,0 +1,97 @@
+#include "solver/visibility/form_factor_batch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "solver/base/check.h"
+#include "solver/base/vector_dispatch.h"
+
+namespace penumbra {
+namespace {
+
+// The arc tangent on [0, tan(pi/8)] as x times a polynomial in x^2 that interpolates atan(x)/x in twelve
+// Chebyshev nodes; its error there is 4e-18.
+constexpr std::array<double, 12> kAtan = {1.0,
+                                          -0.3333333333333312,
+                                          0.19999999999940893,
+                                          -0.14285714279250245,
+                                          0.11111110744919658,
+                                          -0.09090896809064027,
+                                          0.07692045330902225,
+                                          -0.06662951813629191,
+                                          0.05846878297330872,
+                                          -0.05035102456601552,
+                                          0.03796525745386593,
+                                          -0.017805397205419446};
+constexpr double kTanEighthPi = 0.41421356237309503;
+
+// atan2(y, x) for y >= 0, without branches.
+[[gnu::always_inline]] inline double AngleOf(double y, double x) {
+  const double ax = x < 0 ? -x : x;
+  const double low = y < ax ? y : ax, high = y < ax ? ax : y;
+  const bool big = low > kTanEighthPi * high;
+  // tan(a - pi/4) = (tan a - 1) / (tan a + 1)
+  const double numerator = big ? low - high : low, denominator = big ? low + high : high;
+  const double t = numerator / (denominator > 0 ? denominator : 1.0);
+  const double z = t * t;
+  double p = kAtan[11];
+#pragma GCC unroll 11
+  for (int k = 10; k >= 0; --k) p = p * z + kAtan[static_cast<std::size_t>(k)];
+  const double first = (big ? std::numbers::pi / 4 : 0.0) + t * p;
+  const double octant = y < ax ? first : std::numbers::pi / 2 - first;
+  return x < 0 ? std::numbers::pi - octant : octant;
+}
+
+// One edge's share of 2 pi times the negated form factor. a is the edge's start, b its end, p the point, n its normal.
+[[gnu::always_inline]] inline double EdgeTerm(double ax, double ay, double az, double bx, double by, double bz,
+                                              double px, double py, double pz, double nx, double ny, double nz) {
+  // The edge from the original coordinates: what is close to it keeps its digits.
+  const double ex = bx - ax, ey = by - ay, ez = bz - az;
+  const double rx = ax - px, ry = ay - py, rz = az - pz;
+  const double mx = ry * ez - rz * ey, my = rz * ex - rx * ez, mz = rx * ey - ry * ex;
+  const double length = std::sqrt(mx * mx + my * my + mz * mz);
+  const double cosine = rx * (rx + ex) + ry * (ry + ey) + rz * (rz + ez);
+  const double rise = nx * mx + ny * my + nz * mz;
+  return rise / (length > 0 ? length : 1.0) * AngleOf(length, cosine);
+}
+
+// c[3 k + axis] points to the coordinates of the k-th vertices.
+PENUMBRA_VECTOR_CLONES
+void Kernel(const std::array<const double*, 12>& c, std::size_t count, double px, double py, double pz, double nx,
+            double ny, double nz, double* __restrict out) {
+  const double *__restrict x0 = c[0], *__restrict y0 = c[1], *__restrict z0 = c[2];
+  const double *__restrict x1 = c[3], *__restrict y1 = c[4], *__restrict z1 = c[5];
+  const double *__restrict x2 = c[6], *__restrict y2 = c[7], *__restrict z2 = c[8];
+  const double *__restrict x3 = c[9], *__restrict y3 = c[10], *__restrict z3 = c[11];
+  for (std::size_t i = 0; i < count; ++i) {
+    const double first = EdgeTerm(x0[i], y0[i], z0[i], x1[i], y1[i], z1[i], px, py, pz, nx, ny, nz);
+    const double second = EdgeTerm(x1[i], y1[i], z1[i], x2[i], y2[i], z2[i], px, py, pz, nx, ny, nz);
+    const double third = EdgeTerm(x2[i], y2[i], z2[i], x3[i], y3[i], z3[i], px, py, pz, nx, ny, nz);
+    const double fourth = EdgeTerm(x3[i], y3[i], z3[i], x0[i], y0[i], z0[i], px, py, pz, nx, ny, nz);
+    // Counter-clockwise about a normal that points to the point: the sum is negative.
+    const double factor = -((first + second) + (third + fourth)) * (0.5 / std::numbers::pi);
+    out[i] = factor > 0 ? factor : 0;
+  }
+}
+
+}  // namespace
+
+void PolygonBatch::Add(std::span<const Vec3> polygon) {
+  PENUMBRA_CHECK(polygon.size() == 3 || polygon.size() == 4);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      coordinate_[3 * k + axis].push_back(
+          polygon[std::min(k, polygon.size() - 1)][static_cast<Eigen::Index>(axis)]);
+}
+
+void FormFactors(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
+                 const Vec3& normal, double* out) {
+  std::array<const double*, 12> corner;
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis) corner[3 * k + axis] = batch.Coordinates(k, axis) + begin;
+  Kernel(corner, end - begin, position.x(), position.y(), position.z(), normal.x(), normal.y(), normal.z(),
+         out);
+}
+
+}  // namespace penumbra

@@ -1,0 +1,42 @@
+// solver/visibility/form_factor_batch.h
+//
+// Form factors of one point to many unoccluded quadrilaterals at once: the inner loop of IrradianceAtPoint().
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "solver/geometry/vec.h"
+
+namespace penumbra {
+
+// Convex polygons of three or four vertices as a structure of arrays; a triangle repeats its last vertex.
+class PolygonBatch {
+ public:
+  std::size_t size() const { return coordinate_[0].size(); }
+  void Add(std::span<const Vec3> polygon);
+  // The coordinates of all k-th vertices along an axis.
+  const double* Coordinates(std::size_t k, std::size_t axis) const {
+    return coordinate_[3 * k + axis].data();
+  }
+
+ private:
+  std::array<std::vector<double>, 12> coordinate_;
+};
+
+// Writes out[i - begin], the form factor of the point at `position` with unit normal `normal` to polygon i of
+// the batch, for begin <= i < end: the sum of FormFactor() in solver/visibility/direction_polygon.h, to
+// kFormFactorBatchError. REQUIRES: the polygons lie above the point's horizon and turn their fronts to it.
+//
+// Vectorised, with the width chosen when the program starts; the results are the same for every width.
+void FormFactors(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
+                 const Vec3& normal, double* out);
+
+// Largest absolute difference from the scalar form factor: four edges, each off by some roundings of an angle
+// below pi.
+inline constexpr double kFormFactorBatchError = 4e-15;
+
+}  // namespace penumbra
