@@ -33,6 +33,41 @@ struct FoundFace {
 
 std::int32_t Size(const auto& container) { return static_cast<std::int32_t>(container.size()); }
 
+// By how much the winding number of the tag is greater on the triangle's side of its edge k than beyond it.
+std::int32_t WindingStep(const ConstrainedTriangulation& mesh, const Triangle& triangle, int k,
+                         std::span<const ConstraintSegment> constraints, std::int32_t tag) {
+  if (triangle.edge[k] < 0) return 0;
+  const bool along = triangle.vertex[k] < triangle.vertex[(k + 1) % 3];
+  std::int32_t step = 0;
+  for (const ConstrainedTriangulation::Cover& cover : mesh.Covers(mesh.edges[triangle.edge[k]]))
+    if (constraints[cover.constraint].tag == tag) step += cover.forward == along ? 1 : -1;
+  return step;
+}
+
+// Floods the triangles from outside the convex hull, where the number is 0.
+void FloodWinding(const ConstrainedTriangulation& mesh, std::span<const ConstraintSegment> constraints,
+                  std::int32_t tag, std::vector<std::int32_t>& winding, std::vector<std::int32_t>& stack) {
+  constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::min();
+  winding.assign(mesh.triangles.size(), kUnknown);
+  stack.clear();
+  for (std::int32_t t = 0; t < Size(mesh.triangles); ++t) {
+    const Triangle& triangle = mesh.triangles[t];
+    for (int k = 0; k < 3 && winding[t] == kUnknown; ++k)
+      if (triangle.neighbor[k] < 0) winding[t] = WindingStep(mesh, triangle, k, constraints, tag);
+    if (winding[t] != kUnknown) stack.push_back(t);
+  }
+  while (!stack.empty()) {
+    const std::int32_t t = stack.back();
+    stack.pop_back();
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t next = mesh.triangles[t].neighbor[k];
+      if (next < 0 || winding[next] != kUnknown) continue;
+      winding[next] = winding[t] - WindingStep(mesh, mesh.triangles[t], k, constraints, tag);
+      stack.push_back(next);
+    }
+  }
+}
+
 }  // namespace
 
 struct ConstrainedTriangulator::Impl {
@@ -45,7 +80,7 @@ struct ConstrainedTriangulator::Impl {
   std::vector<std::int32_t> order;
   std::vector<Cdt::Vertex_handle> handle;
   std::vector<FoundFace> found;
-  std::vector<std::int32_t> stack;
+  std::vector<std::int32_t> winding, stack;
 
   void MergeEqualPoints();
   void CollectPieces(std::span<const ConstraintSegment> constraints);
@@ -54,9 +89,7 @@ struct ConstrainedTriangulator::Impl {
   void InsertAll();
   void ExtractTriangles();
   void MarkEdges(std::span<const ConstraintSegment> constraints);
-  void FloodWinding(std::span<const ConstraintSegment> constraints);
-  std::int32_t WindingStep(const Triangle& triangle, int k,
-                           std::span<const ConstraintSegment> constraints) const;
+  void MarkInside(std::span<const ConstraintSegment> constraints);
 };
 
 void ConstrainedTriangulator::Impl::MergeEqualPoints() {
@@ -179,38 +212,16 @@ void ConstrainedTriangulator::Impl::MarkEdges(std::span<const ConstraintSegment>
     }
 }
 
-// By how much the winding number is greater on the triangle's side of its edge k than beyond it.
-std::int32_t ConstrainedTriangulator::Impl::WindingStep(
-    const Triangle& triangle, int k, std::span<const ConstraintSegment> constraints) const {
-  if (!triangle.border[k]) return 0;
-  const bool along = triangle.vertex[k] < triangle.vertex[(k + 1) % 3];
-  std::int32_t step = 0;
-  for (const ConstrainedTriangulation::Cover& cover : result.Covers(result.edges[triangle.edge[k]]))
-    if (constraints[cover.constraint].tag == kBorder) step += cover.forward == along ? 1 : -1;
-  return step;
+void ConstrainedTriangulator::Impl::MarkInside(std::span<const ConstraintSegment> constraints) {
+  FloodWinding(result, constraints, kBorder, winding, stack);
+  for (std::size_t t = 0; t < winding.size(); ++t) result.triangles[t].winding = winding[t];
 }
 
-void ConstrainedTriangulator::Impl::FloodWinding(std::span<const ConstraintSegment> constraints) {
-  constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::min();
-  stack.clear();
-  for (std::int32_t t = 0; t < Size(result.triangles); ++t) {
-    Triangle& triangle = result.triangles[t];
-    triangle.winding = kUnknown;
-    for (int k = 0; k < 3 && triangle.winding == kUnknown; ++k)
-      if (triangle.neighbor[k] < 0) triangle.winding = WindingStep(triangle, k, constraints);
-    if (triangle.winding != kUnknown) stack.push_back(t);
-  }
-  while (!stack.empty()) {
-    const Triangle triangle = result.triangles[stack.back()];
-    stack.pop_back();
-    for (int k = 0; k < 3; ++k) {
-      if (triangle.neighbor[k] < 0) continue;
-      Triangle& next = result.triangles[triangle.neighbor[k]];
-      if (next.winding != kUnknown) continue;
-      next.winding = triangle.winding - WindingStep(triangle, k, constraints);
-      stack.push_back(triangle.neighbor[k]);
-    }
-  }
+std::vector<std::int32_t> WindingNumbers(const ConstrainedTriangulation& mesh,
+                                         std::span<const ConstraintSegment> constraints, std::int32_t tag) {
+  std::vector<std::int32_t> winding, stack;
+  FloodWinding(mesh, constraints, tag, winding, stack);
+  return winding;
 }
 
 ConstrainedTriangulator::ConstrainedTriangulator() : impl_(std::make_unique<Impl>()) {}
@@ -228,7 +239,7 @@ const ConstrainedTriangulation& ConstrainedTriangulator::Triangulate(
   impl_->InsertAll();
   impl_->ExtractTriangles();
   impl_->MarkEdges(constraints);
-  impl_->FloodWinding(constraints);
+  impl_->MarkInside(constraints);
   return impl_->result;
 }
 

@@ -70,6 +70,11 @@ struct ConstrainedTriangulation {
   }
 };
 
+// Of each triangle, how often the constraints with the tag run counter-clockwise around it. REQUIRES: they
+// are the constraints that the mesh was made with, and those with the tag form closed loops.
+std::vector<std::int32_t> WindingNumbers(const ConstrainedTriangulation& mesh,
+                                         std::span<const ConstraintSegment> constraints, std::int32_t tag);
+
 // Triangulates one set after the other and keeps its buffers in between. One object a thread.
 class ConstrainedTriangulator {
  public:

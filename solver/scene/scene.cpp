@@ -29,9 +29,24 @@ Patch MakePatch(std::span<const Vec3> vertices, std::int32_t material, std::int3
 std::int32_t Scene::FaceAt(PatchId patch, const Vec3& p) const {
   const Patch& at = patches[patch];
   if (at.faces.size() == 1) return at.faces.front();
-  for (const std::int32_t face : at.faces)
-    if (ConvexContains(faces[face].vertices, at.normal, p, 0)) return face;
-  return at.faces.empty() ? -1 : at.faces.front();
+  // A joined patch is covered by two triangles; what lies outside both by rounding belongs to the nearer.
+  constexpr double kRounding = 1e-12;
+  std::int32_t nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::int32_t face : at.faces) {
+    const Polygon3& polygon = faces[face].vertices;
+    double outside = kRounding * Diameter(polygon);
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec3 edge = (polygon[(i + 1) % polygon.size()] - polygon[i]).normalized();
+      outside = std::max(outside, -at.normal.cross(edge).dot(p - polygon[i]));
+    }
+    if (outside <= kRounding * Diameter(polygon)) return face;
+    if (outside < least) {
+      least = outside;
+      nearest = face;
+    }
+  }
+  return nearest;
 }
 
 std::pair<Vec3, Vec3> Scene::Bounds() const {

@@ -10,7 +10,7 @@ namespace {
 
 double TriangleArea(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * (b - a).cross(c - a).norm(); }
 
-// Radon's seven points (1948), weights times the area.
+// Three inner points (Hammer and Stroud 1956), weights times the area.
 void AddTriangle(const Vec3& a, const Vec3& b, const Vec3& c, int refinement,
                  std::vector<CubaturePoint>& points) {
   if (refinement > 0) {
@@ -21,19 +21,13 @@ void AddTriangle(const Vec3& a, const Vec3& b, const Vec3& c, int refinement,
     AddTriangle(bc, ca, ab, refinement - 1, points);
     return;
   }
-  static const double root = std::sqrt(15.0);
-  const double area = TriangleArea(a, b, c);
-  points.push_back({(a + b + c) / 3, area * 9 / 40});
-  for (const double sign : {-1.0, 1.0}) {
-    const double near = (6 - sign * root) / 21, far = 1 - 2 * near,
-                 weight = area * (155 - sign * root) / 1200;
-    points.push_back({near * (a + b) + far * c, weight});
-    points.push_back({near * (b + c) + far * a, weight});
-    points.push_back({near * (c + a) + far * b, weight});
-  }
+  const double third = TriangleArea(a, b, c) / 3;
+  points.push_back({(4 * a + b + c) / 6, third});
+  points.push_back({(a + 4 * b + c) / 6, third});
+  points.push_back({(a + b + 4 * c) / 6, third});
 }
 
-// Three Gauss-Legendre points along each parameter of the bilinear map, weights times its Jacobian.
+// Two Gauss-Legendre points along each parameter of the bilinear map, weights times its Jacobian.
 void AddQuadrilateral(const std::array<Vec3, 4>& v, int refinement, std::vector<CubaturePoint>& points) {
   if (refinement > 0) {
     const std::array<Vec3, 4> mid = {0.5 * (v[0] + v[1]), 0.5 * (v[1] + v[2]), 0.5 * (v[2] + v[3]),
@@ -45,15 +39,15 @@ void AddQuadrilateral(const std::array<Vec3, 4>& v, int refinement, std::vector<
     AddQuadrilateral({mid[3], centre, mid[2], v[3]}, refinement - 1, points);
     return;
   }
-  static const double offset = 0.5 * std::sqrt(0.6);
-  const std::array<double, 3> at = {0.5 - offset, 0.5, 0.5 + offset}, weight = {5.0 / 18, 8.0 / 18, 5.0 / 18};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) {
+  static const double offset = 0.5 / std::sqrt(3.0);
+  const std::array<double, 2> at = {0.5 - offset, 0.5 + offset};
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < 2; ++j) {
       const double s = at[i], t = at[j];
       const Vec3 ds = (1 - t) * (v[1] - v[0]) + t * (v[2] - v[3]),
                  dt = (1 - s) * (v[3] - v[0]) + s * (v[2] - v[1]);
       points.push_back({(1 - t) * ((1 - s) * v[0] + s * v[1]) + t * ((1 - s) * v[3] + s * v[2]),
-                        weight[i] * weight[j] * ds.cross(dt).norm()});
+                        0.25 * ds.cross(dt).norm()});
     }
 }
 

@@ -36,6 +36,18 @@ Vec3 LatticePosition(const Patch& patch, const LatticePoint& p) {
          ((1 - s) * t) * patch.vertex[3];
 }
 
+std::array<std::array<Vec3, 4>, 4> Quarters(const Element& element) {
+  std::array<std::array<Vec3, 4>, 4> quarters;
+  for (std::size_t c = 0; c < 4; ++c) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(element.size); ++k) {
+      const auto [i, j] = element.size == 3 ? kTriangleChildren[c][k] : kQuadrilateralChildren[c][k];
+      quarters[c][k] = 0.5 * (element.vertex[i] + element.vertex[j]);
+    }
+    if (element.size == 3) quarters[c][3] = quarters[c][2];
+  }
+  return quarters;
+}
+
 ElementForest::ElementForest(const Scene& scene) : scene_(&scene) {
   constexpr std::int32_t n = kLatticeSize;
   for (std::size_t p = 0; p < scene.patches.size(); ++p) {

@@ -66,6 +66,9 @@ struct Element {
   std::span<const LatticePoint> Corners() const { return {corner.data(), static_cast<std::size_t>(size)}; }
 };
 
+// The corners of the four children that the element has or would have [m].
+std::array<std::array<Vec3, 4>, 4> Quarters(const Element& element);
+
 // All quadtrees of a scene. Ids stay valid while trees grow; references to elements do not.
 class ElementForest {
  public:

@@ -23,6 +23,13 @@ constexpr std::size_t kLinkGrain = 2;
 // The most sweeps before an iteration refines all the same: rooms of reflectance 0.99 need some 1,400.
 constexpr std::size_t kMaxSweeps = 5000;
 
+// The area of an element for which eps is meant: a 16 x 16 mesh of all fronts together.
+double ReferenceArea(const Scene& scene) {
+  double area = 0;
+  for (const Patch& patch : scene.patches) area += patch.area;
+  return area / 256;
+}
+
 // All new links of one receiver.
 struct Group {
   ElementId receiver;
@@ -41,7 +48,7 @@ std::vector<LinkSet> FormGroups(const ElementForest& forest, const std::vector<G
 
 HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility,
                                        const SolverOptions& options)
-    : scene_(scene), options_(options), oracle_(options.eps, options.min_area) {
+    : scene_(scene), options_(options), oracle_(options.eps, options.min_area, ReferenceArea(scene)) {
   solution_.forest = ElementForest(scene);
   std::vector<Group> groups;
   for (std::size_t p = 0; p < scene.patches.size(); ++p) {
@@ -95,6 +102,7 @@ void HierarchicalSolver::ResizeLight() {
   solution_.irradiance.resize(count, Rgb::Zero());
   solution_.radiosity.resize(count, Rgb::Zero());
   solution_.radiosity_spread.resize(count, 0);
+  solution_.spread_below.resize(count, 0);
   gathered_.resize(count, Rgb::Zero());
   first_link_.resize(count + 1, solution_.links.links.size());
   for (std::size_t e = before; e < count; ++e) {
@@ -113,6 +121,7 @@ void HierarchicalSolver::PushPull(ElementId id, const Rgb& from_above) {
     solution_.irradiance[id] = irradiance;
     solution_.radiosity[id] = material.emittance + material.reflectance * irradiance;
     solution_.radiosity_spread[id] = 0;
+    solution_.spread_below[id] = 0;
     return;
   }
   Rgb irradiance_sum = Rgb::Zero(), radiosity_sum = Rgb::Zero();
@@ -126,13 +135,26 @@ void HierarchicalSolver::PushPull(ElementId id, const Rgb& from_above) {
   }
   solution_.irradiance[id] = irradiance_sum / area;
   solution_.radiosity[id] = radiosity_sum / area;
-  double variance = 0;
+  double variance = 0, below_variance = 0;
   for (ElementId child = element.first_child; child < element.first_child + 4; ++child) {
     const double deviation = (solution_.radiosity[child] - solution_.radiosity[id]).abs().maxCoeff();
     const double below = solution_.radiosity_spread[child];
     variance += solution_.forest[child].area * (deviation * deviation + below * below);
+    below_variance += solution_.forest[child].area * below * below;
   }
+  solution_.spread_below[id] = std::sqrt(below_variance / area);
   solution_.radiosity_spread[id] = std::sqrt(variance / area);
+}
+
+// The radiosity with which a link's source shines on its receiver: the mean of its children's, by their
+// shares.
+Rgb SourceRadiosity(const RadiositySolution& solution, const Link& link) {
+  const ElementId first = solution.forest[link.source].first_child;
+  if (first == kNoElement) return solution.radiosity[link.source];
+  Rgb radiosity = Rgb::Zero();
+  for (int q = 0; q < 4; ++q)
+    radiosity += static_cast<double>(link.share[static_cast<std::size_t>(q)]) * solution.radiosity[first + q];
+  return radiosity;
 }
 
 // One Jacobi sweep. Returns the largest change of a leaf's radiosity, relative to the largest radiosity.
@@ -141,7 +163,7 @@ double HierarchicalSolver::Sweep() {
   ParallelFor(s.forest.size(), kGatherGrain, [&](std::size_t e) {
     Rgb sum = Rgb::Zero();
     for (std::size_t i = first_link_[e]; i < first_link_[e + 1]; ++i)
-      sum += s.links.links[i].form_factor * s.radiosity[s.links.links[i].source];
+      sum += s.links.links[i].form_factor * SourceRadiosity(s, s.links.links[i]);
     gathered_[e] = sum;
   });
   const std::vector<Rgb> before = s.radiosity;

@@ -1,8 +1,8 @@
 #include "solver/transport/link_former.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 
 #include "solver/transport/cubature.h"
 #include "solver/visibility/point_view.h"
@@ -11,9 +11,8 @@
 namespace penumbra {
 namespace {
 
-// Receivers nearer to the source than this many of their own radii see the form factor bend towards the
-// contact: the rule is refined twice there. Beyond, the 9-point rule is good to about 1e-4 of the form
-// factor.
+// Receivers nearer to the source than this many of their own radii see the form factor bend towards the contact: the
+// rule is refined twice there.
 constexpr double kNear = 1.0;
 constexpr int kNearRefinement = 2;
 
@@ -23,7 +22,10 @@ struct Pending {
   Polygon3 lit;             // the receiver's part before the source's plane; empty if that is all of it
   double lit_fraction = 1;  // of its area
   int refinement = 0;
-  double mean = 0, mean_square = 0;
+  bool uniform = false;  // the source has one radiosity for good: its quarters need no factors of their own
+  std::array<std::array<Vec3, 4>, 4> quarters;
+  std::array<double, 4> mean{};  // of the factors of the quarters
+  double mean_square = 0;        // of their sum
 };
 
 double Radius(const Element& element, const Vec3& centre) {
@@ -70,12 +72,7 @@ class Former {
       }
       if (!whole.empty()) Average(Cubature(receiver_.Vertices(), refinement), whole);
     }
-    for (const Pending& pending : pending_) {
-      Link& link = set_.links[pending.link];
-      link.form_factor = pending.lit_fraction * pending.mean;
-      link.variation = std::sqrt(
-          std::max(0.0, pending.lit_fraction * pending.mean_square - link.form_factor * link.form_factor));
-    }
+    for (const Pending& pending : pending_) Finish(pending);
     return std::move(set_);
   }
 
@@ -125,11 +122,32 @@ class Former {
     const Vec3 source_centre = Centroid(source.Vertices());
     const double gap = (source_centre - centre_).norm() - Radius(source, source_centre) - radius_;
     pending.refinement = gap < kNear * radius_ ? kNearRefinement : 0;
+    pending.uniform = (forest_.scene().materials[source_patch.material].reflectance == 0).all();
+    pending.quarters = Quarters(source);
     set_.links.push_back(link);
     pending_.push_back(std::move(pending));
   }
 
-  // Adds the mean and the mean square of the point form factors of the given links.
+  void Finish(const Pending& pending) {
+    Link& link = set_.links[pending.link];
+    double total = 0, unevenness = 0;
+    for (const double mean : pending.mean) total += mean;
+    link.form_factor = pending.lit_fraction * total;
+    link.variation = std::sqrt(
+        std::max(0.0, pending.lit_fraction * pending.mean_square - link.form_factor * link.form_factor));
+    if (pending.uniform || total <= 0) return;
+    const double area = forest_[link.source].area;
+    for (std::size_t q = 0; q < 4; ++q) {
+      const std::span<const Vec3> quarter(pending.quarters[q].data(),
+                                          static_cast<std::size_t>(forest_[link.source].size));
+      const double share = pending.mean[q] / total, fraction = VectorArea(quarter).norm() / area;
+      link.share[q] = static_cast<float>(share);
+      unevenness += fraction * (share / fraction - 1) * (share / fraction - 1);
+    }
+    link.source_variation = static_cast<float>(std::sqrt(unevenness));
+  }
+
+  // Adds the means and the mean squares of the point form factors of the given links.
   void Average(const std::vector<CubaturePoint>& rule, std::span<const std::size_t> which) {
     for (const CubaturePoint& point : rule) {
       ReceiverPoint at;
@@ -137,22 +155,38 @@ class Former {
       at.normal = patch_.normal;
       PointView view(forest_.scene(), at);
       for (const std::size_t i : which) {
-        const double factor = PointFactor(view, set_.links[pending_[i].link]);
-        pending_[i].mean += point.weight * factor;
-        pending_[i].mean_square += point.weight * factor * factor;
+        const std::array<double, 4> factor = PointFactors(view, pending_[i]);
+        double sum = 0;
+        for (std::size_t q = 0; q < 4; ++q) {
+          pending_[i].mean[q] += point.weight * factor[q];
+          sum += factor[q];
+        }
+        pending_[i].mean_square += point.weight * sum * sum;
       }
     }
   }
 
-  double PointFactor(PointView& view, const Link& link) const {
+  // The form factors of a point to the quarters of a source.
+  std::array<double, 4> PointFactors(PointView& view, const Pending& pending) const {
+    std::array<double, 4> factor{};
+    const Link& link = set_.links[pending.link];
     const Element& source = forest_[link.source];
-    if (!view.FaceSource(source.patch)) return 0;
-    const DirectionPolygon seen = view.SeeSource(source.Vertices());
-    if (seen.empty()) return 0;
+    if (!view.FaceSource(source.patch)) return factor;
     std::vector<const Cone*>& cones = view.cone_stack();
     cones.clear();
-    if (!view.FindBlockers(set_.Blockers(link), receiver_.patch, seen, cones)) return 0;
-    return view.VisibleFormFactor(seen, cones);
+    if (link.blocker_count > 0) {
+      const DirectionPolygon whole = view.SeeSource(source.Vertices());
+      if (whole.empty() || !view.FindBlockers(set_.Blockers(link), receiver_.patch, whole, cones))
+        return factor;
+    }
+    if (pending.uniform) {
+      factor.fill(0.25 * view.VisibleFormFactor(view.SeeSource(source.Vertices()), cones));
+      return factor;
+    }
+    for (std::size_t q = 0; q < 4; ++q)
+      factor[q] = view.VisibleFormFactor(
+          view.SeeSource({pending.quarters[q].data(), static_cast<std::size_t>(source.size)}), cones);
+    return factor;
   }
 
   const ElementForest& forest_;

@@ -1,15 +1,30 @@
 #include "solver/transport/oracle.h"
 
+#include <cmath>
+
 namespace penumbra {
+namespace {
+
+// What a receiver's irradiance deviates by averages out over the receiver; what a source's uneven radiosity brings does
+// not: near bright parts of a wall receivers are bright, so that it errs to the dark side on every link, and adds up to
+// missing energy. At this share of eps the energy of closed boxes balances to less than 1e-3 whatever eps is; at a
+// tenth it misses 1e-2.
+constexpr double kSourceShare = 0.004;
+
+}  // namespace
 
 Refinement TransportOracle::Judge(const RadiositySolution& solution, const Link& link) const {
   const Element& receiver = solution.forest[link.receiver];
-  const double receiver_error = solution.radiosity[link.source].maxCoeff() * link.variation;
-  const double source_error = solution.radiosity_spread[link.source] * link.form_factor;
+  const double weight = std::sqrt(receiver.area / reference_area_);
+  const double receiver_error = weight * solution.radiosity[link.source].maxCoeff() * link.variation;
+  // The shares of the quarters carry the source's own unevenness: what is left is that of its children, whose
+  // form factor varies half as much.
+  const double source_error =
+      weight * 0.5 * link.source_variation * link.form_factor * solution.spread_below[link.source];
   const bool receiver_may = receiver.area >= 4 * min_area_ && receiver.level < kMaxLevel;
   const bool source_may = !solution.forest[link.source].IsLeaf();
   const bool split_receiver = receiver_may && receiver_error > eps_;
-  const bool split_source = source_may && source_error > eps_;
+  const bool split_source = source_may && source_error > kSourceShare * eps_;
   if (split_receiver && (!split_source || receiver_error >= source_error)) return Refinement::kSplitReceiver;
   return split_source ? Refinement::kSplitSource : Refinement::kAccept;
 }

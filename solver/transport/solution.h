@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,6 +22,11 @@ struct Link {
   double form_factor =
       0;  // F(receiver <- source) [1]: mean irradiance of the receiver per unit radiosity of the source
   double variation = 0;  // root mean square deviation of the point form factors over the receiver [1]
+  // How the form factor is shared among the source's four quarters; they add up to 1. They let a source that
+  // has children shine with their radiosities, not with its mean.
+  std::array<float, 4> share = {0.25F, 0.25F, 0.25F, 0.25F};
+  // Root mean square deviation, relative to the mean, of the form factor per area over those quarters.
+  float source_variation = 0;
   Visibility visibility = Visibility::kVisible;  // kVisible just if there are no blockers
   std::uint32_t first_blocker = 0, blocker_count = 0;
 };
@@ -42,6 +48,8 @@ struct RadiositySolution {
   // Per element [W/m^2]: root mean square deviation of the leaves' radiosities below it, of its largest
   // channel.
   std::vector<double> radiosity_spread;
+  // The same of each child about its own mean: what the children's radiosities leave out.
+  std::vector<double> spread_below;
 };
 
 }  // namespace penumbra

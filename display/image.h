@@ -1,0 +1,62 @@
+// display/image.h
+//
+// Pictures in memory. Rows run from the top, pixels from the left.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace penumbra {
+
+// Linear RGB, a plane a channel: radiosity [W/m^2], reflectance [1] or exposed values in [0, 1].
+struct RgbImage {
+  int width = 0, height = 0;
+  std::array<std::vector<float>, 3> channel;  // width * height values each
+
+  RgbImage() = default;
+  RgbImage(int w, int h) { Resize(w, h); }
+
+  // Values are unspecified afterwards where the size changes; no memory is taken where it does not grow.
+  void Resize(int w, int h) {
+    width = w;
+    height = h;
+    for (std::vector<float>& plane : channel) plane.resize(PixelCount());
+  }
+  std::size_t PixelCount() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
+  std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  }
+  std::array<float, 3> At(int x, int y) const {
+    const std::size_t i = Index(x, y);
+    return {channel[0][i], channel[1][i], channel[2][i]};
+  }
+  void Set(int x, int y, const std::array<float, 3>& rgb) {
+    for (std::size_t c = 0; c < 3; ++c) channel[c][Index(x, y)] = rgb[c];
+  }
+};
+
+// What a screen shows: 8-bit sRGB, three bytes a pixel.
+struct Srgb8Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> pixels;
+
+  void Resize(int w, int h) {
+    width = w;
+    height = h;
+    pixels.resize(3 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
+  }
+};
+
+// What a pixel shows, for tone mapping.
+enum class PixelKind : std::uint8_t { kBackground, kSurface, kEmitter };
+
+// The mean of each k x k block of pixels: supersampling's box filter.
+// REQUIRES: k > 0 divides width and height.
+RgbImage Downsample(const RgbImage& image, int k);
+
+}  // namespace penumbra

@@ -1,0 +1,119 @@
+#include "display/image_io.h"
+
+#include <ImfArray.h>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <vector>
+
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STBI_WRITE_NO_STDIO
+#define STB_IMAGE_WRITE_STATIC
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#include <stb_image_write.h>
+#pragma GCC diagnostic pop
+
+#include "solver/base/check.h"
+
+namespace penumbra {
+namespace {
+
+constexpr const char* kChannelNames[3] = {"R", "G", "B"};
+
+// Calls write(temporary path) and moves what it wrote to `path`. Whatever goes wrong becomes one InputError.
+void WriteWhole(const std::string& path, const std::function<void(const std::string&)>& write) {
+  const std::string temporary = path + ".tmp";
+  try {
+    if (std::filesystem::is_directory(path)) throw std::runtime_error("it is a directory");
+    write(temporary);
+    std::filesystem::rename(temporary, path);
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw InputError(fmt::format("{}: error: cannot write the image: {}; name a place that can be written",
+                                 path, error.what()));
+  }
+}
+
+void WriteBytes(const std::string& path, const std::vector<char>& bytes) {
+  errno = 0;
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  if (file) file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) throw std::runtime_error(std::strerror(errno != 0 ? errno : EIO));
+}
+
+// A slice over one plane of the image.
+Imf::Slice PlaneSlice(const float* plane, int x_min, int y_min, int width) {
+  // OpenEXR addresses pixels by their place in the data window and takes a pointer to non-const for reading,
+  // too.
+  char* base = const_cast<char*>(reinterpret_cast<const char*>(plane));
+  const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(y_min) * width + x_min;
+  return {Imf::FLOAT, base - first * static_cast<std::ptrdiff_t>(sizeof(float)), sizeof(float),
+          sizeof(float) * static_cast<std::size_t>(width)};
+}
+
+}  // namespace
+
+void WritePng(const std::string& path, const Srgb8Image& image) {
+  PENUMBRA_CHECK(image.width > 0 && image.height > 0);
+  WriteWhole(path, [&](const std::string& temporary) {
+    std::vector<char> bytes;
+    const auto append = [](void* context, void* data, int size) {
+      auto* to = static_cast<std::vector<char>*>(context);
+      const char* from = static_cast<const char*>(data);
+      to->insert(to->end(), from, from + size);
+    };
+    if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.pixels.data(),
+                                3 * image.width))
+      throw std::runtime_error("it could not be encoded");
+    WriteBytes(temporary, bytes);
+  });
+}
+
+void WriteExr(const std::string& path, const RgbImage& image) {
+  PENUMBRA_CHECK(image.width > 0 && image.height > 0);
+  WriteWhole(path, [&](const std::string& temporary) {
+    Imf::Header header(image.width, image.height);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    Imf::FrameBuffer frame;
+    for (std::size_t c = 0; c < 3; ++c) {
+      header.channels().insert(kChannelNames[c], Imf::Channel(Imf::FLOAT));
+      frame.insert(kChannelNames[c], PlaneSlice(image.channel[c].data(), 0, 0, image.width));
+    }
+    Imf::OutputFile file(temporary.c_str(), header);
+    file.setFrameBuffer(frame);
+    file.writePixels(image.height);
+  });
+}
+
+RgbImage ReadExr(const std::string& path) {
+  try {
+    Imf::InputFile file(path.c_str());
+    const auto window = file.header().dataWindow();
+    RgbImage image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
+    Imf::FrameBuffer frame;
+    for (std::size_t c = 0; c < 3; ++c)
+      frame.insert(kChannelNames[c],
+                   PlaneSlice(image.channel[c].data(), window.min.x, window.min.y, image.width));
+    file.setFrameBuffer(frame);
+    file.readPixels(window.min.y, window.max.y);
+    return image;
+  } catch (const std::exception& error) {
+    throw InputError(
+        fmt::format("{}: error: cannot read the image: {}; give an EXR file", path, error.what()));
+  }
+}
+
+}  // namespace penumbra

@@ -1,0 +1,43 @@
+// solver/geometry/plane_projection.h
+//
+// A plane seen along the coordinate axis nearest to its normal: two coordinates of a point are kept as they
+// are, so that exact predicates in two dimensions decide about the points as given.
+
+#pragma once
+
+#include <utility>
+
+#include "solver/geometry/vec.h"
+
+namespace penumbra {
+
+class PlaneProjection {
+ public:
+  // The plane through `point` with the normal `normal`, of any length but zero. What runs counter-clockwise
+  // about the normal does so in the projection.
+  PlaneProjection(const Vec3& point, const Vec3& normal) : point_(point), normal_(normal) {
+    normal.cwiseAbs().maxCoeff(&dropped_);
+    x_ = (dropped_ + 1) % 3;
+    y_ = (dropped_ + 2) % 3;
+    if (normal[dropped_] < 0) std::swap(x_, y_);
+  }
+
+  Vec2 ToPlane(const Vec3& p) const { return {p[x_], p[y_]}; }
+
+  // The point of the plane above p; kept coordinates are kept to the bit.
+  Vec3 FromPlane(const Vec2& p) const {
+    Vec3 lifted;
+    lifted[x_] = p.x();
+    lifted[y_] = p.y();
+    lifted[dropped_] =
+        point_[dropped_] -
+        (normal_[x_] * (p.x() - point_[x_]) + normal_[y_] * (p.y() - point_[y_])) / normal_[dropped_];
+    return lifted;
+  }
+
+ private:
+  Vec3 point_, normal_;
+  int dropped_ = 2, x_ = 0, y_ = 1;
+};
+
+}  // namespace penumbra

@@ -1,0 +1,21 @@
+// solver/scene/mtl_reader.h
+//
+// Wavefront MTL: `newmtl`, `Kd` (reflectance) and `Ke` (emittance [W/m^2]); everything else is ignored.
+
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "solver/scene/scene.h"
+#include "solver/scene/scene_options.h"
+
+namespace penumbra {
+
+// The materials of the text in their order; where no Kd stands, the reflectance is 50 % grey. `file` names
+// the text in messages; a clamped reflectance adds a line to `warnings`. Throws InputError.
+std::vector<Material> ReadMtlText(std::string_view text, std::string_view file, const SceneOptions& options,
+                                  std::vector<std::string>& warnings);
+
+}  // namespace penumbra

@@ -1,0 +1,39 @@
+// solver/scene/patch_builder.h
+//
+// From the faces of a scene to its patches: convex planar triangles and quadrilaterals, none of which lies on
+// another that looks the same way.
+
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/scene/scene.h"
+
+namespace penumbra {
+
+// Faces lie in one plane if the vertices of each are this near to the other's plane, relative to the larger
+// diameter: what the rounding of coordinates leaves of a common plane (1e-16, and 1e-12 for a small face far
+// from the origin), and too near for any two surfaces that are meant to be apart.
+inline constexpr double kCoplanarTolerance = 1e-9;
+
+struct PatchReport {
+  std::vector<std::int32_t>
+      cut_faces;  // ascending: faces that lost what overlaps an emitter or an earlier face
+};
+
+// Fills scene.patches from scene.faces, ascending by their first face:
+//
+//  (1) Convex triangles and quadrilaterals stay as they are. A straight corner is left out.
+//  (2) Coplanar triangles of the same objects and material with a common edge are joined where they form a
+//  convex
+//      quadrilateral, the best shaped first.
+//  (3) Where outlines that look the same way overlap in one plane, the emitter wins, else the first; the
+//  others lose the
+//      overlap. Opposite-facing ones, like the foot of a box and the floor, stay.
+//  (4) What is then not a convex triangle or quadrilateral is triangulated and joined to few pieces.
+//
+// Vertices of faces keep their bits; a crossing of outlines is rounded once for all pieces of a face.
+PatchReport BuildPatches(Scene& scene);
+
+}  // namespace penumbra
