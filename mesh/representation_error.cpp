@@ -7,44 +7,10 @@
 #include "mesh/mesh_locator.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
-#include "solver/base/random.h"
+#include "solver/scene/surface_points.h"
 
 namespace penumbra {
 namespace {
-
-struct SamplePoint {
-  PatchId patch = kNoPatch;
-  Vec3 position = Vec3::Zero();
-};
-
-// One point in each of `count` equal shares of the total area: the share's place along the list of patches is
-// drawn within it, the place within the patch freely.
-std::vector<SamplePoint> SpreadPoints(const Scene& scene, std::size_t count, std::uint64_t seed) {
-  std::vector<double> up_to;
-  double total = 0;
-  for (const Patch& patch : scene.patches) up_to.push_back(total += patch.area);
-  Random random(seed);
-  std::vector<SamplePoint> points;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double at = (static_cast<double>(i) + random.Uniform()) / static_cast<double>(count) * total;
-    const auto found = std::upper_bound(up_to.begin(), up_to.end(), at);
-    const std::size_t p = std::min(static_cast<std::size_t>(found - up_to.begin()), up_to.size() - 1);
-    const Patch& patch = scene.patches[p];
-    // A quadrilateral is two triangles, chosen by area.
-    std::array<Vec3, 3> corner = {patch.vertex[0], patch.vertex[1], patch.vertex[2]};
-    const double first = VectorArea(corner).norm();
-    if (patch.size == 4 && random.Uniform() * patch.area > first)
-      corner = {patch.vertex[0], patch.vertex[2], patch.vertex[3]};
-    double s = random.Uniform(), t = random.Uniform();
-    if (s + t > 1) {
-      s = 1 - s;
-      t = 1 - t;
-    }
-    points.push_back(
-        {static_cast<PatchId>(p), corner[0] + s * (corner[1] - corner[0]) + t * (corner[2] - corner[0])});
-  }
-  return points;
-}
 
 // The value that the fraction q of the ascending list does not pass.
 double Quantile(const std::vector<double>& ascending, double q) {
@@ -59,7 +25,7 @@ RepresentationError MeasureRepresentationError(const Scene& scene, const Irradia
                                                std::uint64_t seed) {
   RepresentationError error;
   if (scene.patches.empty() || points == 0) return error;
-  const std::vector<SamplePoint> at = SpreadPoints(scene, points, seed);
+  const std::vector<SurfacePoint> at = SpreadPoints(scene, points, seed);
   const MeshLocator locator(scene, mesh);
   std::vector<Rgb> shown(points), truth(points);
   constexpr std::size_t kPointsATask = 32;

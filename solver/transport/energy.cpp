@@ -6,6 +6,7 @@
 
 #include "solver/base/parallel.h"
 #include "solver/base/random.h"
+#include "solver/scene/surface_points.h"
 #include "solver/visibility/ray_caster.h"
 
 namespace penumbra {
@@ -17,21 +18,6 @@ struct Ray {
   ElementId leaf;
   Vec3 origin, direction;
 };
-
-// A point of the element for (s, t) in the unit square, spread evenly over its area.
-Vec3 PointOn(const Element& element, double s, double t) {
-  const double first =
-      (element.vertex[1] - element.vertex[0]).cross(element.vertex[2] - element.vertex[0]).norm();
-  const double second =
-      (element.vertex[2] - element.vertex[0]).cross(element.vertex[3] - element.vertex[0]).norm();
-  const double share = first / (first + second);
-  const bool in_first = s < share;
-  const double u = in_first ? s / share : (s - share) / (1 - share);
-  const Vec3& b = in_first ? element.vertex[1] : element.vertex[2];
-  const Vec3& c = in_first ? element.vertex[2] : element.vertex[3];
-  const double root = std::sqrt(u);
-  return (1 - root) * element.vertex[0] + root * (1 - t) * b + root * t * c;
-}
 
 Vec3 CosineDirection(const Vec3& normal, double s, double t) {
   const Frame frame = MakeFrame(Vec3::Zero(), normal);
@@ -49,7 +35,7 @@ Ray MakeRay(const RadiositySolution& solution, const std::vector<ElementId>& lea
   std::array<double, 4> x;
   for (std::size_t d = 0; d < 4; ++d) x[d] = AdditiveRecurrence(i + 7919 * seed, kR4Alpha[d]);
   const Vec3& normal = solution.forest.scene().patches[element.patch].normal;
-  return {leaves[std::min(leaf, leaves.size() - 1)], PointOn(element, x[0], x[1]),
+  return {leaves[std::min(leaf, leaves.size() - 1)], PointOn(element.Vertices(), x[0], x[1]),
           CosineDirection(normal, x[2], x[3])};
 }
 

@@ -157,7 +157,8 @@ Rgb SourceRadiosity(const RadiositySolution& solution, const Link& link) {
   return radiosity;
 }
 
-// One Jacobi sweep. Returns the largest change of a leaf's radiosity, relative to the largest radiosity.
+// One Jacobi sweep. Returns the largest change of a leaf's radiosity, relative to the largest reflected
+// radiosity.
 double HierarchicalSolver::Sweep() {
   const RadiositySolution& s = solution_;
   ParallelFor(s.forest.size(), kGatherGrain, [&](std::size_t e) {
@@ -173,7 +174,8 @@ double HierarchicalSolver::Sweep() {
   for (std::size_t e = 0; e < before.size(); ++e) {
     if (!s.forest[static_cast<ElementId>(e)].IsLeaf()) continue;
     change = std::max(change, (s.radiosity[e] - before[e]).abs().maxCoeff());
-    largest = std::max(largest, s.radiosity[e].maxCoeff());
+    const Material& material = scene_.MaterialOf(s.forest[static_cast<ElementId>(e)].patch);
+    largest = std::max(largest, (s.radiosity[e] - material.emittance).maxCoeff());
   }
   return largest > 0 ? change / largest : 0;
 }

@@ -19,12 +19,13 @@ struct SolverOptions {
   double eps = 0.1;        // largest transport error of a link [W/m^2] (thesis, Appendix A, 1)
   double min_area = 1e-5;  // smallest area of an element [m^2] (Appendix A, 2)
   double relative_cutoff =
-      1e-4;  // converged when no radiosity is farther off, relative to the largest (Appendix A, 7)
+      1e-4;  // converged when no radiosity is farther off, relative to the largest reflected one
+  // (Appendix A, 7)
   int max_iterations = 100;  // iterations: each gathers until it settles, then refines
 };
 
 struct IterationReport {
-  double residual = 0;  // bound of what is missing from the largest radiosity, relative to it
+  double residual = 0;  // bound of what is missing from any radiosity, relative to the largest reflected one
   std::size_t elements = 0, links = 0;
   std::size_t sweeps = 0;  // gathers with push-pull
   std::size_t links_split = 0;

@@ -11,8 +11,8 @@
 namespace penumbra {
 namespace {
 
-// Receivers nearer to the source than this many of their own radii see the form factor bend towards the contact: the
-// rule is refined twice there.
+// Receivers nearer to the source than this many of their own radii see the form factor bend towards the
+// contact: the rule is refined twice there.
 constexpr double kNear = 1.0;
 constexpr int kNearRefinement = 2;
 

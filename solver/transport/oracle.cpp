@@ -5,10 +5,10 @@
 namespace penumbra {
 namespace {
 
-// What a receiver's irradiance deviates by averages out over the receiver; what a source's uneven radiosity brings does
-// not: near bright parts of a wall receivers are bright, so that it errs to the dark side on every link, and adds up to
-// missing energy. At this share of eps the energy of closed boxes balances to less than 1e-3 whatever eps is; at a
-// tenth it misses 1e-2.
+// What a receiver's irradiance deviates by averages out over the receiver; what a source's uneven radiosity
+// brings does not: near bright parts of a wall receivers are bright, so that it errs to the dark side on
+// every link, and adds up to missing energy. At this share of eps the energy of closed boxes balances to less
+// than 1e-3 whatever eps is; at a tenth it misses 1e-2.
 constexpr double kSourceShare = 0.004;
 
 }  // namespace

@@ -18,12 +18,13 @@ class RefinementOracle {
   virtual Refinement Judge(const RadiositySolution& solution, const Link& link) const = 0;
 };
 
-// Transport error (thesis 4.4.1), in W/m^2 of irradiance, for the largest channel. Our point form factors are exact
-// whatever the size of the source, so that a link errs in two ways only: the receiver's irradiance varies over it,
-// B x variation(F), and the source's radiosity varies within its quarters, F x spread(B) x variation(F). Both count by
-// the square root of the receiver's area, so that the squares add up to the error over the scene, and the elements
-// along edges where walls meet, whose form factors vary whatever their size, are not split for ever. An element of
-// reference area errs by at most eps. (The thesis compares with eps without the area, and splits the larger element.)
+// Transport error (thesis 4.4.1), in W/m^2 of irradiance, for the largest channel. Our point form factors are
+// exact whatever the size of the source, so that a link errs in two ways only: the receiver's irradiance
+// varies over it, B x variation(F), and the source's radiosity varies within its quarters, F x spread(B) x
+// variation(F). Both count by the square root of the receiver's area, so that the squares add up to the error
+// over the scene, and the elements along edges where walls meet, whose form factors vary whatever their size,
+// are not split for ever. An element of reference area errs by at most eps. (The thesis compares with eps
+// without the area, and splits the larger element.)
 class TransportOracle : public RefinementOracle {
  public:
   TransportOracle(double eps, double min_area, double reference_area)

@@ -1,0 +1,56 @@
+#include "apps/benchmark.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "solver/base/parallel.h"
+
+namespace penumbra {
+namespace {
+
+// The camera after the part `turn` of a whole turn about its `up` through the point that it looks at.
+Camera Orbit(const Camera& camera, double turn) {
+  Camera turned = camera;
+  const Vec3 axis = camera.up.stableNorm() > 0 ? camera.up.stableNormalized().eval() : Vec3::UnitZ().eval();
+  turned.eye =
+      camera.look_at + Eigen::AngleAxisd(2 * std::numbers::pi * turn, axis) * (camera.eye - camera.look_at);
+  return turned;
+}
+
+}  // namespace
+
+std::string RunBenchmark(TwoPassDisplay& display, const BenchmarkSettings& settings) {
+  const auto draw = [&](double turn) {
+    display.Render(Orbit(settings.camera, turn), settings.width, settings.height, settings.mode);
+    return display.ToneMap(settings.tone).ms;
+  };
+  draw(0);
+
+  FrameTimes sum;
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < settings.frames; ++i) {
+    const FrameTimes ms = draw(static_cast<double>(i) / settings.frames);
+    sum.triangle_ids += ms.triangle_ids;
+    sum.barycentric += ms.barycentric;
+    sum.evaluate += ms.evaluate;
+    sum.tone_map += ms.tone_map;
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+
+  const nlohmann::ordered_json line = {{"fps", settings.frames / seconds},
+                                       {"ms",
+                                        {{"triangle_ids", sum.triangle_ids / settings.frames},
+                                         {"barycentric", sum.barycentric / settings.frames},
+                                         {"evaluate", sum.evaluate / settings.frames},
+                                         {"tone_map", sum.tone_map / settings.frames},
+                                         {"total", sum.Total() / settings.frames}}},
+                                       {"size", fmt::format("{}x{}", settings.width, settings.height)},
+                                       {"triangles", display.TriangleCount()},
+                                       {"threads", ThreadCount()}};
+  return line.dump() + "\n";
+}
+
+}  // namespace penumbra

@@ -1,0 +1,113 @@
+// penumbra info: what is in a scene, and what was repaired in it.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/commands.h"
+#include "apps/output.h"
+#include "apps/scene_arguments.h"
+
+namespace penumbra {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct SceneSummary {
+  std::size_t dropped = 0, triangles = 0, quadrilaterals = 0, emitters = 0;
+  double area = 0;                  // [m^2]
+  Rgb emitted_power = Rgb::Zero();  // [W]
+};
+
+SceneSummary Summarise(const Scene& scene) {
+  SceneSummary summary;
+  summary.dropped = static_cast<std::size_t>(std::count_if(scene.faces.begin(), scene.faces.end(),
+                                                           [](const Face& f) { return f.vertices.empty(); }));
+  for (const Patch& patch : scene.patches) {
+    const Rgb& emittance = scene.materials[static_cast<std::size_t>(patch.material)].emittance;
+    ++(patch.size == 3 ? summary.triangles : summary.quadrilaterals);
+    if ((emittance > 0).any()) ++summary.emitters;
+    summary.area += patch.area;
+    summary.emitted_power += patch.area * emittance;
+  }
+  return summary;
+}
+
+Json ToJson(const Eigen::Ref<const Vec3>& v) { return {v.x(), v.y(), v.z()}; }
+
+std::string InfoJson(const Scene& scene, const SceneSummary& summary) {
+  const auto [low, high] = scene.Bounds();
+  Json cameras = Json::array(), objects = Json::array();
+  for (const Camera& camera : scene.cameras)
+    cameras.push_back({{"name", camera.name},
+                       {"eye", ToJson(camera.eye)},
+                       {"look_at", ToJson(camera.look_at)},
+                       {"up", ToJson(camera.up)},
+                       {"fov", camera.vertical_fov}});
+  for (const Object& object : scene.objects)
+    objects.push_back({{"name", object.name}, {"faces", object.faces.size()}});
+  const Json info = {{"name", scene.name},
+                     {"faces", scene.faces.size()},
+                     {"dropped", summary.dropped},
+                     {"patches", scene.patches.size()},
+                     {"triangles", summary.triangles},
+                     {"quadrilaterals", summary.quadrilaterals},
+                     {"emitters", summary.emitters},
+                     {"materials", scene.materials.size()},
+                     {"objects", objects},
+                     {"bounds", {{"min", ToJson(low)}, {"max", ToJson(high)}}},
+                     {"area", summary.area},
+                     {"emitted_power", ToJson(summary.emitted_power.matrix())},
+                     {"cameras", cameras},
+                     {"warnings", scene.warnings}};
+  return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string InfoText(const Scene& scene, const SceneSummary& summary) {
+  const auto [low, high] = scene.Bounds();
+  std::string text;
+  const auto add = [&](const char* what, const std::string& value) {
+    text += fmt::format("{:<14} {}\n", what, value);
+  };
+  add("scene", scene.name);
+  add("faces", fmt::format("{}, {} of them dropped", scene.faces.size(), summary.dropped));
+  add("patches", fmt::format("{}: {} triangles, {} quadrilaterals", scene.patches.size(), summary.triangles,
+                             summary.quadrilaterals));
+  add("emitters", fmt::format("{}", summary.emitters));
+  add("materials", fmt::format("{}", scene.materials.size()));
+  add("objects", fmt::format("{}", scene.objects.size()));
+  add("bounds [m]", fmt::format("{:g},{:g},{:g} to {:g},{:g},{:g}", low.x(), low.y(), low.z(), high.x(),
+                                high.y(), high.z()));
+  add("area [m^2]", fmt::format("{:g}", summary.area));
+  add("emitted [W]", fmt::format("red {:g}, green {:g}, blue {:g}", summary.emitted_power[0],
+                                 summary.emitted_power[1], summary.emitted_power[2]));
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+    add(i == 0 ? "cameras" : "", fmt::format("{} {}", i, scene.cameras[i].name));
+  add("warnings", fmt::format("{}", scene.warnings.size()));
+  return text;
+}
+
+void Info(const SceneArguments& arguments, bool as_json) {
+  const LoadedScene loaded = LoadScene(arguments);
+  if (arguments.verbose) PrintOptionsUsed(OptionsUsed(arguments, nullptr));
+  const SceneSummary summary = Summarise(loaded.scene);
+  WriteResult(std::nullopt, as_json ? InfoJson(loaded.scene, summary) : InfoText(loaded.scene, summary));
+}
+
+}  // namespace
+
+Command AddInfoCommand(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("info", "Tell what is in a scene, and what was repaired in it");
+  const auto arguments = std::make_shared<SceneArguments>();
+  const auto as_json = std::make_shared<bool>(false);
+  AddSceneArguments(*app, arguments.get());
+  app->add_flag("--json", *as_json, "Print JSON");
+  AddSolveOptions(*app, arguments.get());
+  app->footer("Nothing is solved: the options of solving are taken, and change nothing.");
+  return {app, [arguments, as_json] { Info(*arguments, *as_json); }};
+}
+
+}  // namespace penumbra

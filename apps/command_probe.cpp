@@ -1,0 +1,102 @@
+// penumbra probe: irradiance at points, exact and interpolated.
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/commands.h"
+#include "apps/interruptible.h"
+#include "apps/output.h"
+#include "apps/points_csv.h"
+#include "apps/probe.h"
+#include "apps/scene_arguments.h"
+#include "apps/solve_run.h"
+#include "solver/transport/source_set.h"
+#include "solver/visibility/patch_visibility.h"
+
+namespace penumbra {
+namespace {
+
+struct ProbeArguments {
+  SceneArguments scene;
+  std::string points;
+  std::optional<std::string> output;
+  bool direct = false;
+};
+
+std::vector<Measurement> Measure(const Prober& prober, const std::vector<ProbePoint>& points) {
+  std::vector<Measurement> measurements;
+  RunInterruptible([&](const ExecutionContext& context) { measurements = prober.Measure(points, context); });
+  return measurements;
+}
+
+// Only what surfaces emit of themselves: nothing is solved.
+std::vector<Measurement> MeasureDirect(const ProbeArguments& arguments, const Scene& scene,
+                                       const std::vector<ProbePoint>& points) {
+  if (arguments.scene.verbose) {
+    nlohmann::ordered_json options = OptionsUsed(arguments.scene, nullptr);
+    options["direct"] = true;
+    PrintOptionsUsed(options);
+  }
+  const PatchVisibility unused;  // which patch sees which matters on patches only; points may lie anywhere
+  const SourceSet sources = SourceSet::Emitters(scene);
+  const PointIrradiance irradiance(scene, unused, sources);
+  return Measure(Prober(scene, irradiance, nullptr), points);
+}
+
+void Probe(const ProbeArguments& arguments) {
+  if (arguments.output) CheckWritable(*arguments.output);
+  if (arguments.scene.report) CheckWritable(*arguments.scene.report);
+  const LoadedScene loaded = LoadScene(arguments.scene);
+  const std::vector<ProbePoint> points = ReadPointsCsv(arguments.points);
+
+  std::vector<Measurement> measurements;
+  std::optional<SolveRun> run;
+  if (arguments.direct) {
+    measurements = MeasureDirect(arguments, loaded.scene, points);
+  } else {
+    run.emplace(arguments.scene, loaded);
+    run->Run(MeshKind::kInterpolant, WantsReport(arguments.scene));
+    const Pipeline& pipeline = run->pipeline();
+    measurements = Measure(Prober(loaded.scene, pipeline.irradiance(), &pipeline), points);
+  }
+
+  const std::string warning = SurroundingsWarning(measurements);
+  if (!warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
+  WriteResult(arguments.output, MeasurementsCsv(measurements));
+  if (run) run->Tell();
+}
+
+}  // namespace
+
+Command AddProbeCommand(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("probe", "Measure irradiance at points, exact and interpolated");
+  const auto arguments = std::make_shared<ProbeArguments>();
+  AddSceneArguments(*app, &arguments->scene);
+  app->add_option(
+         "--points", arguments->points,
+         "The points [m] and normals, of any length: a CSV file with the header x,y,z,nx,ny,nz; points "
+         "may lie on surfaces or in free space")
+      ->required()
+      ->type_name("POINTS.csv");
+  app->add_option("-o,--output", arguments->output, "Write the rows here (default: standard output)")
+      ->type_name("OUT.csv");
+  CLI::Option* direct =
+      app->add_flag("--direct", arguments->direct,
+                    "Only what surfaces emit of themselves; nothing is solved or interpolated");
+  AddSolveOptions(*app, &arguments->scene);
+  AddReportOption(*app, &arguments->scene)->excludes(direct);
+  app->footer(
+      "Prints x,y,z,nx,ny,nz,patch,exact_r,exact_g,exact_b,interp_r,interp_g,interp_b, a row a point, in "
+      "order.\n"
+      "exact: irradiance from the whole scene [W/m^2]; interp: the interpolant's where the point lies on "
+      "the\n"
+      "front of a face (within 1e-6 of the scene's diagonal, normals within 1 degree), else nan; patch: the\n"
+      "number of that face's f line, from 0, else -1.");
+  return {app, [arguments] { Probe(*arguments); }};
+}
+
+}  // namespace penumbra

@@ -1,0 +1,47 @@
+// apps/option_values.h
+//
+// Values on the command line: read whole and correctly rounded, checked against what they may be. A value
+// that may not be ends the parse with one line that says what may.
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "solver/geometry/vec.h"
+
+namespace penumbra {
+
+// The number that the whole text is; nothing if it is none, or not finite.
+std::optional<double> ParseNumber(std::string_view text);
+
+// What a number may be, with the words for it.
+struct NumberRule {
+  bool (*holds)(double);
+  const char* words;
+};
+inline constexpr NumberRule kAnyNumber{[](double) { return true; }, "a number"};
+inline constexpr NumberRule kPositive{[](double x) { return x > 0; }, "a number above 0"};
+inline constexpr NumberRule kNonNegative{[](double x) { return x >= 0; }, "a number, 0 or more"};
+
+// `NAME X`, a number; the default in the help is the target's value. A target that is optional has its
+// default in the help text.
+CLI::Option* AddNumber(CLI::App& app, const std::string& name, double* target, const NumberRule& rule,
+                       const std::string& help);
+CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<double>* target,
+                       const NumberRule& rule, const std::string& help);
+
+// `NAME N`, an integer in [low, high]. For int and std::uint64_t.
+template <class Integer>
+CLI::Option* AddInteger(CLI::App& app, const std::string& name, Integer* target, Integer low, Integer high,
+                        const std::string& help);
+
+// `NAME x,y,z`, three numbers.
+CLI::Option* AddVector(CLI::App& app, const std::string& name, std::optional<Vec3>* target,
+                       const std::string& help);
+
+}  // namespace penumbra

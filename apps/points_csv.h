@@ -1,0 +1,22 @@
+// apps/points_csv.h
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/geometry/vec.h"
+
+namespace penumbra {
+
+// A place to measure irradiance at, as the user gave it.
+struct ProbePoint {
+  Vec3 position = Vec3::Zero();  // [m]
+  Vec3 normal = Vec3::Zero();    // any length
+};
+
+// The points of a CSV file with the header x,y,z,nx,ny,nz. Blanks around values, blank lines and line ends of
+// any system are passed over. Throws InputError, "FILE:LINE: error: …", line 0 if the file cannot be read.
+std::vector<ProbePoint> ReadPointsCsv(const std::string& path);
+
+}  // namespace penumbra

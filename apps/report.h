@@ -1,0 +1,26 @@
+// apps/report.h
+//
+// What a solve took and reached, for programs and for people.
+
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "mesh/pipeline.h"
+
+namespace penumbra {
+
+struct RunReport {
+  nlohmann::ordered_json options;
+  double load_seconds = 0;
+  PipelineReport pipeline;
+};
+
+// The text of REPORT.json; memory, threads and version are those of this process.
+std::string ReportJson(const RunReport& report);
+
+// Phases with their seconds, counts, energy and error, a line each.
+std::string ReportTable(const RunReport& report);
+
+}  // namespace penumbra

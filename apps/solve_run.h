@@ -1,0 +1,43 @@
+// apps/solve_run.h
+
+#pragma once
+
+#include <memory>
+
+#include "apps/report.h"
+#include "apps/scene_arguments.h"
+#include "mesh/pipeline.h"
+
+namespace penumbra {
+
+// A scene on its way through the pipeline, as commands drive it: options are told, progress is shown, an
+// interrupt ends it, the report is written.
+class SolveRun {
+ public:
+  // Prints the options used, with -v; `command_options` are those of the command itself. The scene and the
+  // arguments must outlive this object.
+  SolveRun(const SceneArguments& arguments, const LoadedScene& loaded,
+           const nlohmann::ordered_json& command_options = nlohmann::ordered_json::object());
+
+  // Solves and builds the mesh; measures, too, where someone asked for a report. Throws Interrupted.
+  void Run(MeshKind kind, bool measure);
+
+  // Writes the report to its file, if it was asked for, and the table to standard error, with -v.
+  void Tell() const;
+
+  const Pipeline& pipeline() const { return pipeline_; }
+  RunReport report() const;
+
+ private:
+  const SceneArguments& arguments_;
+  double load_seconds_;
+  Pipeline pipeline_;
+  nlohmann::ordered_json options_;
+};
+
+// Whether anyone reads a report: --report or -v.
+inline bool WantsReport(const SceneArguments& arguments) {
+  return arguments.verbose || arguments.report.has_value();
+}
+
+}  // namespace penumbra

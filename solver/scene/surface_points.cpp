@@ -1,0 +1,41 @@
+#include "solver/scene/surface_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/base/check.h"
+#include "solver/base/random.h"
+
+namespace penumbra {
+
+Vec3 PointOn(std::span<const Vec3> polygon, double s, double t) {
+  PENUMBRA_CHECK(polygon.size() == 3 || polygon.size() == 4);
+  const Vec3 &a = polygon[0], &last = polygon.back();
+  const double first = (polygon[1] - a).cross(polygon[2] - a).norm();
+  const double second = (polygon[2] - a).cross(last - a).norm();
+  const double share = first / (first + second);
+  const bool in_first = s < share || second == 0;
+  const double u = in_first ? s / share : (s - share) / (1 - share);
+  const double root = std::sqrt(u);
+  return (1 - root) * a + root * ((1 - t) * polygon[in_first ? 1 : 2] + t * (in_first ? polygon[2] : last));
+}
+
+std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::size_t count, std::uint64_t seed) {
+  PENUMBRA_CHECK(!scene.patches.empty());
+  std::vector<double> up_to;
+  double total = 0;
+  for (const Patch& patch : scene.patches) up_to.push_back(total += patch.area);
+  Random random(seed);
+  std::vector<SurfacePoint> points;
+  points.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double at = (static_cast<double>(i) + random.Uniform()) / static_cast<double>(count) * total;
+    const auto found = std::upper_bound(up_to.begin(), up_to.end(), at);
+    const std::size_t p = std::min(static_cast<std::size_t>(found - up_to.begin()), up_to.size() - 1);
+    const double s = random.Uniform(), t = random.Uniform();
+    points.push_back({static_cast<PatchId>(p), PointOn(scene.patches[p].Vertices(), s, t)});
+  }
+  return points;
+}
+
+}  // namespace penumbra

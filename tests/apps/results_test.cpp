@@ -1,0 +1,276 @@
+// What the commands compute, seen from outside.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "display/image_io.h"
+#include "tests/apps/run_program.h"
+
+namespace penumbra {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+constexpr const char* kProbeHeader =
+    "x,y,z,nx,ny,nz,patch,exact_r,exact_g,exact_b,interp_r,interp_g,interp_b";
+
+// A unit square at z = 0 that looks up, below one of emittance pi at z = 1 that looks down.
+constexpr const char* kParallelSquares =
+    "mtllib squares.mtl\n"
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+    "o floor\nusemtl grey\nf 1 2 3 4\no light\nusemtl light\nf 8 7 6 5\n";
+constexpr const char* kSquaresMaterials =
+    "newmtl grey\nKd 0.5 0.5 0.5\nnewmtl light\nKd 0 0 0\nKe 3.141592653589793 1 0\n";
+
+// The form factor from a small area at the centre of the lower square to the upper one: four right-angled
+// corners of half the side.
+double CentreFormFactor() {
+  const double a = 0.5 / std::sqrt(1.25);
+  return 4 * (a * std::atan(a) * 2) / (2 * std::numbers::pi);
+}
+
+std::vector<double> Numbers(const std::string& line) {
+  std::vector<double> numbers;
+  for (const std::string& field : Fields(line)) numbers.push_back(std::strtod(field.c_str(), nullptr));
+  return numbers;
+}
+
+// In the furnace irradiance is 1 W/m^2 everywhere: exactly by its sources, within the error by interpolants.
+TEST(Probe, FurnaceIsOneEverywhere) {
+  const Sandbox sandbox;
+  sandbox.Write(
+      "points.csv",
+      "x,y,z,nx,ny,nz\n0.3,0.4,0,0,0,1\n0.9,0.1,1,0,0,-2\n0,0.5,0.25,1e-3,0,0\n0.5,0.5,0.5,1,2,3\n");
+  const Outcome probe = sandbox.Run({"probe", "furnace", "--points", "points.csv", "--error", "0.05"});
+  ASSERT_EQ(probe.status, 0) << probe.err;
+  EXPECT_EQ(probe.err, "");
+  const std::vector<std::string> lines = Lines(probe.out);
+  ASSERT_THAT(lines, SizeIs(5));
+  EXPECT_EQ(lines[0], kProbeHeader);
+  const std::vector<int> faces = {0, 1, 2, -1};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::vector<double> row = Numbers(lines[i + 1]);
+    ASSERT_THAT(row, SizeIs(13));
+    EXPECT_EQ(row[6], faces[i]);
+    for (std::size_t c = 7; c < 10; ++c) EXPECT_NEAR(row[c], 1, 0.05);
+    for (std::size_t c = 10; c < 13; ++c)
+      if (faces[i] >= 0)
+        EXPECT_NEAR(row[c], 1, 0.05);
+      else
+        EXPECT_EQ(Fields(lines[i + 1])[c], "nan");
+  }
+}
+
+// Direct light is the closed form's, needs no solve, comes in the order of the points, and has all digits;
+// points where no light can be expected are named in one warning.
+TEST(Probe, DirectLightOfParallelSquares) {
+  const Sandbox sandbox;
+  sandbox.Write("squares.obj", kParallelSquares);
+  sandbox.Write("squares.mtl", kSquaresMaterials);
+  sandbox.Write("points.csv",
+                "\xef\xbb\xbfx, y, z, nx, ny, nz\r\n0.5,0.5,0,0,0,3\r\n\r\n0.5,0.5,0,0,0,0\r\n"
+                "0.5,0.5,-1,0,0,1\r\n0.5,0.5,0,0,0,-1\r\n0.1,0.5,0,0,0.01,1");
+  const Outcome probe =
+      sandbox.Run({"probe", "squares.obj", "--points", "points.csv", "--direct", "-o", "out.csv"});
+  ASSERT_EQ(probe.status, 0) << probe.err;
+  EXPECT_EQ(probe.out, "");
+  const std::vector<std::string> lines = Lines(ReadBytes(sandbox.Path("out.csv")));
+  ASSERT_THAT(lines, SizeIs(6));
+  EXPECT_EQ(lines[0], kProbeHeader);
+
+  const std::vector<double> centre = Numbers(lines[1]);
+  EXPECT_EQ(centre[6], 0);
+  EXPECT_NEAR(centre[7], std::numbers::pi * CentreFormFactor(), 1e-14);
+  EXPECT_NEAR(centre[8], CentreFormFactor(), 1e-15);
+  EXPECT_EQ(centre[9], 0);
+  EXPECT_THAT(lines[1], HasSubstr(",nan,nan,nan"));
+
+  EXPECT_EQ(lines[2], "0.5,0.5,0,0,0,0,-1,nan,nan,nan,nan,nan,nan");
+  EXPECT_EQ(lines[3].substr(0, 18), "0.5,0.5,-1,0,0,1,-");
+  EXPECT_EQ(lines[4], "0.5,0.5,0,0,0,-1,-1,0,0,0,nan,nan,nan");
+  EXPECT_THAT(lines[5], testing::StartsWith("0.10000000000000001,0.5,0,0,0.01,1,0,0."));
+
+  ASSERT_THAT(Lines(probe.err), SizeIs(1)) << probe.err;
+  EXPECT_THAT(probe.err, HasSubstr("warning: "));
+  EXPECT_THAT(probe.err, HasSubstr("behind faces: rows 3, 4"));
+  EXPECT_THAT(probe.err, HasSubstr("zero normal: row 2"));
+}
+
+// A point inside furniture that stands without a bottom on an uncut floor is named, one beside it is not.
+TEST(Probe, NamesPointsInsideFurniture) {
+  const Sandbox sandbox;
+  sandbox.Write("points.csv", "x,y,z,nx,ny,nz\n0.5,0.5,0.1,0,0,1\n0.2,0.2,0,0,0,1\n0.5,0.5,0,0,0,1\n");
+  sandbox.Write("box.obj",
+                "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
+                "v 0.4 0.4 0\nv 0.6 0.4 0\nv 0.6 0.6 0\nv 0.4 0.6 0\n"
+                "v 0.4 0.4 0.2\nv 0.6 0.4 0.2\nv 0.6 0.6 0.2\nv 0.4 0.6 0.2\n"
+                "f 9 10 11 12\nf 5 6 10 9\nf 6 7 11 10\nf 7 8 12 11\nf 8 5 9 12\n");
+  const Outcome probe = sandbox.Run({"probe", "box.obj", "--points", "points.csv", "--direct"});
+  ASSERT_EQ(probe.status, 0) << probe.err;
+  EXPECT_THAT(probe.err, HasSubstr("inside a solid or behind faces: rows 1, 3\n"));
+}
+
+// The same input gives the same bytes, on every run and for every number of threads.
+TEST(Determinism, SameBytesForAnyThreads) {
+  const Sandbox sandbox;
+  std::string points = "x,y,z,nx,ny,nz\n";
+  for (int i = 0; i < 100; ++i) points += std::to_string(0.02 * i - 1) + ",0.1,0.3,0.2,0.1,1\n";
+  sandbox.Write("points.csv", points);
+  std::vector<std::string> csv, png, exr;
+  for (const char* threads : {"1", "2", "2"}) {
+    const Outcome probe = sandbox.Run(
+        {"probe", "floating-cube", "--points", "points.csv", "--error", "0.5", "--threads", threads});
+    ASSERT_EQ(probe.status, 0) << probe.err;
+    csv.push_back(probe.out);
+    for (const char* image : {"image.png", "image.exr"}) {
+      const Outcome render = sandbox.Run({"render", "floating-cube", "-o", image, "--size", "64x48",
+                                          "--error", "0.5", "--threads", threads});
+      ASSERT_EQ(render.status, 0) << render.err;
+    }
+    png.push_back(ReadBytes(sandbox.Path("image.png")));
+    exr.push_back(ReadBytes(sandbox.Path("image.exr")));
+  }
+  for (const auto* results : {&csv, &png, &exr}) {
+    EXPECT_FALSE(results->front().empty());
+    EXPECT_EQ((*results)[0], (*results)[1]) << "one thread and two";
+    EXPECT_EQ((*results)[1], (*results)[2]) << "two runs";
+  }
+}
+
+// The report holds every field, and adds up; -v tells the options used.
+TEST(Solve, ReportHoldsEveryField) {
+  const Sandbox sandbox;
+  const Outcome solve = sandbox.Run(
+      {"solve", "furnace", "--error", "0.1", "--report", "report.json", "--error-points", "50", "-v"});
+  ASSERT_EQ(solve.status, 0) << solve.err;
+  EXPECT_EQ(solve.out, "");
+  EXPECT_THAT(solve.err, HasSubstr("Options used:\n"));
+  EXPECT_THAT(solve.err, HasSubstr("   --error 0.1\n"));
+  EXPECT_THAT(sandbox.Files(), testing::ElementsAre("report.json"));
+
+  const json report = json::parse(ReadBytes(sandbox.Path("report.json")));
+  EXPECT_TRUE(report.at("version").is_string());
+  EXPECT_GE(report.at("threads").get<int>(), 1);
+  EXPECT_EQ(report.at("options").at("error"), 0.1);
+  EXPECT_GT(report.at("options").at("eps"), 0);
+  std::vector<std::string> phases;
+  for (const json& phase : report.at("phases")) {
+    phases.push_back(phase.at("name"));
+    EXPECT_GE(phase.at("seconds"), 0);
+  }
+  EXPECT_THAT(phases, testing::IsSupersetOf(
+                          {"load", "link", "iterate", "discontinuities", "triangulate", "interpolate"}));
+  for (const char* count :
+       {"patches", "emitters", "elements", "leaves", "links", "links_visible", "links_partial",
+        "discontinuities", "dsets_active", "triangles", "interpolants", "point_evaluations"})
+    EXPECT_TRUE(report.at("counts").at(count).is_number_unsigned()) << count;
+  EXPECT_EQ(report.at("counts").at("patches"), 6);
+  EXPECT_EQ(report.at("counts").at("emitters"), 6);
+  ASSERT_FALSE(report.at("iterations").empty());
+  for (const char* field : {"residual", "elements", "links", "seconds"})
+    EXPECT_TRUE(report.at("iterations")[0].at(field).is_number()) << field;
+  const json& energy = report.at("energy");
+  EXPECT_NEAR(energy.at("emitted").get<double>(), 9, 1e-9);  // 6 m^2, 1/2 W/m^2, three channels
+  EXPECT_NEAR(energy.at("absorbed").get<double>() + energy.at("escaped").get<double>(), 9, 9e-2);
+  EXPECT_LT(energy.at("relative_imbalance"), 1e-2);
+  const json& error = report.at("error");
+  EXPECT_EQ(error.at("interpolant").at("points"), 50);
+  for (const char* field : {"max", "p99", "p95", "rms"}) EXPECT_GE(error.at("interpolant").at(field), 0);
+  EXPECT_TRUE(error.at("solution").at("estimate").is_number());
+  EXPECT_EQ(error.at("asked"), 0.1);
+  EXPECT_EQ(error.at("met"), true);
+  EXPECT_GT(report.at("memory_peak_bytes"), 1000000);
+  EXPECT_TRUE(report.at("unmet").is_array());
+}
+
+// Without a report file, solve prints the phases and the error.
+TEST(Solve, PrintsATable) {
+  const Outcome solve = Sandbox().Run({"solve", "furnace", "--error", "0.1", "--error-points", "10"});
+  ASSERT_EQ(solve.status, 0) << solve.err;
+  for (const char* word :
+       {"load", "link", "iterate", "discontinuities", "triangulate", "interpolate", "p99", "asked"})
+    EXPECT_THAT(solve.out, HasSubstr(word));
+}
+
+// A scene left without faces is valid, and dark.
+TEST(Solve, EmptySceneIsDark) {
+  const Sandbox sandbox;
+  sandbox.Write("empty.obj", "v 0 0 0\n");
+  sandbox.Write("points.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n");
+  EXPECT_EQ(sandbox.Run({"info", "empty.obj"}).status, 0);
+  EXPECT_EQ(sandbox.Run({"solve", "empty.obj", "--report", "report.json"}).status, 0);
+  const Outcome render = sandbox.Run({"render", "empty.obj", "-o", "image.exr", "--size", "8x8"});
+  EXPECT_EQ(render.status, 0) << render.err;
+  for (const auto& channel : ReadExr(sandbox.Path("image.exr")).channel)
+    EXPECT_THAT(channel, testing::Each(0.0f));
+  const Outcome probe = sandbox.Run({"probe", "empty.obj", "--points", "points.csv"});
+  EXPECT_EQ(probe.status, 0) << probe.err;
+  EXPECT_THAT(probe.out, HasSubstr("\n0,0,0,0,0,1,-1,0,0,0,nan,nan,nan\n"));
+}
+
+// Every mode draws the furnace: its radiosity is 1 W/m^2, its reflectance 1/2, wherever one looks.
+TEST(Render, EveryModeDrawsTheFurnace) {
+  const Sandbox sandbox;
+  for (const char* mode : {"flat", "gouraud", "gouraud-mesh", "interpolant", "rho"}) {
+    const Outcome render =
+        sandbox.Run({"render", "furnace", "-o", "image.exr", "--mode", mode, "--size", "32x24", "--error",
+                     "0.05", "--eye", "0.5,0.1,0.5", "--look-at", "0.5,1,0.5", "--fov", "60"});
+    ASSERT_EQ(render.status, 0) << render.err;
+    const RgbImage image = ReadExr(sandbox.Path("image.exr"));
+    ASSERT_EQ(image.width, 32);
+    ASSERT_EQ(image.height, 24);
+    const float want = std::string(mode) == "rho" ? 0.5f : 1.0f;
+    for (const auto& channel : image.channel)
+      for (const float value : channel) ASSERT_NEAR(value, want, 0.05f) << mode;
+  }
+}
+
+// A benchmark prints one line of JSON with the times of a frame.
+TEST(Render, BenchmarkPrintsOneLine) {
+  const Sandbox sandbox;
+  const Outcome outcome = sandbox.Run(
+      {"render", "furnace", "--benchmark", "3", "--size", "64x48", "--error", "0.5", "--threads", "1"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  ASSERT_THAT(Lines(outcome.out), SizeIs(1));
+  const json line = json::parse(outcome.out);
+  EXPECT_GT(line.at("fps"), 0);
+  for (const char* part : {"triangle_ids", "barycentric", "evaluate", "tone_map", "total"})
+    EXPECT_GE(line.at("ms").at(part), 0);
+  EXPECT_EQ(line.at("size"), "64x48");
+  EXPECT_GE(line.at("triangles"), 12);
+  EXPECT_EQ(line.at("threads"), 1);
+  EXPECT_THAT(sandbox.Files(), SizeIs(0));
+}
+
+// Info tells what is in a scene: counts, bounds, area and emitted power; emission may be read as radiance.
+TEST(Info, CountsAndMeasures) {
+  const Sandbox sandbox;
+  sandbox.Write("squares.obj", kParallelSquares);
+  sandbox.Write("squares.mtl", kSquaresMaterials);
+  const Outcome outcome = sandbox.Run({"info", "squares.obj", "--json", "--error", "0.1"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json info = json::parse(outcome.out);
+  EXPECT_EQ(info.at("faces"), 2);
+  EXPECT_EQ(info.at("dropped"), 0);
+  EXPECT_EQ(info.at("patches"), 2);
+  EXPECT_EQ(info.at("quadrilaterals"), 2);
+  EXPECT_EQ(info.at("emitters"), 1);
+  EXPECT_EQ(info.at("bounds").at("max"), json({1.0, 1.0, 1.0}));
+  EXPECT_EQ(info.at("area"), 2.0);
+  EXPECT_EQ(info.at("emitted_power"), json({std::numbers::pi, 1.0, 0.0}));
+
+  const json radiance =
+      json::parse(sandbox.Run({"info", "squares.obj", "--json", "--emission-is-radiance"}).out);
+  EXPECT_NEAR(radiance.at("emitted_power")[1].get<double>(), std::numbers::pi, 1e-15);
+  const json two_sided = json::parse(sandbox.Run({"info", "squares.obj", "--json", "--two-sided"}).out);
+  EXPECT_EQ(two_sided.at("faces"), 4);
+}
+
+}  // namespace
+}  // namespace penumbra

@@ -1,0 +1,251 @@
+// How the program meets its users: help, bad usage, bad input, interrupts.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include "tests/apps/run_program.h"
+
+namespace penumbra {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::SizeIs;
+
+// Every command's help names its options, with their defaults, and ends with status 0.
+TEST(Help, ListsEveryOption) {
+  const Sandbox sandbox;
+  const std::vector<std::string> common = {
+      "--emission-is-radiance", "--two-sided", "--max-reflectance", "--threads", "--seed", "--verbose"};
+  const std::vector<std::string> solving = {
+      "--error X=0.02",    "--eps",          "--min-area",  "--min-discontinuity-weight", "--max-leaf-dsets",
+      "--relative-cutoff", "--error-points", "--iterations"};
+  const std::vector<std::pair<std::string, std::vector<std::string>>> own = {
+      {"solve", {"--report"}},
+      {"render",
+       {"--output", "--mode", "--eye", "--look-at", "--up", "--fov", "--size", "--exposure", "--camera",
+        "--benchmark", "--report"}},
+      {"probe", {"--points", "--direct", "--output", "--report"}},
+      {"info", {"--json"}}};
+  for (const auto& [command, options] : own) {
+    const Outcome help = sandbox.Run({command, "--help"});
+    EXPECT_EQ(help.status, 0);
+    for (const auto* list : {&common, &solving, &options})
+      for (const std::string& option : *list) EXPECT_THAT(help.out, HasSubstr(option)) << command;
+  }
+  const Outcome program = sandbox.Run({"--help"});
+  EXPECT_EQ(program.status, 0);
+  for (const char* command : {"solve", "render", "probe", "info", "scenes"})
+    EXPECT_THAT(program.out, HasSubstr(command));
+}
+
+// The version is a line on standard output.
+TEST(Help, PrintsTheVersion) {
+  const Outcome version = Sandbox().Run({"--version"});
+  EXPECT_EQ(version.status, 0);
+  EXPECT_THAT(version.out, MatchesRegex("penumbra [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+// The built-in scenes are listed, a line each, the name first.
+TEST(Scenes, AreListed) {
+  const Outcome list = Sandbox().Run({"scenes"});
+  EXPECT_EQ(list.status, 0);
+  for (const char* name : {"office", "cornell", "floating-cube", "furnace"})
+    EXPECT_THAT("\n" + list.out, HasSubstr(std::string("\n") + name + " "));
+}
+
+// Bad usage is told in one line before any work is done, with exit status 2, and writes nothing.
+TEST(Usage, BadUsageEndsWithTwo) {
+  const std::vector<std::vector<std::string>> bad = {
+      {},
+      {"no-such-command"},
+      {"solve"},
+      {"solve", "furnace", "--no-such-option"},
+      {"solve", "furnace", "extra"},
+      {"solve", "furnace", "--error", "0"},
+      {"solve", "furnace", "--error", "-1"},
+      {"solve", "furnace", "--error", "nan"},
+      {"solve", "furnace", "--error", "inf"},
+      {"solve", "furnace", "--error", "0.1x"},
+      {"solve", "furnace", "--error", ""},
+      {"solve", "furnace", "--error"},
+      {"solve", "furnace", "--eps", "0"},
+      {"solve", "furnace", "--min-area", "-1"},
+      {"solve", "furnace", "--threads", "-1"},
+      {"solve", "furnace", "--threads", "1.5"},
+      {"solve", "furnace", "--seed", "-1"},
+      {"solve", "furnace", "--iterations", "0"},
+      {"solve", "furnace", "--error-points", "-1"},
+      {"solve", "furnace", "--max-reflectance", "1"},
+      {"solve", "furnace", "-o", "solution"},
+      {"render", "furnace"},
+      {"render", "furnace", "-o", "image.jpg"},
+      {"render", "furnace", "-o", "image"},
+      {"render", "furnace", "-o", "image.png", "--mode", "exact"},
+      {"render", "furnace", "-o", "image.png", "--size", "0x10"},
+      {"render", "furnace", "-o", "image.png", "--size", "10"},
+      {"render", "furnace", "-o", "image.png", "--size", "10x-10"},
+      {"render", "furnace", "-o", "image.png", "--size", "30000x30000"},
+      {"render", "furnace", "-o", "image.png", "--exposure", "0"},
+      {"render", "furnace", "-o", "image.png", "--fov", "180"},
+      {"render", "furnace", "-o", "image.png", "--fov", "0"},
+      {"render", "furnace", "-o", "image.png", "--eye", "1,2"},
+      {"render", "furnace", "-o", "image.png", "--eye", "1,2,3,4"},
+      {"render", "furnace", "-o", "image.png", "--eye", "1,2,nan"},
+      {"render", "furnace", "-o", "image.png", "--eye", "1,2,3", "--look-at", "1,2,3"},
+      {"render", "furnace", "-o", "image.png", "--camera", "no-such-camera"},
+      {"render", "furnace", "--benchmark", "0"},
+      {"probe", "furnace"},
+      {"probe", "furnace", "--points", "p.csv", "--parts"},
+      {"probe", "furnace", "--points", "p.csv", "--direct", "--report", "r.json"},
+  };
+  const Sandbox sandbox;
+  for (const std::vector<std::string>& arguments : bad) {
+    const Outcome outcome = sandbox.Run(arguments);
+    EXPECT_EQ(outcome.status, 2) << testing::PrintToString(arguments) << outcome.err;
+    EXPECT_THAT(Lines(outcome.err), SizeIs(1)) << outcome.err;
+    EXPECT_EQ(outcome.out, "") << testing::PrintToString(arguments);
+  }
+  EXPECT_THAT(sandbox.Files(), SizeIs(0));
+}
+
+struct BadScene {
+  const char* name;
+  const char* obj;
+  const char* mtl;
+  const char* message;  // the beginning of the line on standard error; FILE is scene.obj or scene.mtl
+};
+
+void PrintTo(const BadScene& bad, std::ostream* out) { *out << bad.name; }
+
+constexpr const char* kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+
+class BadScenes : public testing::TestWithParam<BadScene> {};
+
+// Bad input of every kind gets one line that names file and line, status 1, and leaves outputs as they were.
+TEST_P(BadScenes, GetOneLineAndLeaveOutputsAlone) {
+  const Sandbox sandbox;
+  sandbox.Write("scene.obj", GetParam().obj);
+  if (*GetParam().mtl) sandbox.Write("scene.mtl", GetParam().mtl);
+  const std::string points = sandbox.Write("points.csv", "x,y,z,nx,ny,nz\n0,0,1,0,0,1\n");
+  sandbox.Write("image.png", "old");
+  sandbox.Write("report.json", "old");
+  const std::vector<std::string> files = sandbox.Files();
+
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"solve", "scene.obj", "--report", "report.json"},
+           {"render", "scene.obj", "-o", "image.png", "--report", "report.json"},
+           {"probe", "scene.obj", "--points", "points.csv", "-o", "image.png"},
+           {"info", "scene.obj"}}) {
+    const Outcome outcome = sandbox.Run(arguments);
+    EXPECT_EQ(outcome.status, 1) << outcome.err;
+    EXPECT_THAT(Lines(outcome.err), ElementsAre(testing::StartsWith(GetParam().message)));
+    EXPECT_EQ(outcome.out, "");
+  }
+  EXPECT_EQ(sandbox.Files(), files);
+  EXPECT_EQ(ReadBytes(sandbox.Path("image.png")), "old");
+  EXPECT_EQ(ReadBytes(sandbox.Path("report.json")), "old");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, BadScenes,
+    testing::Values(
+        BadScene{"syntax", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3/x\n", "", "scene.obj:4: error: "},
+        BadScene{"too_few_coordinates", "v 0 0\n", "", "scene.obj:1: error: "},
+        BadScene{"index_too_large", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 4\n", "", "scene.obj:4: error: "},
+        BadScene{"index_zero", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 0 1 2\n", "", "scene.obj:4: error: "},
+        BadScene{"index_too_negative", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf -4 -2 -1\n", "", "scene.obj:4: error: "},
+        BadScene{"no_number", "v 0 zero 0\n", "", "scene.obj:1: error: "},
+        BadScene{"not_a_number", "v 0 0 0\nv 0 nan 0\n", "", "scene.obj:2: error: "},
+        BadScene{"infinity", "v 0 0 0\nv 0 inf 0\n", "", "scene.obj:2: error: "},
+        BadScene{"overflow", "v 0 0 0\nv 0 1e999 0\n", "", "scene.obj:2: error: "},
+        BadScene{"not_planar", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.1\nf 1 2 3 4\n", "",
+                 "scene.obj:5: error: "},
+        BadScene{"self_crossing", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 3 0 0\nf 1 3 2 4 5\n", "",
+                 "scene.obj:6: error: "},
+        BadScene{"missing_library", "mtllib other.mtl\nv 0 0 0\n", "", "scene.obj:1: error: "},
+        BadScene{"reflectance_one", "mtllib scene.mtl\nusemtl white\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n",
+                 "newmtl white\nKd 0.5 1 0.5\n", "scene.mtl:2: error: "},
+        BadScene{"reflectance_negative",
+                 "mtllib scene.mtl\nusemtl white\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n",
+                 "newmtl white\nKd 0.5 -0.1 0.5\n", "scene.mtl:2: error: "},
+        BadScene{"emittance_nan", "mtllib scene.mtl\nusemtl white\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n",
+                 "newmtl white\nKd 0 0 0\nKe nan 0 0\n", "scene.mtl:3: error: "}),
+    [](const auto& info) { return info.param.name; });
+
+// A scene that is neither a file nor a built-in name is named in one line.
+TEST(Input, MissingSceneIsNamed) {
+  const Sandbox sandbox;
+  const Outcome outcome = sandbox.Run({"render", "missing.obj", "-o", "image.png"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(Lines(outcome.err), ElementsAre(testing::StartsWith("missing.obj:0: error: ")));
+  EXPECT_THAT(sandbox.Files(), SizeIs(0));
+}
+
+// A file wins over the name of a built-in scene; what was repaired in it is warned about, a line each.
+TEST(Input, FileWinsOverBuiltInName) {
+  const Sandbox sandbox;
+  sandbox.Write("office", std::string(kSquare) + "f 1 2 2\n");
+  const Outcome outcome = sandbox.Run({"info", "office"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("2, 1 of them dropped"));
+  ASSERT_GE(Lines(outcome.err).size(), 1u);
+  for (const std::string& line : Lines(outcome.err)) EXPECT_THAT(line, testing::StartsWith("warning: "));
+}
+
+// Bad points get one line that names file and line, and status 1.
+TEST(Input, BadPointsAreNamed) {
+  const Sandbox sandbox;
+  sandbox.Write("scene.obj", kSquare);
+  const std::string header = "x,y,z,nx,ny,nz\n";
+  const std::vector<std::pair<std::string, std::string>> bad = {
+      {"", "points.csv:1: error: "},
+      {"x,y,z\n0,0,0\n", "points.csv:1: error: "},
+      {header + "0,0,0,0,0,1\n0,0,0,0,0\n", "points.csv:3: error: "},
+      {header + "0,0,0,0,0,1,2\n", "points.csv:2: error: "},
+      {header + "0,0,zero,0,0,1\n", "points.csv:2: error: "},
+      {header + "0,0,,0,0,1\n", "points.csv:2: error: "},
+      {header + "\n0,0,nan,0,0,1\n", "points.csv:3: error: "},
+      {header + "0,0,1e999,0,0,1\n", "points.csv:2: error: "},
+  };
+  for (const auto& [text, message] : bad) {
+    sandbox.Write("points.csv", text);
+    const Outcome outcome = sandbox.Run({"probe", "scene.obj", "--points", "points.csv", "--direct"});
+    EXPECT_EQ(outcome.status, 1) << text;
+    EXPECT_THAT(Lines(outcome.err), ElementsAre(testing::StartsWith(message)));
+    EXPECT_EQ(outcome.out, "");
+  }
+  const Outcome missing = sandbox.Run({"probe", "scene.obj", "--points", "missing.csv", "--direct"});
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_THAT(Lines(missing.err), ElementsAre(testing::StartsWith("missing.csv:0: error: ")));
+}
+
+// An output that cannot be written is told in one line, before the solve.
+TEST(Output, UnwritablePlaceIsNamed) {
+  const Sandbox sandbox;
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"render", "office", "--error", "1e-6", "-o", "missing/image.png"},
+           {"render", "office", "--error", "1e-6", "-o", "image.png", "--report", "missing/report.json"},
+           {"solve", "office", "--error", "1e-6", "--report", "."}}) {
+    const Outcome outcome = sandbox.Run(arguments);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(Lines(outcome.err), SizeIs(1)) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("error: cannot write"));
+  }
+  EXPECT_THAT(sandbox.Files(), SizeIs(0));
+}
+
+// An interrupt ends a solve with status 130 and writes nothing.
+TEST(Interrupt, WritesNothing) {
+  const Sandbox sandbox;
+  const Outcome outcome = sandbox.RunAndSignal(
+      {"render", "office", "--error", "1e-4", "-o", "image.png", "--report", "report.json", "-v"},
+      "--error-points", SIGINT);
+  EXPECT_EQ(outcome.status, 130) << outcome.err;
+  EXPECT_THAT(sandbox.Files(), SizeIs(0));
+}
+
+}  // namespace
+}  // namespace penumbra
