@@ -72,7 +72,8 @@ struct Receiver {
   PatchId id;
   const Patch& patch;
   Frame frame;
-  double snap;
+  double snap;  // [m]
+  double gap;   // what comes nearer touches it [m]
 
   double Height(const Vec3& p) const { return frame.n.dot(p - frame.origin); }
 };
@@ -126,13 +127,16 @@ double SnapDistance(const Patch& patch) {
   return kSnap * Diameter(patch.Vertices()) + kSnapCoordinate * coordinate;
 }
 
+double ContactGap(const Scene& scene) { return kContactGap * scene.Diagonal(); }
+
 struct DiscontinuityFinder::Impl {
   const Scene& scene;
   const PatchVisibility& visibility;
   std::map<EdgeKey, std::vector<PatchEdge>> edges;
+  double gap;                              // ContactGap() [m]
   std::vector<std::array<Vec3, 2>> boxes;  // a patch's smallest and largest corner
 
-  Impl(const Scene& s, const PatchVisibility& v) : scene(s), visibility(v) {
+  Impl(const Scene& s, const PatchVisibility& v) : scene(s), visibility(v), gap(ContactGap(s)) {
     for (std::size_t p = 0; p < scene.patches.size(); ++p) {
       const Patch& patch = scene.patches[p];
       std::array<Vec3, 2> box = {patch.vertex[0], patch.vertex[0]};
@@ -173,8 +177,8 @@ struct DiscontinuityFinder::Impl {
 };
 
 void DiscontinuityFinder::Impl::AddContacts(const Receiver& r, Collector& out) const {
-  const std::array<Vec3, 2> own = {(boxes[r.id][0].array() - r.snap).matrix(),
-                                   (boxes[r.id][1].array() + r.snap).matrix()};
+  const std::array<Vec3, 2> own = {(boxes[r.id][0].array() - r.gap).matrix(),
+                                   (boxes[r.id][1].array() + r.gap).matrix()};
   for (std::size_t p = 0; p < scene.patches.size(); ++p) {
     const bool apart =
         (boxes[p][0].array() > own[1].array()).any() || (boxes[p][1].array() < own[0].array()).any();
@@ -186,9 +190,11 @@ void DiscontinuityFinder::Impl::AddContact(const Receiver& r, PatchId other, Col
   const Patch& patch = scene.patches[other];
   std::array<double, 4> height;
   bool above = false, below = false;
+  double highest = 0;
   for (std::int32_t k = 0; k < patch.size; ++k) {
     const double h = r.Height(patch.vertex[k]);
-    height[k] = std::abs(h) <= r.snap ? 0 : h;
+    height[k] = std::abs(h) <= r.gap ? 0 : h;
+    highest = std::max(highest, h);
     above |= height[k] > 0;
     below |= height[k] < 0;
   }
@@ -209,8 +215,9 @@ void DiscontinuityFinder::Impl::AddContact(const Receiver& r, PatchId other, Col
     out.Add(contact, (*kept)[0], (*kept)[1]);
   };
   if (!above && !below) {
-    // In the receiver's plane: a lid on it, if it looks the other way.
-    if (patch.normal.dot(r.frame.n) > 0) return;
+    // In the receiver's plane: a lid on it, unless it is a neighbour in the same plane that looks the same
+    // way.
+    if (patch.normal.dot(r.frame.n) > 0 && highest <= r.snap) return;
     for (std::int32_t k = 0; k < patch.size; ++k) add(patch.vertex[k], patch.vertex[(k + 1) % patch.size]);
     return;
   }
@@ -258,7 +265,7 @@ void DiscontinuityFinder::Impl::AddVertexEdge(const Receiver& r, const SourceVie
       for (std::int32_t k = 0; k < patch.size; ++k) {
         const Vec3 &a = patch.vertex[k], &b = patch.vertex[(k + 1) % patch.size];
         const double ha = r.Height(a), hb = r.Height(b);
-        if (std::abs(ha) <= r.snap && std::abs(hb) <= r.snap) continue;  // a contact
+        if (std::abs(ha) <= r.gap && std::abs(hb) <= r.gap) continue;  // a contact
         if (!IsOwnSilhouette(v, blocker, k, blockers)) continue;
         // Between the vertex and the receiver, before the source, and in the pyramid from the vertex over the
         // receiver: cut in space, so that nothing runs away to infinity.
@@ -298,7 +305,7 @@ void DiscontinuityFinder::Impl::AddEdgeVertex(const Receiver& r, const SourceVie
   for (const auto& [key, blocker] : corners) {
     const Vec3 v(std::get<0>(key), std::get<1>(key), std::get<2>(key));
     const double hv = r.Height(v);
-    if (hv <= r.snap || s.Height(v) <= s.rounding) continue;
+    if (hv <= r.gap || s.Height(v) <= s.rounding) continue;
     for (std::int32_t k = 0; k < s.patch.size; ++k) {
       const Vec3 &a = s.patch.vertex[k], &b = s.patch.vertex[(k + 1) % s.patch.size];
       const double ha = r.Height(a), hb = r.Height(b);
@@ -334,7 +341,8 @@ std::vector<Discontinuity> DiscontinuityFinder::Find(PatchId receiver,
                                                      double min_weight) const {
   PENUMBRA_CHECK(source_strength.size() == impl_->scene.patches.size());
   const Patch& patch = impl_->scene.patches[receiver];
-  const Receiver r = {receiver, patch, PolygonFrame(patch.Vertices()), SnapDistance(patch)};
+  const double snap = SnapDistance(patch);
+  const Receiver r = {receiver, patch, PolygonFrame(patch.Vertices()), snap, std::max(snap, impl_->gap)};
   std::vector<Discontinuity> found;
   Collector out(r, found);
   impl_->AddContacts(r, out);

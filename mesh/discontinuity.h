@@ -50,6 +50,11 @@ inline constexpr double kSnap = 1e-9;             // of the patch's diameter
 inline constexpr double kSnapCoordinate = 1e-12;  // of its largest coordinate: 4e3 roundings
 double SnapDistance(const Patch& patch);
 
+// How far apart things may be that are meant to touch [m]: files with six decimals leave half a micrometre
+// between a wall and the floor that it stands on, or sink it in. Light through such a gap is an accident.
+inline constexpr double kContactGap = 1e-6;  // of the scene's diagonal, as for the planarity of faces
+double ContactGap(const Scene& scene);
+
 // Finds the discontinuities on one receiver at a time. Lists which patches share an edge once, at
 // construction.
 class DiscontinuityFinder {
@@ -67,6 +72,9 @@ class DiscontinuityFinder {
   //  (3) A VE event of an edge that two patches share is left out where both face the source's vertex, or
   //  both look
   //      away: the edge is no silhouette. Its copy from the second patch is left out as well.
+  //  (4) What comes within ContactGap() of the receiver touches it, and casts no shadow line of its own
+  //  beside the
+  //      contact.
   // Safe from any thread.
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
                                   double min_weight) const;

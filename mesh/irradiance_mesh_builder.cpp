@@ -78,7 +78,10 @@ class Sampling {
   Sampling(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
            const ExecutionContext& context)
       : mesh_(mesh), sampler_(sampler), context_(context), scene_(scene) {
-    for (const Patch& patch : scene.patches) uncertainty_.push_back(kOnLine * SnapDistance(patch));
+    // What comes within the contact gap touches the node. This holds for all nodes, not only those on
+    // contacts: where a shadow's edge starts at a foot, vertices lie within the gap beside it.
+    for (const Patch& patch : scene.patches)
+      uncertainty_.push_back(std::max(kOnLine * SnapDistance(patch), ContactGap(scene)));
   }
 
   // Evaluates the nodes from the triangles that they name.

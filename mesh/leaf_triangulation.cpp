@@ -400,6 +400,7 @@ PatchTriangulation TriangulateLeaves(const ElementForest& forest, PatchId patch,
     }
   }
   result.first_triangle.push_back(static_cast<std::uint32_t>(result.triangles.size()));
+  PENUMBRA_DCHECK((result.Validate(forest.scene().patches[patch]), true));
   return result;
 }
 

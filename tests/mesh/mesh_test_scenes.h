@@ -64,6 +64,16 @@ inline void Tilt(Scene& scene, double degrees) {
   }
 }
 
+// Rounds all coordinates to so many decimals, as a text file does.
+inline void RoundCoordinates(Scene& scene, int decimals) {
+  const double unit = std::pow(10.0, -decimals);
+  for (Patch& patch : scene.patches) {
+    std::vector<Vec3> vertices;
+    for (const Vec3& v : patch.Vertices()) vertices.push_back((v / unit).array().round().matrix() * unit);
+    patch = MakePatch(vertices, patch.material, patch.object, patch.faces);
+  }
+}
+
 // Splits about `splits` random leaves of the patch, and balances.
 inline void RefineAtRandom(ElementForest& forest, PatchId patch, Random& random, int splits, int max_level) {
   for (int i = 0; i < splits; ++i) {
