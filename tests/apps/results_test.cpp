@@ -143,6 +143,23 @@ TEST(Determinism, SameBytesForAnyThreads) {
   }
 }
 
+// Times, the number of threads and memory apart, reports are the same for every number of threads.
+TEST(Determinism, SameReportForAnyThreads) {
+  const Sandbox sandbox;
+  std::vector<json> reports;
+  for (const char* threads : {"1", "2"}) {
+    const Outcome solve = sandbox.Run({"solve", "floating-cube", "--error", "0.3", "--error-points", "100",
+                                       "--report", "report.json", "--threads", threads});
+    ASSERT_EQ(solve.status, 0) << solve.err;
+    json report = json::parse(ReadBytes(sandbox.Path("report.json")));
+    for (const char* key : {"phases", "threads", "memory_peak_bytes"}) report.erase(key);
+    report.at("options").erase("threads");
+    for (json& iteration : report.at("iterations")) iteration.erase("seconds");
+    reports.push_back(report);
+  }
+  EXPECT_EQ(reports[0], reports[1]);
+}
+
 // The report holds every field, and adds up; -v tells the options used.
 TEST(Solve, ReportHoldsEveryField) {
   const Sandbox sandbox;

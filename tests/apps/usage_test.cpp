@@ -218,9 +218,11 @@ TEST(Input, BadPointsAreNamed) {
     EXPECT_THAT(Lines(outcome.err), ElementsAre(testing::StartsWith(message)));
     EXPECT_EQ(outcome.out, "");
   }
-  const Outcome missing = sandbox.Run({"probe", "scene.obj", "--points", "missing.csv", "--direct"});
-  EXPECT_EQ(missing.status, 1);
-  EXPECT_THAT(Lines(missing.err), ElementsAre(testing::StartsWith("missing.csv:0: error: ")));
+  for (const std::string unreadable : {"missing.csv", "."}) {
+    const Outcome outcome = sandbox.Run({"probe", "scene.obj", "--points", unreadable, "--direct"});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(Lines(outcome.err), ElementsAre(testing::StartsWith(unreadable + ":0: error: ")));
+  }
 }
 
 // An output that cannot be written is told in one line, before the solve.
