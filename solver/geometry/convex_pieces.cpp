@@ -1,6 +1,7 @@
 #include "solver/geometry/convex_pieces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>

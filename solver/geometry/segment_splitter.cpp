@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "solver/base/check.h"
@@ -40,11 +41,18 @@ void SegmentSplitter::Split(std::vector<Vec2>& vertices, std::vector<bool>& used
   snap_ = snap;
   fresh_vertex_ = 0;
   fresh_.assign(pieces.size(), 1);
-  // A piece is only ever replaced by shorter ones between vertices that are at least `snap` apart or were
-  // given, so that the loop ends; in practice after two or three turns.
-  constexpr int kMostTurns = 1000;
+  double largest = 0;
+  for (const Vec2& v : vertices) largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  rounding_ = 4 * std::numeric_limits<double>::epsilon() * largest;
+  // Two or three turns do, unless vertices crowd within `snap` of each other: then snapping can go on for
+  // ever, and only what meets exactly is joined.
+  constexpr int kSnappingTurns = 4, kMostTurns = 1000;
   for (int turn = 0;; ++turn) {
     PENUMBRA_CHECK(turn < kMostTurns);
+    if (turn == kSnappingTurns) {
+      snap_ = 0;
+      fresh_.assign(pieces.size(), 1);
+    }
     cuts_.clear();
     const std::int32_t known = Size(vertices);
     CutAtVertices();
@@ -62,11 +70,13 @@ bool SegmentSplitter::Splits(const SegmentPiece& piece, std::int32_t vertex) con
   const Vec2& b = (*vertices_)[piece.to];
   const Vec2& p = (*vertices_)[vertex];
   const Vec2 ab = b - a, ap = p - a;
-  if (std::abs(Cross2(ab, ap)) > snap_ * ab.norm()) return false;
+  const double distance = std::abs(Cross2(ab, ap)) / ab.norm();
+  if (distance > std::max(snap_, rounding_)) return false;
   const double at = Along(a, b, p);
   if (!(at > Along(a, b, a) && at < Along(a, b, b))) return false;
+  if (Orientation(a, b, p) == 0) return true;
   const double squared = ab.squaredNorm();
-  return (ap.squaredNorm() < squared && (b - p).squaredNorm() < squared) || Orientation(a, b, p) == 0;
+  return distance <= snap_ && ap.squaredNorm() < squared && (b - p).squaredNorm() < squared;
 }
 
 void SegmentSplitter::Cut(std::int32_t piece, std::int32_t vertex) {

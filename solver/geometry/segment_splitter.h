@@ -22,6 +22,7 @@ class SegmentSplitter {
  public:
   // Splits `pieces` in place. `vertices` grows by the crossings, each computed once; a crossing within
   // `snap` of a vertex uses that vertex, and a vertex within `snap` of a piece splits it.
+  // Where vertices crowd within `snap` of each other, only what meets exactly is joined in the end.
   // Vertices whose `used` flag is false take no part. On return no two pieces cross (exactly decided), and no
   // vertex lies inside a piece. REQUIRES: snap above the rounding error of the coordinates.
   void Split(std::vector<Vec2>& vertices, std::vector<bool>& used, std::vector<SegmentPiece>& pieces,
@@ -46,6 +47,7 @@ class SegmentSplitter {
   std::vector<bool>* used_ = nullptr;
   std::vector<SegmentPiece>* pieces_ = nullptr;
   double snap_ = 0;
+  double rounding_ = 0;  // a computed distance of 0 is at most this
   std::vector<CutPoint> cuts_;
   std::vector<SegmentPiece> next_;
   std::vector<char> fresh_, next_fresh_;  // pieces that changed since they were last tested

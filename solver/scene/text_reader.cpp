@@ -1,5 +1,6 @@
 #include "solver/scene/text_reader.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 

@@ -184,6 +184,32 @@ TEST(ConstrainedTriangulation, RandomCrossingSegmentsInASquare) {
   EXPECT_LE(worst, 1e-12);
 }
 
+TEST(ConstrainedTriangulation, PointsCrowdedWithinTheSnapDistance) {
+  // Clusters of points about as far apart as the snap distance, or the rounding, with segments between and
+  // within them.
+  Random random(17);
+  ConstrainedTriangulator triangulator;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const double noise = kSnapDistance * random.LogUniform(1e-3, 1e2);
+    std::vector<Vec2> points;
+    const int n = 4 + static_cast<int>(random.Index(20));
+    for (int i = 0; i < n; ++i)
+      points.push_back(
+          {random.Index(3) + noise * random.Uniform(), random.Index(3) + noise * random.Uniform()});
+    std::vector<ConstraintSegment> constraints;
+    for (int i = 0; i < n; ++i) {
+      const auto from = static_cast<std::int32_t>(random.Index(n)),
+                 to = static_cast<std::int32_t>(random.Index(n));
+      if (points[from] != points[to]) constraints.push_back({from, to, i});
+    }
+    const ConstrainedTriangulation& mesh = triangulator.Triangulate(points, constraints);
+    std::set<std::pair<int, int>> sides;
+    for (const Triangle& t : mesh.triangles)
+      for (int k = 0; k < 3; ++k) sides.emplace(std::minmax({t.vertex[k], t.vertex[(k + 1) % 3]}));
+    for (const auto& edge : mesh.edges) ASSERT_TRUE(sides.contains({edge.a, edge.b})) << "trial " << trial;
+  }
+}
+
 TEST(ConstrainedTriangulation, ReuseChangesNothing) {
   // A triangulator that has done other work gives the result that a new one gives.
   Random random(11);

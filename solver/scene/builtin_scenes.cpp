@@ -1,0 +1,63 @@
+#include "solver/scene/builtin_scenes.h"
+
+#include <algorithm>
+
+#include "solver/base/check.h"
+#include "solver/scene/embedded_scenes.h"
+#include "solver/scene/obj_reader.h"
+
+namespace penumbra {
+namespace {
+
+Camera At(std::string name, const Vec3& eye, const Vec3& look_at, double vertical_fov) {
+  return {std::move(name), eye, look_at, Vec3::UnitZ(), vertical_fov};
+}
+
+std::optional<std::string> EmbeddedText(std::string_view file) {
+  for (const EmbeddedFile& embedded : EmbeddedSceneFiles())
+    if (embedded.name == file) return std::string(embedded.text);
+  return std::nullopt;
+}
+
+}  // namespace
+
+const std::vector<BuiltinScene>& BuiltinScenes() {
+  static const std::vector<BuiltinScene> scenes = {
+      {"office",
+       "a furnished room after the thesis's figures 7-1 and 7-2: desk, chair, shelves, picture, two lights",
+       {At("room", {3.55, 0.35, 1.7}, {1.55, 2.6, 0.85}, 55),
+        At("above", {3.3, -2.2, 5.2}, {1.9, 1.95, 0.6}, 40),
+        At("corner", {2.7, 0.9, 1.45}, {0.75, 3.2, 1.45}, 50),
+        At("desk", {3.2, 1.3, 0.55}, {1.7, 2.6, 0.35}, 50)}},
+      {"cornell",
+       "the Cornell box with its published measured geometry and reflectances",
+       {At("published", {0.278, 0.8, 0.273}, {0.278, 0, 0.273}, 39.3077),
+        At("blocks", {0.1, 0.1, 0.42}, {0.3, -0.3, 0.1}, 50),
+        At("ceiling", {0.28, 0.15, 0.08}, {0.28, -0.35, 0.4}, 55)}},
+      {"floating-cube",
+       "a cube floating above a plane under two area lights; an open scene",
+       {At("front", {2.6, -3.4, 2.4}, {0, 0, 0.5}, 42), At("above", {0.3, -0.6, 5.2}, {0, 0, 0}, 50),
+        At("low", {-2.6, -2.6, 0.7}, {0, 0, 0.5}, 45)}},
+      {"furnace",
+       "a closed box of reflectance 1/2 and emittance 1/2 whose exact irradiance and radiosity are 1 "
+       "everywhere",
+       {At("inside", {0.9, 0.1, 0.8}, {0.3, 0.7, 0.3}, 60)}},
+  };
+  return scenes;
+}
+
+std::optional<Scene> LoadBuiltinScene(std::string_view name, const SceneOptions& options) {
+  const auto found = std::find_if(BuiltinScenes().begin(), BuiltinScenes().end(),
+                                  [&](const BuiltinScene& scene) { return scene.name == name; });
+  if (found == BuiltinScenes().end()) return std::nullopt;
+  const std::string file = found->name + ".obj";
+  const std::optional<std::string> text = EmbeddedText(file);
+  PENUMBRA_CHECK(text.has_value());
+  Scene scene = ReadObjText(
+      *text, file, [](std::string_view mtl) { return EmbeddedText(mtl); }, options);
+  scene.name = found->name;
+  scene.cameras = found->cameras;
+  return scene;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,29 @@
+// solver/scene/builtin_scenes.h
+//
+// The scenes that the program brings along. Their geometry stands as OBJ in the folder scenes/.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "solver/scene/scene.h"
+#include "solver/scene/scene_options.h"
+
+namespace penumbra {
+
+struct BuiltinScene {
+  std::string name;
+  std::string description;  // one line
+  std::vector<Camera> cameras;
+};
+
+const std::vector<BuiltinScene>& BuiltinScenes();
+
+// The built-in scene with its cameras; nothing if there is none of that name. Throws InputError where the
+// options do not suit the scene.
+std::optional<Scene> LoadBuiltinScene(std::string_view name, const SceneOptions& options);
+
+}  // namespace penumbra

@@ -1,0 +1,17 @@
+// solver/scene/embedded_scenes.h
+
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace penumbra {
+
+struct EmbeddedFile {
+  std::string_view name, text;
+};
+
+// The files of the folder scenes/, by name. The definition is made by the build.
+std::span<const EmbeddedFile> EmbeddedSceneFiles();
+
+}  // namespace penumbra
