@@ -47,7 +47,7 @@ TEST(Probe, FurnaceIsOneEverywhere) {
   sandbox.Write(
       "points.csv",
       "x,y,z,nx,ny,nz\n0.3,0.4,0,0,0,1\n0.9,0.1,1,0,0,-2\n0,0.5,0.25,1e-3,0,0\n0.5,0.5,0.5,1,2,3\n");
-  const Outcome probe = sandbox.Run({"probe", "furnace", "--points", "points.csv", "--error", "0.05"});
+  const Outcome probe = sandbox.Run({"probe", "furnace", "--points", "points.csv", "--error", "0.1"});
   ASSERT_EQ(probe.status, 0) << probe.err;
   EXPECT_EQ(probe.err, "");
   const std::vector<std::string> lines = Lines(probe.out);
@@ -239,7 +239,7 @@ TEST(Render, EveryModeDrawsTheFurnace) {
   for (const char* mode : {"flat", "gouraud", "gouraud-mesh", "interpolant", "rho"}) {
     const Outcome render =
         sandbox.Run({"render", "furnace", "-o", "image.exr", "--mode", mode, "--size", "32x24", "--error",
-                     "0.05", "--eye", "0.5,0.1,0.5", "--look-at", "0.5,1,0.5", "--fov", "60"});
+                     "0.1", "--eye", "0.5,0.1,0.5", "--look-at", "0.5,1,0.5", "--fov", "60"});
     ASSERT_EQ(render.status, 0) << render.err;
     const RgbImage image = ReadExr(sandbox.Path("image.exr"));
     ASSERT_EQ(image.width, 32);
