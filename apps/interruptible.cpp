@@ -26,8 +26,9 @@ class ProgressLine {
     if (!shown_) return;
     const std::string line = fmt::format("{} {:3.0f} %", phase, 100 * fraction);
     const auto now = std::chrono::steady_clock::now();
-    if (line == last_ || (!last_.empty() && now - drawn_ < kInterval)) return;
+    if (line == last_ || (phase == phase_ && now - drawn_ < kInterval)) return;
     drawn_ = now;
+    phase_ = phase;
     last_ = line;
     Put(line);
   }
@@ -41,7 +42,7 @@ class ProgressLine {
   }
 
   bool shown_;
-  std::string last_;
+  std::string phase_, last_;
   std::chrono::steady_clock::time_point drawn_;
 };
 

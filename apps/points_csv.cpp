@@ -6,9 +6,10 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <optional>
+#include <sstream>
 #include <string_view>
 
 #include "apps/option_values.h"
@@ -67,14 +68,16 @@ ProbePoint ReadRow(const std::string& path, std::size_t number, std::string_view
 
 std::string ReadFile(const std::string& path) {
   errno = 0;
+  std::error_code ignored;
+  const bool folder = std::filesystem::is_directory(path, ignored);
   std::ifstream file(path, std::ios::binary);
-  std::string text;
-  if (file) text.assign(std::istreambuf_iterator<char>(file), {});
-  if (!file || errno != 0)
+  std::ostringstream text;
+  if (file && !folder && file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
+  if (folder || !file.is_open() || file.bad() || text.fail())
     Fail(path, 0,
          fmt::format("cannot be read: {}; name a CSV file with the header '{}'",
-                     std::strerror(errno != 0 ? errno : EIO), kHeader));
-  return text;
+                     folder ? "it is a directory" : std::strerror(errno != 0 ? errno : EIO), kHeader));
+  return text.str();
 }
 
 }  // namespace

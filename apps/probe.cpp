@@ -89,8 +89,9 @@ Footing Prober::FindFooting(const Vec3& position, const Vec3& normal) const {
 }
 
 bool Prober::SeesOnlyBacks(const Vec3& position, const Vec3& normal) const {
-  // A point on a surface stands on the side that its normal points to.
-  const Vec3 eye = position + reach_ * normal;
+  // A point on a surface stands on the side that its normal points to, in the floats of rays, too.
+  constexpr double kFloatRounding = 8 * std::numeric_limits<float>::epsilon();
+  const Vec3 eye = position + (reach_ + kFloatRounding * MaxAbs(position)) * normal;
   // Furniture without a bottom stands on an uncut floor: a look down from inside it meets a front.
   for (const Vec3& up : {normal, Vec3(-normal)}) {
     bool any_back = false, any_front = false;

@@ -132,7 +132,7 @@ LoadedScene LoadScene(const SceneArguments& arguments) {
   const auto begin = std::chrono::steady_clock::now();
   LoadedScene loaded{ReadScene(arguments.scene, arguments.reading), 0};
   loaded.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  for (const std::string& warning : loaded.scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : loaded.scene.warnings) fmt::print(stderr, "{}\n", warning);
   return loaded;
 }
 

@@ -47,7 +47,7 @@ TEST(Probe, FurnaceIsOneEverywhere) {
   sandbox.Write(
       "points.csv",
       "x,y,z,nx,ny,nz\n0.3,0.4,0,0,0,1\n0.9,0.1,1,0,0,-2\n0,0.5,0.25,1e-3,0,0\n0.5,0.5,0.5,1,2,3\n");
-  const Outcome probe = sandbox.Run({"probe", "furnace", "--points", "points.csv", "--error", "0.05"});
+  const Outcome probe = sandbox.Run({"probe", "furnace", "--points", "points.csv", "--error", "0.1"});
   ASSERT_EQ(probe.status, 0) << probe.err;
   EXPECT_EQ(probe.err, "");
   const std::vector<std::string> lines = Lines(probe.out);
@@ -143,6 +143,23 @@ TEST(Determinism, SameBytesForAnyThreads) {
   }
 }
 
+// Times, the number of threads and memory apart, reports are the same for every number of threads.
+TEST(Determinism, SameReportForAnyThreads) {
+  const Sandbox sandbox;
+  std::vector<json> reports;
+  for (const char* threads : {"1", "2"}) {
+    const Outcome solve = sandbox.Run({"solve", "floating-cube", "--error", "0.3", "--error-points", "100",
+                                       "--report", "report.json", "--threads", threads});
+    ASSERT_EQ(solve.status, 0) << solve.err;
+    json report = json::parse(ReadBytes(sandbox.Path("report.json")));
+    for (const char* key : {"phases", "threads", "memory_peak_bytes"}) report.erase(key);
+    report.at("options").erase("threads");
+    for (json& iteration : report.at("iterations")) iteration.erase("seconds");
+    reports.push_back(report);
+  }
+  EXPECT_EQ(reports[0], reports[1]);
+}
+
 // The report holds every field, and adds up; -v tells the options used.
 TEST(Solve, ReportHoldsEveryField) {
   const Sandbox sandbox;
@@ -214,20 +231,23 @@ TEST(Solve, EmptySceneIsDark) {
   EXPECT_THAT(probe.out, HasSubstr("\n0,0,0,0,0,1,-1,0,0,0,nan,nan,nan\n"));
 }
 
-// Every mode draws the furnace: its radiosity is 1 W/m^2, its reflectance 1/2, wherever one looks.
+// Every mode draws the furnace: its radiosity is 1 W/m^2, its reflectance 1/2, wherever one looks. The
+// constants of flat carry the error of single elements, which the exact samples of the other modes do not
+// show.
 TEST(Render, EveryModeDrawsTheFurnace) {
   const Sandbox sandbox;
   for (const char* mode : {"flat", "gouraud", "gouraud-mesh", "interpolant", "rho"}) {
     const Outcome render =
         sandbox.Run({"render", "furnace", "-o", "image.exr", "--mode", mode, "--size", "32x24", "--error",
-                     "0.05", "--eye", "0.5,0.1,0.5", "--look-at", "0.5,1,0.5", "--fov", "60"});
+                     "0.1", "--eye", "0.5,0.1,0.5", "--look-at", "0.5,1,0.5", "--fov", "60"});
     ASSERT_EQ(render.status, 0) << render.err;
     const RgbImage image = ReadExr(sandbox.Path("image.exr"));
     ASSERT_EQ(image.width, 32);
     ASSERT_EQ(image.height, 24);
     const float want = std::string(mode) == "rho" ? 0.5f : 1.0f;
+    const float tolerance = std::string(mode) == "flat" ? 0.2f : 0.05f;
     for (const auto& channel : image.channel)
-      for (const float value : channel) ASSERT_NEAR(value, want, 0.05f) << mode;
+      for (const float value : channel) ASSERT_NEAR(value, want, tolerance) << mode;
   }
 }
 

@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "newmtl white\nKd 0.5 -0.1 0.5\n", "scene.mtl:2: error: "},
         BadScene{"emittance_nan", "mtllib scene.mtl\nusemtl white\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n",
                  "newmtl white\nKd 0 0 0\nKe nan 0 0\n", "scene.mtl:3: error: "}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test_case) { return test_case.param.name; });
 
 // A scene that is neither a file nor a built-in name is named in one line.
 TEST(Input, MissingSceneIsNamed) {
@@ -192,7 +192,8 @@ TEST(Input, FileWinsOverBuiltInName) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("2, 1 of them dropped"));
   ASSERT_GE(Lines(outcome.err).size(), 1u);
-  for (const std::string& line : Lines(outcome.err)) EXPECT_THAT(line, testing::StartsWith("warning: "));
+  for (const std::string& line : Lines(outcome.err))
+    EXPECT_THAT(line, testing::ContainsRegex("^office:[0-9]+: warning: "));
 }
 
 // Bad points get one line that names file and line, and status 1.
@@ -217,9 +218,11 @@ TEST(Input, BadPointsAreNamed) {
     EXPECT_THAT(Lines(outcome.err), ElementsAre(testing::StartsWith(message)));
     EXPECT_EQ(outcome.out, "");
   }
-  const Outcome missing = sandbox.Run({"probe", "scene.obj", "--points", "missing.csv", "--direct"});
-  EXPECT_EQ(missing.status, 1);
-  EXPECT_THAT(Lines(missing.err), ElementsAre(testing::StartsWith("missing.csv:0: error: ")));
+  for (const std::string unreadable : {"missing.csv", "."}) {
+    const Outcome outcome = sandbox.Run({"probe", "scene.obj", "--points", unreadable, "--direct"});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(Lines(outcome.err), ElementsAre(testing::StartsWith(unreadable + ":0: error: ")));
+  }
 }
 
 // An output that cannot be written is told in one line, before the solve.
