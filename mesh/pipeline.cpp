@@ -73,7 +73,6 @@ struct Pipeline::Impl {
   ResolvedOptions resolved;
   PatchVisibility visibility;
   RadiositySolution solution;
-  SourceSet sources;
   std::unique_ptr<PointIrradiance> irradiance;
   IrradianceMesh mesh;
   std::unique_ptr<MeshLocator> locator;
@@ -87,7 +86,7 @@ struct Pipeline::Impl {
 };
 
 Pipeline::Pipeline(const Scene& scene, const PipelineOptions& options)
-    : impl_(new Impl{scene, options, Resolve(scene, options), {}, {}, {}, {}, {}, {}, {}}) {
+    : impl_(new Impl{scene, options, Resolve(scene, options), {}, {}, {}, {}, {}, {}}) {
   impl_->report.error_asked = options.error;
 }
 
@@ -107,8 +106,7 @@ void Pipeline::Solve(const ExecutionContext& context) {
         fmt::format("iterate: {} iterations left a residual of {:.2g}", impl_->report.iterations.size(),
                     impl_->report.iterations.empty() ? INFINITY : impl_->report.iterations.back().residual));
   impl_->solution = std::move(solver).TakeSolution();
-  impl_->sources = SourceSet::FromSolution(impl_->solution);
-  impl_->irradiance = std::make_unique<PointIrradiance>(impl_->scene, impl_->visibility, impl_->sources);
+  impl_->irradiance = std::make_unique<PointIrradiance>(impl_->solution, impl_->visibility);
   impl_->AddPhase("iterate", SecondsSince(start));
 
   PipelineReport::Counts& counts = impl_->report.counts;

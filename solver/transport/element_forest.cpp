@@ -1,5 +1,6 @@
 #include "solver/transport/element_forest.h"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_set>
 
@@ -145,6 +146,30 @@ std::vector<ElementId> ElementForest::AllLeaves() const {
     leaves.insert(leaves.end(), own.begin(), own.end());
   }
   return leaves;
+}
+
+ElementId ElementForest::LeafAt(PatchId patch, const Vec3& point) const {
+  const Vec3& normal = scene_->patches[patch].normal;
+  ElementId at = Root(patch);
+  while (!(*this)[at].IsLeaf()) {
+    // The child out of which the point sticks least.
+    double best = -INFINITY;
+    ElementId next = (*this)[at].first_child;
+    for (ElementId child = (*this)[at].first_child; child < (*this)[at].first_child + 4; ++child) {
+      const std::span<const Vec3> v = (*this)[child].Vertices();
+      double inside = INFINITY;
+      for (std::size_t k = 0; k < v.size(); ++k) {
+        const Vec3 edge = v[(k + 1) % v.size()] - v[k];
+        inside = std::min(inside, normal.cross(edge).dot(point - v[k]) / edge.norm());
+      }
+      if (inside > best) {
+        best = inside;
+        next = child;
+      }
+    }
+    at = next;
+  }
+  return at;
 }
 
 void ElementForest::Validate() const {

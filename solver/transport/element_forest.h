@@ -95,6 +95,10 @@ class ElementForest {
   // The leaves of all patches, patch by patch.
   std::vector<ElementId> AllLeaves() const;
 
+  // The leaf of the patch that contains the point, which is taken to lie in the patch's plane; on a border,
+  // or outside by rounding, one of those it is nearest to.
+  ElementId LeafAt(PatchId patch, const Vec3& point) const;
+
   // Calls visit(id) for the element and all below it, parents first.
   void ForEachBelow(ElementId top, const std::function<void(ElementId)>& visit) const;
 

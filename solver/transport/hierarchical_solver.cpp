@@ -269,8 +269,7 @@ IterationReport HierarchicalSolver::Iterate(const ExecutionContext& context) {
 
 double HierarchicalSolver::Correct(const ExecutionContext& context) {
   const std::vector<ElementId> leaves = solution_.forest.AllLeaves();
-  const SourceSet sources = SourceSet::FromSolution(solution_);
-  const PointIrradiance exact(scene_, visibility_, sources);
+  const PointIrradiance exact(solution_, visibility_);
   std::vector<Rgb> change(leaves.size(), Rgb::Zero());
   ParallelFor(leaves.size(), kExactGrain, [&](std::size_t i) {
     if (context.Cancelled()) return;

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "solver/transport/cubature.h"
 #include "solver/visibility/point_view.h"
-#include "solver/visibility/tube.h"
+#include "solver/visibility/tube_blockers.h"
 
 namespace penumbra {
 namespace {
@@ -32,18 +33,6 @@ double Radius(const Element& element, const Vec3& centre) {
   double square = 0;
   for (const Vec3& v : element.Vertices()) square = std::max(square, (v - centre).squaredNorm());
   return std::sqrt(square);
-}
-
-double Highest(std::span<const Vec3> polygon, const Patch& above) {
-  double highest = -INFINITY;
-  for (const Vec3& v : polygon) highest = std::max(highest, above.normal.dot(v - above.vertex[0]));
-  return highest;
-}
-
-double Lowest(std::span<const Vec3> polygon, const Patch& above) {
-  double lowest = INFINITY;
-  for (const Vec3& v : polygon) lowest = std::min(lowest, above.normal.dot(v - above.vertex[0]));
-  return lowest;
 }
 
 class Former {
@@ -80,45 +69,26 @@ class Former {
   void Consider(const LinkCandidate& candidate) {
     const Element& source = forest_[candidate.source];
     const Patch& source_patch = forest_.scene().patches[source.patch];
-    const double rounding = HeightRounding(std::max(patch_.extent, source_patch.extent));
-    if (Highest(receiver_.Vertices(), source_patch) <= rounding ||
-        Highest(source.Vertices(), patch_) <= rounding)
-      return;
-
-    Pending pending;
-    pending.link = set_.links.size();
-    Polygon3 receiver(receiver_.Vertices().begin(), receiver_.Vertices().end());
-    Polygon3 seen(source.Vertices().begin(), source.Vertices().end());
-    if (Lowest(receiver, source_patch) < -rounding) {
-      receiver = ClipToHalfSpace(receiver, source_patch.normal, source_patch.vertex[0]);
-      if (receiver.empty()) return;
-      pending.lit = receiver;
-      pending.lit_fraction = std::min(1.0, VectorArea(receiver).norm() / receiver_.area);
-    }
-    if (Lowest(seen, patch_) < -rounding) {
-      seen = ClipToHalfSpace(seen, patch_.normal, patch_.vertex[0]);
-      if (seen.empty()) return;
-    }
+    const std::optional<TubeEnds> ends =
+        ClipToEachOther(receiver_.Vertices(), patch_, source.Vertices(), source_patch);
+    if (!ends) return;
 
     Link link;
     link.receiver = id_;
     link.source = candidate.source;
     link.first_blocker = static_cast<std::uint32_t>(set_.blockers.size());
-    if (!candidate.blockers.empty()) {
-      const Tube tube(receiver, seen);
-      for (const PatchId blocker : candidate.blockers) {
-        const Patch& patch = forest_.scene().patches[blocker];
-        if (tube.Misses(patch.Vertices(), patch.normal)) continue;
-        if (tube.HiddenBy(patch.Vertices(), patch.normal)) {
-          set_.blockers.resize(link.first_blocker);
-          return;
-        }
-        set_.blockers.push_back(blocker);
-      }
-    }
+    if (!FindTubeBlockers(forest_.scene(), *ends, receiver_.patch, source.patch, candidate.blockers,
+                          set_.blockers))
+      return;
     link.blocker_count = static_cast<std::uint32_t>(set_.blockers.size()) - link.first_blocker;
     link.visibility = link.blocker_count > 0 ? Visibility::kPartial : Visibility::kVisible;
 
+    Pending pending;
+    pending.link = set_.links.size();
+    if (ends->receiver_clipped) {
+      pending.lit = ends->receiver;
+      pending.lit_fraction = std::min(1.0, VectorArea(ends->receiver).norm() / receiver_.area);
+    }
     const Vec3 source_centre = Centroid(source.Vertices());
     const double gap = (source_centre - centre_).norm() - Radius(source, source_centre) - radius_;
     pending.refinement = gap < kNear * radius_ ? kNearRefinement : 0;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <utility>
 #include <vector>
 
+#include "solver/transport/solution.h"
 #include "solver/visibility/point_view.h"
 
 namespace penumbra {
@@ -93,16 +95,33 @@ class Gathering {
 
 }  // namespace
 
-PointIrradiance::PointIrradiance(const Scene& scene, const PatchVisibility& visibility,
-                                 const SourceSet& sources)
-    : scene_(scene), visibility_(visibility), sources_(sources), all_patches_(scene.patches.size()) {
+PointIrradiance::PointIrradiance(const RadiositySolution& solution, const PatchVisibility& visibility)
+    : scene_(solution.forest.scene()),
+      visibility_(visibility),
+      forest_(&solution.forest),
+      sources_(SourceSet::FromSolution(solution)),
+      leaves_(solution.forest, visibility),
+      all_patches_(scene_.patches.size()) {
+  std::iota(all_patches_.begin(), all_patches_.end(), 0);
+}
+
+PointIrradiance::PointIrradiance(const Scene& scene, const PatchVisibility& visibility, SourceSet sources)
+    : scene_(scene),
+      visibility_(visibility),
+      sources_(std::move(sources)),
+      all_patches_(scene.patches.size()) {
   std::iota(all_patches_.begin(), all_patches_.end(), 0);
 }
 
 PointIrradianceResult PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& at) const {
   Gathering gathering(scene_, sources_, at);
-  for (const PatchPair& pair : visibility_.SourcesOf(patch))
-    gathering.AddSource(pair.source, visibility_.Blockers(pair), patch);
+  if (forest_ != nullptr) {
+    for (const PatchPair& pair : leaves_.SourcesOf(forest_->LeafAt(patch, at.position)))
+      gathering.AddSource(pair.source, leaves_.Blockers(pair), patch);
+  } else {
+    for (const PatchPair& pair : visibility_.SourcesOf(patch))
+      gathering.AddSource(pair.source, visibility_.Blockers(pair), patch);
+  }
   return gathering.Result();
 }
 

@@ -12,6 +12,7 @@
 
 #include "solver/geometry/vec.h"
 #include "solver/scene/scene.h"
+#include "solver/transport/leaf_visibility.h"
 #include "solver/transport/source_set.h"
 #include "solver/visibility/patch_visibility.h"
 #include "solver/visibility/receiver_point.h"
@@ -27,11 +28,13 @@ struct PointIrradianceResult {
 
 class PointIrradiance {
  public:
-  // Everything referred to must outlive this object.
-  PointIrradiance(const Scene& scene, const PatchVisibility& visibility, const SourceSet& sources);
+  // From the leaves of a solution. Everything referred to must outlive this object.
+  PointIrradiance(const RadiositySolution& solution, const PatchVisibility& visibility);
+  // From any set of sources, with the sources and blockers that the patches have: direct light, say.
+  PointIrradiance(const Scene& scene, const PatchVisibility& visibility, SourceSet sources);
 
-  // At a point on the front of a patch: only the patch's sources and their blockers are looked at, and the
-  // patch itself neither lights nor blocks. Safe from any thread.
+  // At a point on the front of a patch: only the sources of its leaf (or patch) and their blockers are looked
+  // at, and the patch itself neither lights nor blocks. Safe from any thread.
   PointIrradianceResult OnPatch(PatchId patch, const ReceiverPoint& at) const;
 
   // Anywhere, in free space too: every patch may light and block. Safe from any thread.
@@ -40,7 +43,9 @@ class PointIrradiance {
  private:
   const Scene& scene_;
   const PatchVisibility& visibility_;
-  const SourceSet& sources_;
+  const ElementForest* forest_ = nullptr;  // whose leaves leaves_ knows; null without a solution
+  SourceSet sources_;
+  LeafVisibility leaves_;
   std::vector<PatchId> all_patches_;
 };
 

@@ -12,31 +12,6 @@ namespace {
 
 constexpr std::size_t kPointGrain = 16;
 
-// The leaf of the patch that contains the point.
-ElementId LeafAt(const ElementForest& forest, PatchId patch, const Vec3& point) {
-  const Vec3& normal = forest.scene().patches[patch].normal;
-  ElementId at = ElementForest::Root(patch);
-  while (!forest[at].IsLeaf()) {
-    // On a border within rounding: the child out of which the point sticks least.
-    double best = -INFINITY;
-    ElementId next = kNoElement;
-    for (ElementId child = forest[at].first_child; child < forest[at].first_child + 4; ++child) {
-      const std::span<const Vec3> v = forest[child].Vertices();
-      double inside = INFINITY;
-      for (std::size_t k = 0; k < v.size(); ++k) {
-        const Vec3 edge = v[(k + 1) % v.size()] - v[k];
-        inside = std::min(inside, normal.cross(edge).dot(point - v[k]) / edge.norm());
-      }
-      if (inside > best) {
-        best = inside;
-        next = child;
-      }
-    }
-    at = next;
-  }
-  return at;
-}
-
 }  // namespace
 
 double EstimateSolutionError(const RadiositySolution& solution, const PointIrradiance& irradiance,
@@ -50,7 +25,7 @@ double EstimateSolutionError(const RadiositySolution& solution, const PointIrrad
     receiver.position = at[i].position;
     receiver.normal = scene.patches[at[i].patch].normal;
     exact[i] = irradiance.OnPatch(at[i].patch, receiver).irradiance;
-    difference[i] = exact[i] - solution.irradiance[LeafAt(solution.forest, at[i].patch, at[i].position)];
+    difference[i] = exact[i] - solution.irradiance[solution.forest.LeafAt(at[i].patch, at[i].position)];
   });
 
   double missing = 0, reflected = 0, reflectance = 0;

@@ -187,20 +187,22 @@ Cone MakeCone(const DirectionPolygon& blocker) {
 Overlap Classify(const Cone& cone, const DirectionPolygon& polygon) {
   bool all = true;
   for (int k = 0; k < cone.size; ++k) {
+    const Vec3& m = cone.normal[static_cast<std::size_t>(k)];
     bool any_inside = false, any_outside = false;
-    for (int i = 0; i < polygon.size(); ++i) {
-      const double h = cone.normal[static_cast<std::size_t>(k)].dot(polygon[i]);
-      any_inside |= h > 0;
-      any_outside |= h < 0;
+    for (int i = 0; i < polygon.size() && !(any_inside && any_outside); ++i) {
+      const double h = m.dot(polygon[i]);
+      any_inside = any_inside || h > 0;
+      any_outside = any_outside || h < 0;
     }
     if (!any_inside) return Overlap::kNone;
-    all &= !any_outside;
+    all = all && !any_outside;
   }
   if (all) return cone.size > 0 ? Overlap::kAll : Overlap::kNone;
   for (int i = 0; i < polygon.size(); ++i) {
-    const Vec3 m = EdgeNormal(polygon[i], polygon.Next(i));
+    const Vec3 m = polygon[i].cross(polygon.Next(i));
     bool any_inside = false;
-    for (int k = 0; k < cone.size; ++k) any_inside |= m.dot(cone.direction[static_cast<std::size_t>(k)]) > 0;
+    for (int k = 0; k < cone.size && !any_inside; ++k)
+      any_inside = m.dot(cone.direction[static_cast<std::size_t>(k)]) > 0;
     if (!any_inside) return Overlap::kNone;
   }
   return Overlap::kPart;

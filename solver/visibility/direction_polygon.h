@@ -8,6 +8,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -20,7 +21,16 @@ namespace penumbra {
 
 class DirectionPolygon {
  public:
-  static constexpr int kCapacity = 32;
+  static constexpr int kCapacity = 20;
+
+  DirectionPolygon() = default;
+  // Copies what is in use.
+  DirectionPolygon(const DirectionPolygon& other) { *this = other; }
+  DirectionPolygon& operator=(const DirectionPolygon& other) {
+    size_ = other.size_;
+    std::copy_n(other.vertex_.begin(), size_, vertex_.begin());
+    return *this;
+  }
 
   int size() const { return size_; }
   bool empty() const { return size_ == 0; }

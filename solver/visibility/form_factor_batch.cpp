@@ -43,9 +43,11 @@ constexpr double kTanEighthPi = 0.41421356237309503;
   return x < 0 ? std::numbers::pi - octant : octant;
 }
 
-// One edge's share of 2 pi times the negated form factor. a is the edge's start, b its end, p the point, n its normal.
-[[gnu::always_inline]] inline double EdgeTerm(double ax, double ay, double az, double bx, double by, double bz,
-                                              double px, double py, double pz, double nx, double ny, double nz) {
+// One edge's share of 2 pi times the negated form factor. a is the edge's start, b its end, p the point, n
+// its normal.
+[[gnu::always_inline]] inline double EdgeTerm(double ax, double ay, double az, double bx, double by,
+                                              double bz, double px, double py, double pz, double nx,
+                                              double ny, double nz) {
   // The edge from the original coordinates: what is close to it keeps its digits.
   const double ex = bx - ax, ey = by - ay, ez = bz - az;
   const double rx = ax - px, ry = ay - py, rz = az - pz;
@@ -58,12 +60,12 @@ constexpr double kTanEighthPi = 0.41421356237309503;
 
 // c[3 k + axis] points to the coordinates of the k-th vertices.
 PENUMBRA_VECTOR_CLONES
-void Kernel(const std::array<const double*, 12>& c, std::size_t count, double px, double py, double pz, double nx,
-            double ny, double nz, double* __restrict out) {
-  const double *__restrict x0 = c[0], *__restrict y0 = c[1], *__restrict z0 = c[2];
-  const double *__restrict x1 = c[3], *__restrict y1 = c[4], *__restrict z1 = c[5];
-  const double *__restrict x2 = c[6], *__restrict y2 = c[7], *__restrict z2 = c[8];
-  const double *__restrict x3 = c[9], *__restrict y3 = c[10], *__restrict z3 = c[11];
+void Kernel(const std::array<const double*, 12>& c, std::size_t count, double px, double py, double pz,
+            double nx, double ny, double nz, double* __restrict out) {
+  const double* __restrict x0 = c[0], * __restrict y0 = c[1], * __restrict z0 = c[2];
+  const double* __restrict x1 = c[3], * __restrict y1 = c[4], * __restrict z1 = c[5];
+  const double* __restrict x2 = c[6], * __restrict y2 = c[7], * __restrict z2 = c[8];
+  const double* __restrict x3 = c[9], * __restrict y3 = c[10], * __restrict z3 = c[11];
   for (std::size_t i = 0; i < count; ++i) {
     const double first = EdgeTerm(x0[i], y0[i], z0[i], x1[i], y1[i], z1[i], px, py, pz, nx, ny, nz);
     const double second = EdgeTerm(x1[i], y1[i], z1[i], x2[i], y2[i], z2[i], px, py, pz, nx, ny, nz);

@@ -1,48 +1,26 @@
 #include "solver/visibility/patch_visibility.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 #include "solver/base/parallel.h"
-#include "solver/visibility/tube.h"
+#include "solver/visibility/tube_blockers.h"
 
 namespace penumbra {
 namespace {
-
-// Of a height above a plane, relative to the coordinates: what rounding of vertices and normal can make of
-// zero. Patches that see each other only by less than this lie in one plane.
-constexpr double kCoplanar = 1e-12;
-
-// The part of `patch` before the plane of `other`; empty if that is nothing beyond rounding.
-Polygon3 PartBefore(const Patch& patch, const Patch& other) {
-  double highest = 0, scale = 0;
-  for (const Vec3& v : patch.Vertices()) {
-    highest = std::max(highest, other.normal.dot(v - other.vertex[0]));
-    scale = std::max({scale, MaxAbs(v), MaxAbs(other.vertex[0])});
-  }
-  if (highest <= kCoplanar * scale) return {};
-  return ClipToHalfSpace(patch.Vertices(), other.normal, other.vertex[0]);
-}
 
 struct Found {
   PatchId other;
   std::vector<PatchId> blockers;
 };
 
-std::optional<Found> FindPair(const Scene& scene, PatchId i, PatchId j) {
-  const Polygon3 a = PartBefore(scene.patches[i], scene.patches[j]);
-  if (a.empty()) return std::nullopt;
-  const Polygon3 b = PartBefore(scene.patches[j], scene.patches[i]);
-  if (b.empty()) return std::nullopt;
-  const Tube tube(a, b);
+std::optional<Found> FindPair(const Scene& scene, std::span<const PatchId> all, PatchId i, PatchId j) {
+  const Patch &a = scene.patches[i], &b = scene.patches[j];
+  const std::optional<TubeEnds> ends = ClipToEachOther(a.Vertices(), a, b.Vertices(), b);
+  if (!ends) return std::nullopt;
   Found found{j, {}};
-  for (PatchId k = 0; k < static_cast<PatchId>(scene.patches.size()); ++k) {
-    if (k == i || k == j) continue;
-    const Patch& blocker = scene.patches[k];
-    if (tube.Misses(blocker.Vertices(), blocker.normal)) continue;
-    if (tube.HiddenBy(blocker.Vertices(), blocker.normal)) return std::nullopt;
-    found.blockers.push_back(k);
-  }
+  if (!FindTubeBlockers(scene, *ends, i, j, all, found.blockers)) return std::nullopt;
   return found;
 }
 
@@ -50,10 +28,12 @@ std::optional<Found> FindPair(const Scene& scene, PatchId i, PatchId j) {
 
 PatchVisibility::PatchVisibility(const Scene& scene) {
   const std::size_t count = scene.patches.size();
+  std::vector<PatchId> all(count);
+  std::iota(all.begin(), all.end(), 0);
   std::vector<std::vector<Found>> found(count);  // pairs (i, j) with i < j, at i
   ParallelFor(count, 1, [&](std::size_t i) {
     for (std::size_t j = i + 1; j < count; ++j)
-      if (auto pair = FindPair(scene, static_cast<PatchId>(i), static_cast<PatchId>(j)))
+      if (auto pair = FindPair(scene, all, static_cast<PatchId>(i), static_cast<PatchId>(j)))
         found[i].push_back(std::move(*pair));
   });
 

@@ -1,0 +1,111 @@
+#include "solver/transport/leaf_visibility.h"
+
+#include <optional>
+
+#include "solver/base/parallel.h"
+#include "solver/visibility/tube_blockers.h"
+
+namespace penumbra {
+namespace {
+
+// Leaves are widened by this much of their diameter, and of their patch's, before the tubes are drawn. A
+// point on the border of two leaves then has the same blockers in both, those that touch the border among
+// them.
+constexpr double kMargin = 0.01, kMarginOfPatch = 1e-5;
+
+Polygon3 Widened(std::span<const Vec3> polygon, double margin) {
+  const Vec3 centre = Centroid(polygon);
+  const double factor = 1 + margin / Diameter(polygon);
+  Polygon3 wide;
+  for (const Vec3& v : polygon) wide.push_back(centre + factor * (v - centre));
+  return wide;
+}
+
+struct Lists {
+  std::vector<PatchPair> pairs;
+  std::vector<PatchId> blockers;
+
+  std::span<const PatchId> Blockers(const PatchPair& pair) const {
+    return {blockers.data() + pair.first_blocker, pair.blocker_count};
+  }
+};
+
+// All that leaves of one patch see: per leaf its lists, depth first.
+struct PatchLists {
+  std::vector<ElementId> leaves;
+  std::vector<Lists> lists;
+};
+
+class Filter {
+ public:
+  explicit Filter(const ElementForest& forest) : forest_(forest), scene_(forest.scene()) {}
+
+  void Descend(ElementId id, const Lists& above, PatchLists& out) const {
+    const Element& element = forest_[id];
+    Lists own = Narrow(element, above);
+    if (element.IsLeaf()) {
+      out.leaves.push_back(id);
+      out.lists.push_back(std::move(own));
+      return;
+    }
+    for (ElementId child = element.first_child; child < element.first_child + 4; ++child)
+      Descend(child, own, out);
+  }
+
+ private:
+  Lists Narrow(const Element& element, const Lists& above) const {
+    const Patch& patch = scene_.patches[element.patch];
+    const double margin =
+        kMargin * Diameter(element.Vertices()) + kMarginOfPatch * Diameter(patch.Vertices());
+    const Polygon3 receiver = Widened(element.Vertices(), margin);
+    Lists own;
+    for (PatchPair pair : above.pairs) {
+      const Patch& source = scene_.patches[pair.source];
+      const std::optional<TubeEnds> ends = ClipToEachOther(receiver, patch, source.Vertices(), source);
+      if (!ends) continue;
+      const auto first = static_cast<std::uint32_t>(own.blockers.size());
+      if (!FindTubeBlockers(scene_, *ends, element.patch, pair.source, above.Blockers(pair), own.blockers))
+        continue;
+      pair.first_blocker = first;
+      pair.blocker_count = static_cast<std::uint32_t>(own.blockers.size()) - first;
+      pair.visibility = pair.blocker_count > 0 ? Visibility::kPartial : Visibility::kVisible;
+      own.pairs.push_back(pair);
+    }
+    return own;
+  }
+
+  const ElementForest& forest_;
+  const Scene& scene_;
+};
+
+}  // namespace
+
+LeafVisibility::LeafVisibility(const ElementForest& forest, const PatchVisibility& patches)
+    : range_(forest.size(), {0, 0}) {
+  const std::size_t count = forest.scene().patches.size();
+  std::vector<PatchLists> found(count);
+  const Filter filter(forest);
+  ParallelFor(count, 1, [&](std::size_t p) {
+    Lists root;
+    for (PatchPair pair : patches.SourcesOf(static_cast<PatchId>(p))) {
+      const std::span<const PatchId> blockers = patches.Blockers(pair);
+      pair.first_blocker = static_cast<std::uint32_t>(root.blockers.size());
+      root.blockers.insert(root.blockers.end(), blockers.begin(), blockers.end());
+      root.pairs.push_back(pair);
+    }
+    filter.Descend(ElementForest::Root(static_cast<PatchId>(p)), root, found[p]);
+  });
+  for (const PatchLists& patch : found)
+    for (std::size_t i = 0; i < patch.leaves.size(); ++i) {
+      const auto offset = static_cast<std::uint32_t>(blockers_.size());
+      const std::size_t first = pairs_.size();
+      for (PatchPair pair : patch.lists[i].pairs) {
+        pair.first_blocker += offset;
+        pairs_.push_back(pair);
+      }
+      blockers_.insert(blockers_.end(), patch.lists[i].blockers.begin(), patch.lists[i].blockers.end());
+      range_[static_cast<std::size_t>(patch.leaves[i])] = {first, pairs_.size()};
+    }
+}
+
+}  // namespace penumbra
