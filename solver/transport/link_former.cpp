@@ -90,13 +90,13 @@ class Former {
     Polygon3 receiver(receiver_.Vertices().begin(), receiver_.Vertices().end());
     Polygon3 seen(source.Vertices().begin(), source.Vertices().end());
     if (Lowest(receiver, source_patch) < -rounding) {
-      receiver = ClipToHalfSpace(receiver, source_patch.normal, source_patch.vertex[0]);
+      receiver = ClipToHalfSpace(receiver, source_patch.normal, source_patch.vertex[0], rounding);
       if (receiver.empty()) return;
       pending.lit = receiver;
       pending.lit_fraction = std::min(1.0, VectorArea(receiver).norm() / receiver_.area);
     }
     if (Lowest(seen, patch_) < -rounding) {
-      seen = ClipToHalfSpace(seen, patch_.normal, patch_.vertex[0]);
+      seen = ClipToHalfSpace(seen, patch_.normal, patch_.vertex[0], rounding);
       if (seen.empty()) return;
     }
 

@@ -21,7 +21,7 @@ Polygon3 PartBefore(const Patch& patch, const Patch& other) {
     scale = std::max({scale, MaxAbs(v), MaxAbs(other.vertex[0])});
   }
   if (highest <= kCoplanar * scale) return {};
-  return ClipToHalfSpace(patch.Vertices(), other.normal, other.vertex[0]);
+  return ClipToHalfSpace(patch.Vertices(), other.normal, other.vertex[0], kCoplanar * scale);
 }
 
 struct Found {
