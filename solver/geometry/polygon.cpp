@@ -67,14 +67,19 @@ Frame PolygonFrame(std::span<const Vec3> polygon) {
   return MakeFrame(polygon[0], normal);
 }
 
-Polygon3 ClipToHalfSpace(std::span<const Vec3> polygon, const Vec3& normal, const Vec3& point) {
+Polygon3 ClipToHalfSpace(std::span<const Vec3> polygon, const Vec3& normal, const Vec3& point,
+                         double tolerance) {
+  const auto height = [&](const Vec3& p) {
+    const double h = normal.dot(p - point);
+    return std::abs(h) <= tolerance ? 0 : h;
+  };
   Polygon3 kept;
   kept.reserve(polygon.size() + 1);
   bool inside = false;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec3& a = polygon[i];
     const Vec3& b = polygon[(i + 1) % polygon.size()];
-    const double ha = normal.dot(a - point), hb = normal.dot(b - point);
+    const double ha = height(a), hb = height(b);
     if (ha >= 0) kept.push_back(a);
     if (ha > 0) inside = true;
     if ((ha > 0 && hb < 0) || (ha < 0 && hb > 0)) kept.push_back(a + (b - a) * (ha / (ha - hb)));

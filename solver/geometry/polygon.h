@@ -46,8 +46,9 @@ Frame MakeFrame(const Vec3& origin, const Vec3& normal);
 Frame PolygonFrame(std::span<const Vec3> polygon);
 
 // The part of the convex polygon where normal . (p - point) >= 0; empty where nothing of positive area can
-// remain.
-Polygon3 ClipToHalfSpace(std::span<const Vec3> polygon, const Vec3& normal, const Vec3& point);
+// remain. Vertices whose height is at most `tolerance` count as lying in the plane.
+Polygon3 ClipToHalfSpace(std::span<const Vec3> polygon, const Vec3& normal, const Vec3& point,
+                         double tolerance = 0);
 
 // True if p lies in the convex polygon or within `tolerance` [m] of it; p is taken to lie in its plane.
 bool ConvexContains(std::span<const Vec3> polygon, const Vec3& normal, const Vec3& p, double tolerance);

@@ -17,8 +17,8 @@ struct CubaturePoint {
   double weight = 0;  // the weights of a rule add up to 1
 };
 
-// A rule for the mean over a convex planar polygon: over a triangle exact for polynomials of degree 5 (7
-// points), over a quadrilateral of degree 5 in each of its parameters (3 x 3 Gauss-Legendre points), over
+// A rule for the mean over a convex planar polygon: over a triangle exact for polynomials of degree 2 (3
+// points), over a quadrilateral of degree 3 in each of its parameters (2 x 2 Gauss-Legendre points), over
 // others a fan of triangles. Each level of `refinement` splits the polygon into four first.
 std::vector<CubaturePoint> Cubature(std::span<const Vec3> polygon, int refinement = 0);
 

@@ -10,7 +10,7 @@ namespace penumbra {
 namespace {
 
 // The corners of the four children of a triangle (first three) or quadrilateral, each a pair of parent
-// corners whose midpoint it is; the pair (0, 2) of a quadrilateral is its centre.
+// corners whose midpoint it is; the pair (0, 2) of a quadrilateral stands for its centre.
 constexpr std::array<std::array<std::array<int, 2>, 3>, 4> kTriangleChildren = {{{{{0, 0}, {0, 1}, {2, 0}}},
                                                                                  {{{0, 1}, {1, 1}, {1, 2}}},
                                                                                  {{{2, 0}, {1, 2}, {2, 2}}},
@@ -39,10 +39,14 @@ Vec3 LatticePosition(const Patch& patch, const LatticePoint& p) {
 
 std::array<std::array<Vec3, 4>, 4> Quarters(const Element& element) {
   std::array<std::array<Vec3, 4>, 4> quarters;
+  // The diagonals of an irregular quadrilateral have other midpoints.
+  const Vec3 centre =
+      0.25 * ((element.vertex[0] + element.vertex[2]) + (element.vertex[1] + element.vertex[3]));
   for (std::size_t c = 0; c < 4; ++c) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(element.size); ++k) {
       const auto [i, j] = element.size == 3 ? kTriangleChildren[c][k] : kQuadrilateralChildren[c][k];
-      quarters[c][k] = 0.5 * (element.vertex[i] + element.vertex[j]);
+      quarters[c][k] =
+          i + 2 == j && element.size == 4 ? centre : Vec3(0.5 * (element.vertex[i] + element.vertex[j]));
     }
     if (element.size == 3) quarters[c][3] = quarters[c][2];
   }
@@ -95,6 +99,8 @@ std::size_t ElementForest::Balance(PatchId patch) {
   for (const ElementId id : pending)
     for (const LatticePoint& p : (*this)[id].Corners()) corners.insert(p);
   const auto too_coarse = [&](const Element& e) {
+    if (e.level + 2 > kMaxLevel)
+      return false;  // nothing is two levels finer, and has no place on the lattice
     for (int k = 0; k < e.size; ++k) {
       const LatticePoint a = e.corner[k], b = e.corner[(k + 1) % e.size], m = Midpoint(a, b);
       if (corners.contains(m) && (corners.contains(Midpoint(a, m)) || corners.contains(Midpoint(m, b))))

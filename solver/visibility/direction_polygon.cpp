@@ -16,6 +16,17 @@ constexpr double kHeightError = 16 * std::numeric_limits<double>::epsilon();
 // planes differ by roundings only, while a triangle never approaches a contact edge this flatly.
 constexpr double kParallelApproach = 1e-10;
 
+// An arc shorter than this [rad] is the rounding of a single vertex. A cone goes without it.
+constexpr double kNoArc = 1e-13;
+
+// An arc shorter than this [rad] does not tell safely on which side of its great circle a cone lies:
+// roundings turn it by up to 1e-9.
+constexpr double kShortArc = 1e-6;
+
+bool IsArcShorter(const Vec3& a, const Vec3& b, const Vec3& normal, double angle) {
+  return normal.squaredNorm() <= angle * angle * a.squaredNorm() * b.squaredNorm();
+}
+
 // The edge's normal a x b. Both neighbours of an edge compute it from the same end, the nearer one, with the
 // same operations: the results are opposite to the bit.
 Vec3 EdgeNormal(const Vec3& a, const Vec3& b) {
@@ -63,18 +74,24 @@ void SplitAt(const DirectionPolygon& polygon, const Heights& height, const Cross
   if (outside) *outside = out;
 }
 
-// The same for the plane m . direction = 0.
-template <class Crossing>
-void Split(const DirectionPolygon& polygon, const Vec3& m, const Crossing& crossing, DirectionPolygon* inside,
-           DirectionPolygon* outside) {
-  Heights height;
-  for (int i = 0; i < polygon.size(); ++i) height[static_cast<std::size_t>(i)] = m.dot(polygon[i]);
-  SplitAt(polygon, height, crossing, inside, outside);
-}
-
 const auto kBetween = [](const Vec3& a, const Vec3& b, double ha, double hb) -> Vec3 {
   return (hb * a + ha * b) / (ha + hb);
 };
+
+// The height of v above plane k of the cone; zero within rounding.
+double HeightAbove(const Cone& cone, int k, const Vec3& v) {
+  const double height = cone.normal[static_cast<std::size_t>(k)].dot(v);
+  return std::abs(height) <= cone.rounding + kHeightError * v.cwiseAbs().sum() ? 0 : height;
+}
+
+// The same for plane k of a cone.
+void Split(const DirectionPolygon& polygon, const Cone& cone, int k, DirectionPolygon* inside,
+           DirectionPolygon* outside) {
+  Heights height;
+  for (int i = 0; i < polygon.size(); ++i)
+    height[static_cast<std::size_t>(i)] = HeightAbove(cone, k, polygon[i]);
+  SplitAt(polygon, height, kBetween, inside, outside);
+}
 
 // Whether x lies on the segment from a to b (seen from x), within `tolerance`.
 bool OnEdge(const Vec3& a, const Vec3& b, double tolerance) {
@@ -84,6 +101,24 @@ bool OnEdge(const Vec3& a, const Vec3& b, double tolerance) {
 
 double Rounding(const ReceiverPoint& at, double extent) {
   return at.uncertainty + HeightRounding(MaxAbs(at.position) + extent);
+}
+
+struct Levelled {
+  DirectionPolygon polygon;
+  Heights height;
+};
+
+// What lies in the receiver's plane but for rounding shall lie in it. Its height is exactly zero from here
+// on: the rounding that is left must not cut an edge in two, at a place that means nothing.
+Levelled Level(const DirectionPolygon& seen, const Vec3& normal, double rounding) {
+  Levelled level;
+  for (int i = 0; i < seen.size(); ++i) {
+    const double height = normal.dot(seen[i]);
+    const bool in_plane = std::abs(height) <= rounding;
+    level.polygon.Add(in_plane ? Vec3(seen[i] - height * normal) : seen[i]);
+    level.height[static_cast<std::size_t>(i)] = in_plane ? 0 : height;
+  }
+  return level;
 }
 
 }  // namespace
@@ -114,34 +149,25 @@ DirectionPolygon SeenInContact(const ReceiverPoint& at, std::span<const Vec3> po
   for (const Vec3& v : polygon) extent = std::max(extent, MaxAbs(v));
   const double rounding = Rounding(at, extent);
 
-  // What lies in the receiver's plane but for rounding shall lie in it: the horizon then passes through the
-  // contact.
-  DirectionPolygon seen = Seen(at, polygon, from_front), level;
-  // Its height is exactly zero from here on: the rounding that is left must not cut an edge in two.
-  Heights heights;
-  for (int i = 0; i < seen.size(); ++i) {
-    const double height = at.normal.dot(seen[i]);
-    const bool in_plane = std::abs(height) <= rounding;
-    level.Add(in_plane ? Vec3(seen[i] - height * at.normal) : seen[i]);
-    heights[static_cast<std::size_t>(i)] = in_plane ? 0 : height;
-  }
+  const Levelled seen = Level(Seen(at, polygon, from_front), at.normal, rounding);
   DirectionPolygon above;
-  SplitAt(level, heights, kBetween, &above, nullptr);
+  SplitAt(seen.polygon, seen.height, kBetween, &above, nullptr);
 
   DirectionPolygon limit;
   bool touches = false;
+  const Vec3 away = -at.approach.normalized();
   const auto at_point = [&](const Vec3& v) { return v.squaredNorm() <= rounding * rounding; };
   for (int i = 0; i < above.size(); ++i) {
     const Vec3 &a = above[i], &b = above.Next(i);
     if (at_point(a)) {
       touches = true;
-      limit.Add(-at.approach);
+      limit.Add(away);
       continue;
     }
     limit.Add(a);
     if (!at_point(b) && OnEdge(a, b, rounding)) {
       touches = true;
-      limit.Add(-at.approach);
+      limit.Add(away);
     }
   }
   if (!touches) limit.clear();
@@ -159,20 +185,23 @@ double FormFactor(const DirectionPolygon& polygon, const Vec3& receiver_normal) 
   return std::max(0.0, sum / (2 * std::numbers::pi));
 }
 
-DirectionPolygon ClipToHorizon(const DirectionPolygon& polygon, const Vec3& receiver_normal) {
+DirectionPolygon ClipToHorizon(const ReceiverPoint& at, const DirectionPolygon& polygon, double extent) {
   const auto crossing = [&](const Vec3& a, const Vec3& b, double ha, double hb) -> Vec3 {
-    const Vec3 c = receiver_normal.cross(EdgeNormal(a, b)) / (ha + hb);
+    const Vec3 c = at.normal.cross(EdgeNormal(a, b)) / (ha + hb);
     return c.dot(hb * a + ha * b) < 0 ? Vec3(-c) : c;
   };
+  const Levelled seen = Level(polygon, at.normal, Rounding(at, extent));
   DirectionPolygon above;
-  Split(polygon, receiver_normal, crossing, &above, nullptr);
+  SplitAt(seen.polygon, seen.height, crossing, &above, nullptr);
   return above;
 }
 
-Cone MakeCone(const DirectionPolygon& blocker) {
+Cone MakeCone(const ReceiverPoint& at, const DirectionPolygon& blocker, double extent) {
   Cone cone;
   for (int i = 0; i < blocker.size(); ++i) {
     const Vec3 m = EdgeNormal(blocker[i], blocker.Next(i));
+    if (IsArcShorter(blocker[i], blocker.Next(i), m, kNoArc) && blocker[i].dot(blocker.Next(i)) >= 0)
+      continue;
     const double length = m.norm();
     if (length == 0) continue;
     PENUMBRA_CHECK(cone.size < static_cast<int>(cone.normal.size()));
@@ -181,16 +210,16 @@ Cone MakeCone(const DirectionPolygon& blocker) {
     ++cone.size;
   }
   if (cone.size < 3) cone.size = 0;
+  cone.rounding = Rounding(at, extent);
   return cone;
 }
 
 Overlap Classify(const Cone& cone, const DirectionPolygon& polygon) {
   bool all = true;
   for (int k = 0; k < cone.size; ++k) {
-    const Vec3& m = cone.normal[static_cast<std::size_t>(k)];
     bool any_inside = false, any_outside = false;
     for (int i = 0; i < polygon.size() && !(any_inside && any_outside); ++i) {
-      const double h = m.dot(polygon[i]);
+      const double h = HeightAbove(cone, k, polygon[i]);
       any_inside = any_inside || h > 0;
       any_outside = any_outside || h < 0;
     }
@@ -199,7 +228,8 @@ Overlap Classify(const Cone& cone, const DirectionPolygon& polygon) {
   }
   if (all) return cone.size > 0 ? Overlap::kAll : Overlap::kNone;
   for (int i = 0; i < polygon.size(); ++i) {
-    const Vec3 m = polygon[i].cross(polygon.Next(i));
+    const Vec3 m = EdgeNormal(polygon[i], polygon.Next(i));
+    if (IsArcShorter(polygon[i], polygon.Next(i), m, kShortArc)) continue;
     bool any_inside = false;
     for (int k = 0; k < cone.size && !any_inside; ++k)
       any_inside = m.dot(cone.direction[static_cast<std::size_t>(k)]) > 0;
@@ -213,8 +243,8 @@ void Subtract(const Cone& cone, std::vector<DirectionPolygon>& pieces) {
   std::size_t kept = 0;
   for (std::size_t p = 0; p < count; ++p) {
     DirectionPolygon rest = pieces[p];
-    if (rest.Full()) {
-      // Two halves, so that a cut can never overflow a piece.
+    if (rest.TooFullFor(cone.size)) {
+      // Two halves, so that cuts can never overflow a piece.
       DirectionPolygon half;
       half.Add(rest[0]);
       for (int i = rest.size() / 2; i < rest.size(); ++i) half.Add(rest[i]);
@@ -235,7 +265,7 @@ void Subtract(const Cone& cone, std::vector<DirectionPolygon>& pieces) {
       case Overlap::kPart:
         for (int k = 0; k < cone.size && !rest.empty(); ++k) {
           DirectionPolygon outside;
-          Split(rest, cone.normal[static_cast<std::size_t>(k)], kBetween, &rest, &outside);
+          Split(rest, cone, k, &rest, &outside);
           if (!outside.empty()) pieces.push_back(outside);
         }
         break;

@@ -41,8 +41,8 @@ class DirectionPolygon {
     PENUMBRA_CHECK(size_ < kCapacity);
     vertex_[static_cast<std::size_t>(size_++)] = direction;
   }
-  // No room for the vertex that one more cut adds.
-  bool Full() const { return size_ >= kCapacity - 1; }
+  // Whether as many cuts, each of which may add a vertex, could overflow it.
+  bool TooFullFor(int cuts) const { return size_ + cuts > kCapacity; }
 
  private:
   std::array<Vec3, kCapacity> vertex_;
@@ -79,19 +79,24 @@ DirectionPolygon SeenInContact(const ReceiverPoint& at, std::span<const Vec3> po
 // horizon.
 double FormFactor(const DirectionPolygon& polygon, const Vec3& receiver_normal);
 
-// The part above the horizon n . direction >= 0. Crossings are taken as directions, n x (a x b).
-DirectionPolygon ClipToHorizon(const DirectionPolygon& polygon, const Vec3& receiver_normal);
+// The part above the receiver's horizon n . direction >= 0 of what is seen of a polygon with coordinates up
+// to `extent` [m]. Vertices on the horizon but for rounding lie on it. Crossings are taken as directions, n x
+// (a x b).
+DirectionPolygon ClipToHorizon(const ReceiverPoint& at, const DirectionPolygon& polygon, double extent);
 
 // The cone that a blocker fills: all directions with normal[k] . direction >= 0.
 struct Cone {
   int size = 0;
-  std::array<Vec3, 12> normal;
+  std::array<Vec3, 12> normal;     // unit
   std::array<Vec3, 12> direction;  // the blocker's vertices as seen
+  // A vertex this near to one of the planes lies in it, but for rounding [m]. Planes coincide all the time,
+  // and a sliver that was cut off by rounding has edges that run anywhere.
+  double rounding = 0;
 };
 
-// The cone over what is seen of a blocker. Two blockers that share an edge get opposite normals for it, to
-// the bit, so that no light leaks between them.
-Cone MakeCone(const DirectionPolygon& blocker);
+// The cone over what is seen of a blocker with coordinates up to `extent` [m]. Two blockers that share an
+// edge get opposite normals for it, to the bit, so that no light leaks between them.
+Cone MakeCone(const ReceiverPoint& at, const DirectionPolygon& blocker, double extent);
 
 enum class Overlap { kNone, kPart, kAll };
 // How the cone covers the polygon. kPart may be returned for a cone just beside it.

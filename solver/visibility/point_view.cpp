@@ -62,7 +62,7 @@ bool PointView::FaceSource(PatchId source) {
 DirectionPolygon PointView::SeeSource(std::span<const Vec3> part) const {
   if (source_in_contact_) return SeenInContact(at_, part, true);
   const DirectionPolygon seen = Seen(at_, part, true);
-  return source_crosses_horizon_ ? ClipToHorizon(seen, at_.normal) : seen;
+  return source_crosses_horizon_ ? ClipToHorizon(at_, seen, source_->extent) : seen;
 }
 
 PointView::BlockerView PointView::ViewBlocker(std::span<const Vec3> polygon, const Patch& patch) const {
@@ -72,7 +72,8 @@ PointView::BlockerView PointView::ViewBlocker(std::span<const Vec3> polygon, con
   const bool from_front = side == Side::kFront || side == Side::kFrontInLimit;
   view.in_limit = side == Side::kFrontInLimit || side == Side::kBackInLimit;
   view.cone =
-      MakeCone(view.in_limit ? SeenInContact(at_, polygon, from_front) : Seen(at_, polygon, from_front));
+      MakeCone(at_, view.in_limit ? SeenInContact(at_, polygon, from_front) : Seen(at_, polygon, from_front),
+               patch.extent);
   return view;
 }
 
@@ -88,7 +89,7 @@ const PointView::BlockerView* PointView::FindBlocker(PatchId blocker) {
   }
   if (highest <= rounding) return nullptr;
   if (lowest < -rounding) {
-    const Polygon3 before = ClipToHalfSpace(patch.Vertices(), source_->normal, source_->vertex[0]);
+    const Polygon3 before = ClipToHalfSpace(patch.Vertices(), source_->normal, source_->vertex[0], rounding);
     if (before.empty()) return nullptr;
     return &buffers_.cut.emplace_back(ViewBlocker(before, patch));
   }

@@ -23,7 +23,7 @@ Polygon3 PartBefore(std::span<const Vec3> polygon, const Patch& patch, bool* cli
   *clipped = lowest < -kCoplanar * scale;
   if (highest <= kCoplanar * scale) return {};
   if (!*clipped) return {polygon.begin(), polygon.end()};
-  return ClipToHalfSpace(polygon, patch.normal, patch.vertex[0]);
+  return ClipToHalfSpace(polygon, patch.normal, patch.vertex[0], kCoplanar * scale);
 }
 
 }  // namespace
