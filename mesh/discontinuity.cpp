@@ -6,6 +6,9 @@
 #include <tuple>
 
 #include "solver/base/check.h"
+#include "solver/geometry/segment_clip.h"
+#include "solver/scene/tolerances.h"
+#include "solver/visibility/contacts.h"
 
 namespace penumbra {
 namespace {
@@ -25,47 +28,6 @@ struct PatchEdge {
   PatchId patch;
   std::int32_t k;
 };
-
-// The part [t0, t1] of a segment a + t (b - a), cut down by half-spaces.
-struct SegmentClip {
-  double t0 = 0, t1 = 1;
-
-  // Keeps what has value >= 0, where the value runs linearly from `va` at t = 0 to `vb` at t = 1.
-  void Keep(double va, double vb) {
-    if (va >= 0 && vb >= 0) return;
-    if (va < 0 && vb < 0) {
-      t1 = -1;
-      return;
-    }
-    const double t = va / (va - vb);
-    if (va < 0) {
-      t0 = std::max(t0, t);
-    } else {
-      t1 = std::min(t1, t);
-    }
-  }
-  bool Empty() const { return !(t0 < t1); }
-};
-
-// a + t (b - a), with the bits of the ends at 0 and 1.
-Vec3 Between(const Vec3& a, const Vec3& b, double t) {
-  return t == 0 ? a : t == 1 ? b : Vec3((1 - t) * a + t * b);
-}
-
-// The part of the segment in the plane of the convex polygon that lies in it; empty if there is none.
-std::optional<std::array<Vec3, 2>> ClipToPolygon(const Vec3& a, const Vec3& b, std::span<const Vec3> polygon,
-                                                 const Vec3& normal, double tolerance) {
-  SegmentClip clip;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vec3 edge = polygon[(k + 1) % polygon.size()] - polygon[k];
-    const double length = edge.norm();
-    if (length == 0) continue;
-    const Vec3 inward = normal.cross(edge) / length;
-    clip.Keep(inward.dot(a - polygon[k]) + tolerance, inward.dot(b - polygon[k]) + tolerance);
-  }
-  if (clip.Empty()) return std::nullopt;
-  return std::array<Vec3, 2>{Between(a, b, clip.t0), Between(a, b, clip.t1)};
-}
 
 // What is the same for all discontinuities of one receiver.
 struct Receiver {
@@ -121,32 +83,19 @@ bool Coplanar(const Vec3& s, const Patch& source, const Vec3& b0, const Vec3& b1
 
 }  // namespace
 
-double SnapDistance(const Patch& patch) {
-  double coordinate = 0;
-  for (const Vec3& v : patch.Vertices()) coordinate = std::max(coordinate, MaxAbs(v));
-  return kSnap * Diameter(patch.Vertices()) + kSnapCoordinate * coordinate;
-}
-
-double ContactGap(const Scene& scene) { return kContactGap * scene.Diagonal(); }
-
 struct DiscontinuityFinder::Impl {
   const Scene& scene;
   const PatchVisibility& visibility;
   std::map<EdgeKey, std::vector<PatchEdge>> edges;
-  double gap;                              // ContactGap() [m]
-  std::vector<std::array<Vec3, 2>> boxes;  // a patch's smallest and largest corner
+  double gap;  // ContactGap() [m]
 
   Impl(const Scene& s, const PatchVisibility& v) : scene(s), visibility(v), gap(ContactGap(s)) {
     for (std::size_t p = 0; p < scene.patches.size(); ++p) {
       const Patch& patch = scene.patches[p];
-      std::array<Vec3, 2> box = {patch.vertex[0], patch.vertex[0]};
       for (std::int32_t k = 0; k < patch.size; ++k) {
         edges[UndirectedKey(patch.vertex[k], patch.vertex[(k + 1) % patch.size])].push_back(
             {static_cast<PatchId>(p), k});
-        box[0] = box[0].cwiseMin(patch.vertex[k]);
-        box[1] = box[1].cwiseMax(patch.vertex[k]);
       }
-      boxes.push_back(box);
     }
   }
 
@@ -168,7 +117,6 @@ struct DiscontinuityFinder::Impl {
   }
 
   void AddContacts(const Receiver& r, Collector& out) const;
-  void AddContact(const Receiver& r, PatchId other, Collector& out) const;
   void AddHorizon(const Receiver& r, const SourceView& s, Collector& out) const;
   void AddVertexEdge(const Receiver& r, const SourceView& s, std::span<const PatchId> blockers,
                      double min_weight, Collector& out) const;
@@ -177,59 +125,14 @@ struct DiscontinuityFinder::Impl {
 };
 
 void DiscontinuityFinder::Impl::AddContacts(const Receiver& r, Collector& out) const {
-  const std::array<Vec3, 2> own = {(boxes[r.id][0].array() - r.gap).matrix(),
-                                   (boxes[r.id][1].array() + r.gap).matrix()};
-  for (std::size_t p = 0; p < scene.patches.size(); ++p) {
-    const bool apart =
-        (boxes[p][0].array() > own[1].array()).any() || (boxes[p][1].array() < own[0].array()).any();
-    if (!apart && static_cast<PatchId>(p) != r.id) AddContact(r, static_cast<PatchId>(p), out);
-  }
-}
-
-void DiscontinuityFinder::Impl::AddContact(const Receiver& r, PatchId other, Collector& out) const {
-  const Patch& patch = scene.patches[other];
-  std::array<double, 4> height;
-  bool above = false, below = false;
-  double highest = 0;
-  for (std::int32_t k = 0; k < patch.size; ++k) {
-    const double h = r.Height(patch.vertex[k]);
-    height[k] = std::abs(h) <= r.gap ? 0 : h;
-    highest = std::max(highest, h);
-    above |= height[k] > 0;
-    below |= height[k] < 0;
-  }
   Discontinuity contact;
   contact.kind = DiscontinuityKind::kContact;
   contact.degree = DiscontinuityDegree::kD0;
-  contact.blocker = other;
   contact.geometric_weight = contact.weight = kInfiniteWeight;
-  const auto add = [&](const Vec3& a, const Vec3& b) {
-    const auto kept = ClipToPolygon(a, b, r.patch.Vertices(), r.frame.n, r.snap);
-    if (!kept) return;
-    // On the receiver's outline nothing lies beyond.
-    for (std::int32_t k = 0; k < r.patch.size; ++k) {
-      const Vec3& v = r.patch.vertex[k];
-      const Vec3 inward = r.frame.n.cross((r.patch.vertex[(k + 1) % r.patch.size] - v).normalized());
-      if (inward.dot((*kept)[0] - v) <= 2 * r.snap && inward.dot((*kept)[1] - v) <= 2 * r.snap) return;
-    }
-    out.Add(contact, (*kept)[0], (*kept)[1]);
-  };
-  if (!above && !below) {
-    // In the receiver's plane: a lid on it, unless it is a neighbour in the same plane that looks the same
-    // way.
-    if (patch.normal.dot(r.frame.n) > 0 && highest <= r.snap) return;
-    for (std::int32_t k = 0; k < patch.size; ++k) add(patch.vertex[k], patch.vertex[(k + 1) % patch.size]);
-    return;
+  for (const Contact& found : FindContacts(scene, r.id)) {
+    contact.blocker = found.other;
+    out.Add(contact, found.a, found.b);
   }
-  if (!above) return;  // it touches from behind
-  std::vector<Vec3> met;
-  for (std::int32_t k = 0; k < patch.size; ++k) {
-    const std::int32_t next = (k + 1) % patch.size;
-    if (height[k] == 0) met.push_back(patch.vertex[k]);
-    if (height[k] * height[next] < 0)
-      met.push_back(Between(patch.vertex[k], patch.vertex[next], height[k] / (height[k] - height[next])));
-  }
-  if (met.size() == 2) add(met[0], met[1]);
 }
 
 void DiscontinuityFinder::Impl::AddHorizon(const Receiver& r, const SourceView& s, Collector& out) const {

@@ -7,6 +7,7 @@
 
 #include "mesh/leaf_margins.h"
 #include "solver/base/check.h"
+#include "solver/scene/tolerances.h"
 
 namespace penumbra {
 namespace {

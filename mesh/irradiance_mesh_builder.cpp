@@ -8,6 +8,7 @@
 #include "mesh/leaf_margins.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
+#include "solver/scene/tolerances.h"
 
 namespace penumbra {
 namespace {

@@ -11,6 +11,7 @@
 #include "solver/base/parallel.h"
 #include "solver/geometry/constrained_triangulation.h"
 #include "solver/geometry/segment_splitter.h"
+#include "solver/scene/tolerances.h"
 
 namespace penumbra {
 namespace {

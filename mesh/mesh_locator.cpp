@@ -1,4 +1,5 @@
 #include "mesh/mesh_locator.h"
+#include "solver/scene/tolerances.h"
 
 #include <algorithm>
 #include <array>

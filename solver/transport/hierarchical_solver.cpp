@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "solver/base/parallel.h"
-#include "solver/transport/cubature.h"
+#include "solver/transport/leaf_fragments.h"
+#include "solver/transport/leaf_irradiance.h"
 #include "solver/transport/link_former.h"
 #include "solver/transport/point_irradiance.h"
 
@@ -268,33 +269,48 @@ IterationReport HierarchicalSolver::Iterate(const ExecutionContext& context) {
 }
 
 double HierarchicalSolver::Correct(const ExecutionContext& context) {
+  if (fragment_offset_.empty()) {
+    solution_.fragments = CutLeavesAtContacts(solution_.forest);
+    fragment_offset_.assign(solution_.fragments.size(), Rgb::Zero());
+    LightFragments();
+  }
   const std::vector<ElementId> leaves = solution_.forest.AllLeaves();
-  const PointIrradiance exact(solution_, visibility_);
-  std::vector<Rgb> change(leaves.size(), Rgb::Zero());
+  const PointIrradiance irradiance(solution_, visibility_);
+  std::vector<LeafIrradiance> exact(leaves.size());
   ParallelFor(leaves.size(), kExactGrain, [&](std::size_t i) {
-    if (context.Cancelled()) return;
-    const Element& leaf = solution_.forest[leaves[i]];
-    ReceiverPoint at;
-    at.normal = scene_.patches[leaf.patch].normal;
-    for (const CubaturePoint& point : Cubature(leaf.Vertices())) {
-      at.position = point.position;
-      change[i] += point.weight * exact.OnPatch(leaf.patch, at).irradiance;
-    }
-    change[i] -= solution_.irradiance[leaves[i]];
+    if (!context.Cancelled()) exact[i] = ExactLeafIrradiance(solution_, irradiance, leaves[i]);
   });
   if (context.Cancelled()) return 0;
 
   double squares = 0, mean = 0, area = 0;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const double a = solution_.forest[leaves[i]].area;
-    correction_[leaves[i]] += change[i];
-    squares += a * change[i].abs().maxCoeff() * change[i].abs().maxCoeff();
-    mean += a * solution_.irradiance[leaves[i]].maxCoeff();
+    const ElementId leaf = leaves[i];
+    const double a = solution_.forest[leaf].area;
+    const Rgb change = exact[i].mean - solution_.irradiance[leaf];
+    correction_[leaf] += change;
+    squares += a * change.abs().maxCoeff() * change.abs().maxCoeff();
+    mean += a * exact[i].mean.maxCoeff();
     area += a;
+    if (exact[i].fragments.empty()) continue;
+    const auto first =
+        static_cast<std::size_t>(solution_.FragmentsOf(leaf).data() - solution_.fragments.data());
+    for (std::size_t f = 0; f < exact[i].fragments.size(); ++f)
+      fragment_offset_[first + f] = exact[i].fragments[f] - exact[i].mean;
   }
   IterationReport ignored;
   SweepToCutoff(ignored, context);
+  LightFragments();
   return mean > 0 ? std::sqrt(squares / area) / (mean / area) : 0;
+}
+
+// The light of fragments: their leaf's, and what sets them apart from it.
+void HierarchicalSolver::LightFragments() {
+  for (std::size_t i = 0; i < solution_.fragments.size(); ++i) {
+    Fragment& fragment = solution_.fragments[i];
+    const Material& material = scene_.MaterialOf(solution_.forest[fragment.leaf].patch);
+    fragment.irradiance = (solution_.irradiance[fragment.leaf] + fragment_offset_[i]).max(0.0);
+    fragment.radiosity = material.emittance + material.reflectance * fragment.irradiance;
+  }
 }
 
 std::vector<IterationReport> HierarchicalSolver::Solve(const ExecutionContext& context) {

@@ -27,7 +27,7 @@ struct SolverOptions {
   // Converged when no radiosity is farther off, relative to the largest reflected one (Appendix A, 7).
   double relative_cutoff = 1e-4;
   int max_iterations = 100;  // each gathers until it settles, then refines
-  int max_corrections = 1;   // passes of exact irradiance over the leaves; 0: links alone, as in the thesis
+  int max_corrections = 2;   // passes of exact irradiance over the leaves; 0: links alone, as in the thesis
 };
 
 struct IterationReport {
@@ -68,6 +68,7 @@ class HierarchicalSolver {
   void Install(std::vector<LinkSet> groups, const std::vector<char>& dropped);
   void ResizeLight();
   void PushPull(ElementId element, const Rgb& from_above);
+  void LightFragments();
 
   const Scene& scene_;
   const PatchVisibility& visibility_;
@@ -77,6 +78,7 @@ class HierarchicalSolver {
   std::vector<std::size_t> first_link_;  // per element, into links
   std::vector<Rgb> gathered_;            // per element: over its own links [W/m^2]
   std::vector<Rgb> correction_;          // per leaf: exact less linked irradiance [W/m^2]
+  std::vector<Rgb> fragment_offset_;     // per fragment: exact irradiance less its leaf's [W/m^2]
   double max_reflectance_ = 0;
   bool converged_ = false;
 };

@@ -40,9 +40,20 @@ struct LinkSet {
   }
 };
 
+// A convex piece of a leaf that contacts cut: furniture stands on it, and its light on either side has
+// nothing to do with that on the other.
+struct Fragment {
+  ElementId leaf = kNoElement;
+  Polygon3 polygon;                                       // [m], counter-clockwise from the front
+  double area = 0;                                        // [m^2]
+  Rgb irradiance = Rgb::Zero(), radiosity = Rgb::Zero();  // [W/m^2]
+};
+
 struct RadiositySolution {
   ElementForest forest;
   LinkSet links;
+  // Of the leaves that contacts cut, by leaf; the leaf's light is their area-weighted mean.
+  std::vector<Fragment> fragments;
   // Per element [W/m^2]. A parent's is the area-weighted mean of its children's.
   std::vector<Rgb> irradiance, radiosity;
   // Per element [W/m^2]: root mean square deviation of the leaves' radiosities below it, of its largest
@@ -50,6 +61,8 @@ struct RadiositySolution {
   std::vector<double> radiosity_spread;
   // The same of each child about its own mean: what the children's radiosities leave out.
   std::vector<double> spread_below;
+
+  std::span<const Fragment> FragmentsOf(ElementId leaf) const;
 };
 
 }  // namespace penumbra

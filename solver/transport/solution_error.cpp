@@ -6,11 +6,12 @@
 
 #include "solver/base/parallel.h"
 #include "solver/scene/surface_points.h"
+#include "solver/transport/leaf_irradiance.h"
 
 namespace penumbra {
 namespace {
 
-constexpr std::size_t kPointGrain = 16;
+constexpr std::size_t kPointGrain = 8;
 
 }  // namespace
 
@@ -19,29 +20,22 @@ double EstimateSolutionError(const RadiositySolution& solution, const PointIrrad
   const Scene& scene = solution.forest.scene();
   if (scene.patches.empty() || points == 0) return 0;
   const std::vector<SurfacePoint> at = SpreadPoints(scene, points, seed);
-  std::vector<Rgb> exact(points), difference(points);
+  std::vector<double> squares(points), means(points);
   ParallelFor(points, kPointGrain, [&](std::size_t i) {
-    ReceiverPoint receiver;
-    receiver.position = at[i].position;
-    receiver.normal = scene.patches[at[i].patch].normal;
-    exact[i] = irradiance.OnPatch(at[i].patch, receiver).irradiance;
-    difference[i] = exact[i] - solution.irradiance[solution.forest.LeafAt(at[i].patch, at[i].position)];
+    const ElementId leaf = solution.forest.LeafAt(at[i].patch, at[i].position);
+    const Rgb exact = ExactLeafIrradiance(solution, irradiance, leaf).mean;
+    const double difference = (exact - solution.irradiance[leaf]).abs().maxCoeff();
+    squares[i] = difference * difference;
+    means[i] = exact.maxCoeff();
   });
-
-  double missing = 0, reflected = 0, reflectance = 0;
-  for (std::size_t i = 0; i < points;) {
-    const PatchId patch = at[i].patch;
-    const Rgb& rho = scene.MaterialOf(patch).reflectance;
-    Rgb sum = Rgb::Zero();
-    for (; i < points && at[i].patch == patch; ++i) {
-      sum += difference[i];
-      reflected += (rho * exact[i]).maxCoeff();
-      reflectance += rho.maxCoeff();
-    }
-    missing += (rho * sum).abs().maxCoeff();
+  double square = 0, mean = 0, reflectance = 0;
+  for (std::size_t i = 0; i < points; ++i) {
+    square += squares[i];
+    mean += means[i];
+    reflectance += scene.MaterialOf(at[i].patch).reflectance.maxCoeff();
   }
-  const double mean_reflectance = reflectance / static_cast<double>(points);
-  return reflected > 0 ? missing / reflected / (1 - mean_reflectance) : 0;
+  const auto count = static_cast<double>(points);
+  return mean > 0 ? std::sqrt(square / count) / (mean / count) / (1 - reflectance / count) : 0;
 }
 
 }  // namespace penumbra

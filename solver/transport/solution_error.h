@@ -11,13 +11,10 @@
 
 namespace penumbra {
 
-// An estimate of the relative error that the solution's radiosities bring to the irradiance they send out.
-//
-// At `points` random points (spread evenly over the fronts) the irradiance of the links is compared with the
-// exact irradiance from the leaves. The mean difference on each patch, reflected, is what one more bounce
-// would add; the bounces after it make that 1 / (1 - rho). Weighted by area and relative to the mean
-// radiosity that is reflected. An estimate, not a bound: it knows nothing of errors that average out over a
-// patch, nor of the size of the leaves.
+// An estimate of the relative error of the solution's irradiance, root mean square over the fronts, for
+// leaves of their size: the exact mean irradiance of the leaves at `points` random points, less the
+// solution's, relative to the mean; the bounces that follow make it 1 / (1 - rho) of that. It does not know
+// what radiosities that vary within leaves bring.
 double EstimateSolutionError(const RadiositySolution& solution, const PointIrradiance& irradiance,
                              std::size_t points, std::uint64_t seed);
 

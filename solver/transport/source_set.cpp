@@ -15,12 +15,25 @@ SourceSet::Node MakeNode(std::span<const Vec3> vertices, const Rgb& radiosity) {
   return node;
 }
 
+// Appends the fragment as triangles and quadrilaterals.
+void AppendFan(const Fragment& fragment, std::vector<SourceSet::Node>& nodes) {
+  const Polygon3& p = fragment.polygon;
+  for (std::size_t i = 2; i < p.size(); i += 2) {
+    const std::array<Vec3, 4> quadrilateral = {p[0], p[i - 1], p[i], p[std::min(i + 1, p.size() - 1)]};
+    nodes.push_back(MakeNode({quadrilateral.data(), i + 1 < p.size() ? 4U : 3U}, fragment.radiosity));
+  }
+}
+
 // Appends the subtree below `id`; one whose leaves all have the same radiosity becomes a single node.
 void Append(const RadiositySolution& solution, ElementId id, std::vector<SourceSet::Node>& nodes) {
   const Element& element = solution.forest[id];
   const std::size_t at = nodes.size();
   nodes.push_back(MakeNode(element.Vertices(), solution.radiosity[id]));
-  if (element.IsLeaf()) return;
+  if (element.IsLeaf()) {
+    for (const Fragment& fragment : solution.FragmentsOf(id)) AppendFan(fragment, nodes);
+    nodes[at].skip = static_cast<std::int32_t>(nodes.size() - at);
+    return;
+  }
   for (ElementId child = element.first_child; child < element.first_child + 4; ++child)
     Append(solution, child, nodes);
   const Rgb& first = nodes[at + 1].radiosity;

@@ -1,0 +1,19 @@
+// solver/transport/leaf_fragments.h
+//
+// Cuts leaves where other patches touch them. A quadtree cannot follow the foot of a box that stands askew on
+// the floor: the leaf below has one radiosity for its lit and its covered part, and the foot sees that from
+// nearest by. Fragments give each side its own.
+
+#pragma once
+
+#include <vector>
+
+#include "solver/transport/solution.h"
+
+namespace penumbra {
+
+// The fragments of all leaves that a contact crosses, without light, by leaf. Each leaf's fragments are
+// convex and tile it.
+std::vector<Fragment> CutLeavesAtContacts(const ElementForest& forest);
+
+}  // namespace penumbra
