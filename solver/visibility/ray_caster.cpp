@@ -27,7 +27,8 @@ void IgnoreOwnPatch(const RTCFilterFunctionNArguments* args) {
 struct RayCaster::Impl {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
-  std::vector<Vec3> normals;  // unit, a patch
+  std::vector<Vec3> normals;   // unit, a patch
+  Vec3 origin = Vec3::Zero();  // Embree's: the middle of the scene, since its floats keep 7 digits only
 };
 
 RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
@@ -35,6 +36,8 @@ RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   PENUMBRA_CHECK(impl_->device != nullptr);
   impl_->scene = rtcNewScene(impl_->device);
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+  const auto [low, high] = scene.Bounds();
+  impl_->origin = 0.5 * (low + high);
   if (!scene.patches.empty()) {
     // Triangles are quads whose last two vertices coincide, as Embree documents.
     const RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_QUAD);
@@ -46,7 +49,7 @@ RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
     for (std::size_t p = 0; p < count; ++p) {
       impl_->normals.push_back(scene.patches[p].normal);
       for (std::size_t k = 0; k < 4; ++k) {
-        const Vec3& v = scene.patches[p].vertex[k];
+        const Vec3 v = scene.patches[p].vertex[k] - impl_->origin;
         for (int axis = 0; axis < 3; ++axis)
           vertex[3 * (4 * p + k) + static_cast<std::size_t>(axis)] = static_cast<float>(v[axis]);
         index[4 * p + k] = static_cast<unsigned int>(4 * p + k);
@@ -69,10 +72,11 @@ RayCaster::Hit RayCaster::Cast(const Vec3& origin, const Vec3& direction, PatchI
   FilterContext context;
   rtcInitIntersectContext(&context.base);
   context.ignore = ignore == kNoPatch ? RTC_INVALID_GEOMETRY_ID : static_cast<unsigned int>(ignore);
+  const Vec3 from = origin - impl_->origin;
   RTCRayHit ray{};
-  ray.ray.org_x = static_cast<float>(origin.x());
-  ray.ray.org_y = static_cast<float>(origin.y());
-  ray.ray.org_z = static_cast<float>(origin.z());
+  ray.ray.org_x = static_cast<float>(from.x());
+  ray.ray.org_y = static_cast<float>(from.y());
+  ray.ray.org_z = static_cast<float>(from.z());
   ray.ray.dir_x = static_cast<float>(direction.x());
   ray.ray.dir_y = static_cast<float>(direction.y());
   ray.ray.dir_z = static_cast<float>(direction.z());

@@ -1,0 +1,123 @@
+// Cutting cones out of what a point sees.
+
+#include "solver/visibility/direction_polygon.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/visibility/test_scenes.h"
+
+namespace penumbra::scene_test {
+namespace {
+
+// A convex polygon at height 1 over the origin, as seen from it, from angles about the centre (x, y).
+DirectionPolygon Round(double x, double y, double radius, std::span<const double> angles) {
+  DirectionPolygon polygon;
+  for (const double angle : angles)
+    polygon.Add({x + radius * std::cos(angle), y + radius * std::sin(angle), 1});
+  return polygon;
+}
+
+std::vector<double> EvenAngles(int n, double start = 0) {
+  std::vector<double> angles;
+  for (int i = 0; i < n; ++i) angles.push_back(start + i * 2 * std::numbers::pi / n);
+  return angles;
+}
+
+double Total(const std::vector<DirectionPolygon>& pieces) {
+  return std::accumulate(pieces.begin(), pieces.end(), 0.0, [](double sum, const DirectionPolygon& piece) {
+    return sum + FormFactor(piece, Vec3::UnitZ());
+  });
+}
+
+// What is cut out and what remains add up to the whole: what is left of the whole after the cone, and what is
+// left of it after everything but the cone.
+TEST(DirectionPolygon, CutAndRestAddUp) {
+  Random random(501);
+  double worst = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const DirectionPolygon whole =
+        Round(random.Uniform(-1, 1), random.Uniform(-1, 1), random.LogUniform(0.1, 3),
+              EvenAngles(3 + static_cast<int>(random.Index(4)), random.Uniform(0, 6)));
+    const DirectionPolygon blocker =
+        Round(random.Uniform(-1, 1), random.Uniform(-1, 1), random.LogUniform(0.1, 3),
+              EvenAngles(3 + static_cast<int>(random.Index(2)), random.Uniform(0, 6)));
+    const Cone cone = MakeCone({}, blocker, 1), inverse = MakeCone({}, whole, 1);
+    std::vector<DirectionPolygon> rest{whole}, outside{blocker};
+    Subtract(cone, rest);
+    Subtract(inverse, outside);
+    // whole - blocker and blocker - whole leave the same overlap.
+    const double overlap = FormFactor(whole, Vec3::UnitZ()) - Total(rest);
+    worst = std::max(worst, std::abs(overlap - (FormFactor(blocker, Vec3::UnitZ()) - Total(outside))));
+    EXPECT_GE(overlap, -1e-15);
+  }
+  std::printf("seed 501, largest error %.2g\n", worst);
+  EXPECT_LE(worst, 1e-14);
+}
+
+// Vertices that coincide, to the bit or to rounding, hide nothing from the test whether a cone covers a
+// polygon.
+TEST(DirectionPolygon, RepeatedVerticesDoNotHideOverlap) {
+  Random random(502);
+  for (int i = 0; i < 1000; ++i) {
+    const DirectionPolygon plain = Round(0, 0, 1, EvenAngles(4, random.Uniform(0, 6)));
+    const double shift = random.Index(2) == 0 ? 0 : 1e-16;
+    DirectionPolygon repeated;
+    for (int k = 0; k < 4; ++k) {
+      repeated.Add(plain[k]);
+      if (random.Index(2) == 0) repeated.Add(plain[k] + shift * RandomDirection(random));
+    }
+    const Cone larger = MakeCone({}, Round(0, 0, 2, EvenAngles(4)), 1);
+    EXPECT_EQ(Classify(larger, repeated), Overlap::kAll);
+    const Cone inner = MakeCone({}, Round(0, 0, 0.5, EvenAngles(3)), 1);
+    EXPECT_EQ(Classify(inner, repeated), Overlap::kPart);
+    std::vector<DirectionPolygon> rest{repeated}, want{plain};
+    Subtract(inner, rest);
+    Subtract(inner, want);
+    EXPECT_NEAR(Total(rest), Total(want), 1e-15);
+    // And as a blocker.
+    std::vector<DirectionPolygon> left{Round(0, 0, 2, EvenAngles(4))}, wanted = left;
+    Subtract(MakeCone({}, repeated, 1), left);
+    Subtract(MakeCone({}, plain, 1), wanted);
+    EXPECT_NEAR(Total(left), Total(wanted), 1e-15);
+  }
+}
+
+// A piece with nearly as many vertices as it can hold survives a cone that cuts off several of them.
+TEST(DirectionPolygon, ManyVerticesDoNotOverflow) {
+  for (int n = 24; n <= DirectionPolygon::kCapacity; ++n) {
+    // Vertices on the four axes with the others between: each edge of the square cuts off one of them.
+    std::vector<double> angles;
+    for (int i = 0; i < n; ++i) angles.push_back((i / 4 * 4.0 / n + i % 4) * std::numbers::pi / 2);
+    std::sort(angles.begin(), angles.end());
+    const DirectionPolygon whole = Round(0, 0, 1, angles);
+    const double inset = 0.5 * (1 + std::cos(angles[1]));
+    const DirectionPolygon square = Round(0, 0, std::sqrt(2.0) * inset, EvenAngles(4, std::numbers::pi / 4));
+    std::vector<DirectionPolygon> rest{whole};
+    Subtract(MakeCone({}, square, 1), rest);
+    const double left = Total(rest);
+    EXPECT_GT(left, 0);
+    EXPECT_LT(left, 0.05 * FormFactor(whole, Vec3::UnitZ()));
+  }
+}
+
+// Cuts at a plane that contains an edge, but for rounding, cut nothing off.
+TEST(DirectionPolygon, CoincidentPlanesCutNothing) {
+  Random random(503);
+  for (int i = 0; i < 1000; ++i) {
+    const Motion motion = RandomMotion(random, 0);
+    // Two walls side by side, each the other's neighbour behind a common edge.
+    const Vec3 a = motion({0, 2, 0}), b = motion({0, 2, 1}), c = motion({1, 2, 1}), d = motion({1, 2, 0}),
+               e = motion({-1, 2.5, 0}), f = motion({-1, 2.5, 1});
+    DirectionPolygon one, two;
+    for (const Vec3& v : {a, b, c, d}) one.Add(v);
+    for (const Vec3& v : {e, f, b, a}) two.Add(v);
+    EXPECT_EQ(Classify(MakeCone({}, one, 3), two), Overlap::kNone);
+    EXPECT_EQ(Classify(MakeCone({}, two, 3), one), Overlap::kNone);
+    EXPECT_EQ(Classify(MakeCone({}, one, 3), one), Overlap::kAll);
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::scene_test
