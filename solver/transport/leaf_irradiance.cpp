@@ -1,8 +1,18 @@
 #include "solver/transport/leaf_irradiance.h"
 
+#include <cmath>
+
 #include "solver/transport/cubature.h"
 
 namespace penumbra {
+namespace {
+
+// A polygon whose points agree to this, relative to their mean, is averaged well by one rule; others, with
+// shadows or contacts on them, are split into four, so often at most.
+constexpr double kEven = 0.25;
+constexpr int kMostRefined = 1;
+
+}  // namespace
 
 LeafIrradiance ExactLeafIrradiance(const RadiositySolution& solution, const PointIrradiance& irradiance,
                                    ElementId leaf) {
@@ -11,11 +21,19 @@ LeafIrradiance ExactLeafIrradiance(const RadiositySolution& solution, const Poin
   at.normal = solution.forest.scene().patches[element.patch].normal;
   const auto mean_over = [&](std::span<const Vec3> polygon) -> Rgb {
     Rgb mean = Rgb::Zero();
-    for (const CubaturePoint& point : Cubature(polygon)) {
-      at.position = point.position;
-      mean += point.weight * irradiance.OnPatch(element.patch, at).irradiance;
+    for (int refinement = 0;; ++refinement) {
+      Rgb lowest = Rgb::Constant(INFINITY), highest = Rgb::Zero();
+      mean = Rgb::Zero();
+      for (const CubaturePoint& point : Cubature(polygon, refinement)) {
+        at.position = point.position;
+        const Rgb value = irradiance.OnPatch(element.patch, at).irradiance;
+        mean += point.weight * value;
+        lowest = lowest.min(value);
+        highest = highest.max(value);
+      }
+      const bool even = (highest - lowest).maxCoeff() <= kEven * mean.maxCoeff();
+      if (even || refinement == kMostRefined) return mean;
     }
-    return mean;
   };
   LeafIrradiance exact;
   const std::span<const Fragment> fragments = solution.FragmentsOf(leaf);
