@@ -253,7 +253,8 @@ TEST(HierarchicalSolver, CancelledAndCutShort) {
 
 // No patches, one patch, no light: solved at once, and dark but for what shines of itself.
 TEST(HierarchicalSolver, EmptySingleAndDark) {
-  const RadiositySolution none = Solved(Scene(), 0.1);
+  const Scene empty;
+  const RadiositySolution none = Solved(empty, 0.1);
   EXPECT_EQ(none.forest.size(), 0U);
   EXPECT_EQ(MeasureEnergy(none).relative_imbalance, 0);
 
