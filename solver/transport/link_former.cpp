@@ -142,20 +142,20 @@ class Former {
     const Link& link = set_.links[pending.link];
     const Element& source = forest_[link.source];
     if (!view.FaceSource(source.patch)) return factor;
-    std::vector<const Cone*>& cones = view.cone_stack();
-    cones.clear();
+    std::vector<Occluder>& occluders = view.occluder_stack();
+    occluders.clear();
     if (link.blocker_count > 0) {
       const DirectionPolygon whole = view.SeeSource(source.Vertices());
-      if (whole.empty() || !view.FindBlockers(set_.Blockers(link), receiver_.patch, whole, cones))
+      if (whole.empty() || !view.FindBlockers(set_.Blockers(link), receiver_.patch, whole, occluders))
         return factor;
     }
     if (pending.uniform) {
-      factor.fill(0.25 * view.VisibleFormFactor(view.SeeSource(source.Vertices()), cones));
+      factor.fill(0.25 * view.VisibleFormFactor(view.SeeSource(source.Vertices()), occluders));
       return factor;
     }
     for (std::size_t q = 0; q < 4; ++q)
       factor[q] = view.VisibleFormFactor(
-          view.SeeSource({pending.quarters[q].data(), static_cast<std::size_t>(source.size)}), cones);
+          view.SeeSource({pending.quarters[q].data(), static_cast<std::size_t>(source.size)}), occluders);
     return factor;
   }
 

@@ -22,48 +22,48 @@ std::span<const Vec3> Vertices(const Node& node) {
 class Gathering {
  public:
   Gathering(const Scene& scene, const SourceSet& sources, const ReceiverPoint& at)
-      : at_(at), sources_(sources), view_(scene, at), cones_(view_.cone_stack()) {}
+      : at_(at), sources_(sources), view_(scene, at), occluders_(view_.occluder_stack()) {}
 
   void AddSource(PatchId source, std::span<const PatchId> candidates, PatchId own) {
     const std::span<const Node> tree = sources_.Tree(source);
     if (tree.empty() || !view_.FaceSource(source)) return;
     const DirectionPolygon seen = view_.SeeSource(Vertices(tree[0]));
     if (seen.empty()) return;
-    if (view_.FindBlockers(candidates, own, seen, cones_)) GatherNode(tree, 0, 0);
-    cones_.clear();
+    if (view_.FindBlockers(candidates, own, seen, occluders_)) GatherNode(tree, 0, 0);
+    occluders_.clear();
   }
 
   PointIrradianceResult Result() const { return {irradiance_, view_.one_sided()}; }
 
  private:
-  // Gathers from the subtree at node i; the cones from `first_cone` to the top of the stack may hide parts of
+  // Gathers from the subtree at node i; the occluders from `first` to the top of the stack may hide parts of
   // it.
-  void GatherNode(std::span<const Node> tree, std::size_t i, std::size_t first_cone) {
+  void GatherNode(std::span<const Node> tree, std::size_t i, std::size_t first_occluder) {
     const Node& node = tree[i];
     const auto skip = static_cast<std::size_t>(node.skip);
-    if (first_cone == cones_.size()) return GatherVisible(tree.subspan(i, skip));
+    if (first_occluder == occluders_.size()) return GatherVisible(tree.subspan(i, skip));
 
     const DirectionPolygon seen = view_.SeeSource(Vertices(node));
     if (seen.empty()) return;
-    const std::size_t top = cones_.size();
+    const std::size_t top = occluders_.size();
     bool hidden = false;
-    for (std::size_t c = first_cone; c < top && !hidden; ++c) {
-      const Cone* cone = cones_[c];
-      const Overlap overlap = Classify(*cone, seen);
+    for (std::size_t c = first_occluder; c < top && !hidden; ++c) {
+      Occluder occluder = occluders_[c];
+      const Overlap overlap = Classify(occluder, seen);
       hidden = overlap == Overlap::kAll;
-      if (overlap == Overlap::kPart) cones_.push_back(cone);
+      if (overlap == Overlap::kPart) occluders_.push_back(occluder);
     }
     if (!hidden) {
-      if (cones_.size() == top) {
+      if (occluders_.size() == top) {
         GatherVisible(tree.subspan(i, skip));
       } else if (skip == 1) {
-        irradiance_ += view_.VisibleFormFactor(seen, std::span(cones_).subspan(top)) * node.radiosity;
+        irradiance_ += view_.VisibleFormFactor(seen, std::span(occluders_).subspan(top)) * node.radiosity;
       } else {
         for (std::size_t child = i + 1; child < i + skip; child += static_cast<std::size_t>(tree[child].skip))
           GatherNode(tree, child, top);
       }
     }
-    cones_.resize(top);
+    occluders_.resize(top);
   }
 
   // Adds all leaves of a subtree that nothing hides.
@@ -89,7 +89,7 @@ class Gathering {
   const ReceiverPoint& at_;
   const SourceSet& sources_;
   PointView view_;
-  std::vector<const Cone*>& cones_;  // a stack: what may still hide the node at hand
+  std::vector<Occluder>& occluders_;  // a stack: what may still hide the node at hand
   Rgb irradiance_ = Rgb::Zero();
 };
 

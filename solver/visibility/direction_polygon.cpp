@@ -214,9 +214,12 @@ Cone MakeCone(const ReceiverPoint& at, const DirectionPolygon& blocker, double e
   return cone;
 }
 
-Overlap Classify(const Cone& cone, const DirectionPolygon& polygon) {
-  bool all = true;
+Overlap Classify(Occluder& occluder, const DirectionPolygon& polygon) {
+  const Cone& cone = *occluder.cone;
+  if (cone.size == 0) return Overlap::kNone;
+  std::uint32_t cutting = 0;
   for (int k = 0; k < cone.size; ++k) {
+    if ((occluder.planes >> k & 1U) == 0) continue;
     bool any_inside = false, any_outside = false;
     for (int i = 0; i < polygon.size() && !(any_inside && any_outside); ++i) {
       const double h = HeightAbove(cone, k, polygon[i]);
@@ -224,9 +227,10 @@ Overlap Classify(const Cone& cone, const DirectionPolygon& polygon) {
       any_outside = any_outside || h < 0;
     }
     if (!any_inside) return Overlap::kNone;
-    all = all && !any_outside;
+    if (any_outside) cutting |= 1U << k;
   }
-  if (all) return cone.size > 0 ? Overlap::kAll : Overlap::kNone;
+  occluder.planes = cutting;
+  if (cutting == 0) return Overlap::kAll;
   for (int i = 0; i < polygon.size(); ++i) {
     const Vec3 m = EdgeNormal(polygon[i], polygon.Next(i));
     if (IsArcShorter(polygon[i], polygon.Next(i), m, kShortArc)) continue;
@@ -238,7 +242,8 @@ Overlap Classify(const Cone& cone, const DirectionPolygon& polygon) {
   return Overlap::kPart;
 }
 
-void Subtract(const Cone& cone, std::vector<DirectionPolygon>& pieces) {
+void Subtract(const Occluder& occluder, std::vector<DirectionPolygon>& pieces) {
+  const Cone& cone = *occluder.cone;
   const std::size_t count = pieces.size();
   std::size_t kept = 0;
   for (std::size_t p = 0; p < count; ++p) {
@@ -251,11 +256,12 @@ void Subtract(const Cone& cone, std::vector<DirectionPolygon>& pieces) {
       DirectionPolygon other;
       for (int i = 0; i <= rest.size() / 2; ++i) other.Add(rest[i]);
       std::vector<DirectionPolygon> halves{other, half};
-      Subtract(cone, halves);
+      Subtract(occluder, halves);
       pieces.insert(pieces.end(), halves.begin(), halves.end());
       continue;
     }
-    switch (Classify(cone, rest)) {
+    Occluder cutting = occluder;
+    switch (Classify(cutting, rest)) {
       case Overlap::kAll:
         break;
       case Overlap::kNone:
@@ -264,6 +270,7 @@ void Subtract(const Cone& cone, std::vector<DirectionPolygon>& pieces) {
         break;
       case Overlap::kPart:
         for (int k = 0; k < cone.size && !rest.empty(); ++k) {
+          if ((cutting.planes >> k & 1U) == 0) continue;
           DirectionPolygon outside;
           Split(rest, cone, k, &rest, &outside);
           if (!outside.empty()) pieces.push_back(outside);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -99,10 +100,23 @@ struct Cone {
 Cone MakeCone(const ReceiverPoint& at, const DirectionPolygon& blocker, double extent);
 
 enum class Overlap { kNone, kPart, kAll };
-// How the cone covers the polygon. kPart may be returned for a cone just beside it.
-Overlap Classify(const Cone& cone, const DirectionPolygon& polygon);
 
-// Cuts the cone out of every piece: what remains visible, as convex pieces.
-void Subtract(const Cone& cone, std::vector<DirectionPolygon>& pieces);
+// A cone that may hide a part of what lies within some region, and those of its planes that cut the region:
+// what lies in it is inside of all the others. Bit k stands for plane k.
+struct Occluder {
+  const Cone* cone = nullptr;
+  std::uint32_t planes = 0;
+
+  Occluder() = default;
+  // Of everything: a cone can stand where an occluder is asked for.
+  Occluder(const Cone& whole) : cone(&whole), planes((1U << whole.size) - 1) {}
+};
+
+// How the occluder covers the polygon, which lies in the occluder's region; for kPart its planes are those
+// that cut the polygon. kPart may be returned for a cone just beside it.
+Overlap Classify(Occluder& occluder, const DirectionPolygon& polygon);
+
+// Cuts the occluder out of every piece, which lie in its region: what remains visible, as convex pieces.
+void Subtract(const Occluder& occluder, std::vector<DirectionPolygon>& pieces);
 
 }  // namespace penumbra

@@ -10,7 +10,7 @@ struct PointView::Buffers {
   std::vector<BlockerView> view;
   std::uint32_t now = 0;
   std::deque<BlockerView> cut;  // blockers cut at the plane of the source at hand; addresses stay
-  std::vector<const Cone*> cones;
+  std::vector<Occluder> occluders;
   std::vector<DirectionPolygon> pieces;
 
   void Begin(std::size_t patches) {
@@ -23,7 +23,7 @@ struct PointView::Buffers {
       now = 1;
     }
     cut.clear();
-    cones.clear();
+    occluders.clear();
   }
 };
 
@@ -39,7 +39,7 @@ PointView::PointView(const Scene& scene, const ReceiverPoint& at)
 
 PointView::~PointView() = default;
 
-std::vector<const Cone*>& PointView::cone_stack() { return buffers_.cones; }
+std::vector<Occluder>& PointView::occluder_stack() { return buffers_.occluders; }
 
 bool PointView::FaceSource(PatchId source) {
   source_ = &scene_.patches[source];
@@ -101,31 +101,32 @@ const PointView::BlockerView* PointView::FindBlocker(PatchId blocker) {
 }
 
 bool PointView::FindBlockers(std::span<const PatchId> candidates, PatchId own, const DirectionPolygon& seen,
-                             std::vector<const Cone*>& cones) {
-  const std::size_t before = cones.size();
+                             std::vector<Occluder>& occluders) {
+  const std::size_t before = occluders.size();
   for (const PatchId blocker : candidates) {
     if (blocker == own || &scene_.patches[blocker] == source_) continue;
     const BlockerView* view = FindBlocker(blocker);
     if (!view || view->cone.size == 0) continue;
-    const Overlap overlap = Classify(view->cone, seen);
+    Occluder occluder(view->cone);
+    const Overlap overlap = Classify(occluder, seen);
     if (overlap == Overlap::kNone) continue;
     one_sided_ = one_sided_ || view->in_limit;
     if (overlap == Overlap::kAll) {
-      cones.resize(before);
+      occluders.resize(before);
       return false;
     }
-    cones.push_back(&view->cone);
+    occluders.push_back(occluder);
   }
   return true;
 }
 
-double PointView::VisibleFormFactor(const DirectionPolygon& seen, std::span<const Cone* const> cones) const {
-  if (cones.empty()) return FormFactor(seen, at_.normal);
+double PointView::VisibleFormFactor(const DirectionPolygon& seen, std::span<const Occluder> occluders) const {
+  if (occluders.empty()) return FormFactor(seen, at_.normal);
   std::vector<DirectionPolygon>& pieces = buffers_.pieces;
   pieces.assign(1, seen);
-  for (const Cone* cone : cones) {
+  for (const Occluder& occluder : occluders) {
     if (pieces.empty()) break;
-    Subtract(*cone, pieces);
+    Subtract(occluder, pieces);
   }
   double factor = 0;
   for (const DirectionPolygon& piece : pieces) factor += FormFactor(piece, at_.normal);

@@ -34,20 +34,20 @@ class PointView {
   // parts are seen as they are.
   bool SourceIsPlain() const { return !source_in_contact_ && !source_crosses_horizon_; }
 
-  // Appends the cones of those candidates that may hide parts of `seen`, before the plane of the source at
+  // Appends those candidates that may hide parts of `seen`, before the plane of the source at
   // hand; `own`, the receiver's patch, is left out. False if one candidate hides all of it: then nothing is
-  // appended. The cones live until the view turns to another source.
+  // appended. Their cones live until the view turns to another source.
   bool FindBlockers(std::span<const PatchId> candidates, PatchId own, const DirectionPolygon& seen,
-                    std::vector<const Cone*>& cones);
+                    std::vector<Occluder>& occluders);
 
-  // The form factor of the point to what the cones leave of `seen`; exact visibility.
-  double VisibleFormFactor(const DirectionPolygon& seen, std::span<const Cone* const> cones) const;
+  // The form factor of the point to what the occluders leave of `seen`; exact visibility.
+  double VisibleFormFactor(const DirectionPolygon& seen, std::span<const Occluder> occluders) const;
 
   // Whether the approach direction of the point has decided anything so far.
   bool one_sided() const { return one_sided_; }
 
-  // A buffer for cones, empty at construction.
-  std::vector<const Cone*>& cone_stack();
+  // A buffer for occluders, empty at construction.
+  std::vector<Occluder>& occluder_stack();
 
  private:
   struct BlockerView {
