@@ -30,7 +30,7 @@ enum class DiscontinuityDegree : std::uint8_t { kD0, kD1, kD2 };
 
 // A segment of nonzero length on the receiver (thesis 5.5.3).
 struct Discontinuity {
-  std::array<Vec2, 2> end;  // in the frame PolygonFrame() of the receiver [m]
+  std::array<Vec2, 2> end = {Vec2::Zero(), Vec2::Zero()};  // in the frame PolygonFrame() of the receiver [m]
   DiscontinuityKind kind = DiscontinuityKind::kVE;
   DiscontinuityDegree degree = DiscontinuityDegree::kD2;
   PatchId receiver = kNoPatch;

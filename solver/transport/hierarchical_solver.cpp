@@ -268,7 +268,7 @@ IterationReport HierarchicalSolver::Iterate(const ExecutionContext& context) {
   return report;
 }
 
-double HierarchicalSolver::Correct(const ExecutionContext& context) {
+double HierarchicalSolver::Correct(LeafSampling sampling, const ExecutionContext& context) {
   if (fragment_offset_.empty()) {
     solution_.fragments = CutLeavesAtContacts(solution_.forest);
     fragment_offset_.assign(solution_.fragments.size(), Rgb::Zero());
@@ -278,7 +278,7 @@ double HierarchicalSolver::Correct(const ExecutionContext& context) {
   const PointIrradiance irradiance(solution_, visibility_);
   std::vector<LeafIrradiance> exact(leaves.size());
   ParallelFor(leaves.size(), kExactGrain, [&](std::size_t i) {
-    if (!context.Cancelled()) exact[i] = ExactLeafIrradiance(solution_, irradiance, leaves[i]);
+    if (!context.Cancelled()) exact[i] = ExactLeafIrradiance(solution_, irradiance, leaves[i], sampling);
   });
   if (context.Cancelled()) return 0;
 
@@ -319,8 +319,11 @@ std::vector<IterationReport> HierarchicalSolver::Solve(const ExecutionContext& c
     reports.push_back(Iterate(context));
     context.Report("iterate", static_cast<double>(reports.size()) / options_.max_iterations);
   }
-  for (int pass = 0; pass < options_.max_corrections && !context.Cancelled(); ++pass)
-    if (Correct(context) <= options_.relative_cutoff) break;
+  // All passes but the last only need to come near: the last one replaces what they added.
+  for (int pass = 1; pass <= options_.max_corrections && !context.Cancelled(); ++pass) {
+    context.Report("correct", static_cast<double>(pass - 1) / options_.max_corrections);
+    Correct(pass < options_.max_corrections ? LeafSampling::kCentroid : LeafSampling::kCubature, context);
+  }
   return reports;
 }
 

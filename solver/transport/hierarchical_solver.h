@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "solver/base/progress.h"
+#include "solver/transport/leaf_irradiance.h"
 #include "solver/transport/oracle.h"
 #include "solver/transport/solution.h"
 #include "solver/visibility/patch_visibility.h"
@@ -50,7 +51,7 @@ class HierarchicalSolver {
 
   // One pass of deferred correction. Returns the root mean square change of the leaves' irradiance, relative
   // to its mean; 0 if cancelled, which leaves the solution as it was.
-  double Correct(const ExecutionContext& context);
+  double Correct(LeafSampling sampling, const ExecutionContext& context);
 
   // Iterates to convergence, to the most iterations, or until the context is cancelled, then corrects. A
   // cancelled run leaves the solution of the last whole step.

@@ -15,11 +15,15 @@ constexpr int kMostRefined = 1;
 }  // namespace
 
 LeafIrradiance ExactLeafIrradiance(const RadiositySolution& solution, const PointIrradiance& irradiance,
-                                   ElementId leaf) {
+                                   ElementId leaf, LeafSampling sampling) {
   const Element& element = solution.forest[leaf];
   ReceiverPoint at;
   at.normal = solution.forest.scene().patches[element.patch].normal;
   const auto mean_over = [&](std::span<const Vec3> polygon) -> Rgb {
+    if (sampling == LeafSampling::kCentroid) {
+      at.position = Centroid(polygon);
+      return irradiance.OnPatch(element.patch, at).irradiance;
+    }
     Rgb mean = Rgb::Zero();
     for (int refinement = 0;; ++refinement) {
       Rgb lowest = Rgb::Constant(INFINITY), highest = Rgb::Zero();

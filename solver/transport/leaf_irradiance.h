@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "solver/transport/point_irradiance.h"
@@ -17,8 +18,12 @@ struct LeafIrradiance {
   std::vector<Rgb> fragments;  // of each of the leaf's fragments, if it has any [W/m^2]
 };
 
-// By cubature over the leaf, or over each of its fragments.
+enum class LeafSampling : std::uint8_t {
+  kCentroid,  // one point for the leaf or each fragment
+  kCubature,  // a rule of degree 2 or 3, refined where its points disagree
+};
+
 LeafIrradiance ExactLeafIrradiance(const RadiositySolution& solution, const PointIrradiance& irradiance,
-                                   ElementId leaf);
+                                   ElementId leaf, LeafSampling sampling);
 
 }  // namespace penumbra

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -43,21 +44,29 @@ class Gathering {
     const auto skip = static_cast<std::size_t>(node.skip);
     if (first_occluder == occluders_.size()) return GatherVisible(tree.subspan(i, skip));
 
-    const DirectionPolygon seen = view_.SeeSource(Vertices(node));
-    if (seen.empty()) return;
+    // Most nodes lie clear of a shadow's border: a ball around them tells, and the polygon need not be looked
+    // at.
+    const Vec3 centre = node.centre - at_.position;
+    std::optional<DirectionPolygon> seen;
     const std::size_t top = occluders_.size();
     bool hidden = false;
     for (std::size_t c = first_occluder; c < top && !hidden; ++c) {
       Occluder occluder = occluders_[c];
-      const Overlap overlap = Classify(occluder, seen);
+      Overlap overlap = ClassifyBall(occluder, centre, node.radius);
+      if (overlap == Overlap::kPart) {
+        if (!seen) seen = view_.SeeSource(Vertices(node));
+        if (seen->empty()) break;
+        overlap = Classify(occluder, *seen);
+      }
       hidden = overlap == Overlap::kAll;
       if (overlap == Overlap::kPart) occluders_.push_back(occluder);
     }
+    hidden = hidden || (seen && seen->empty());
     if (!hidden) {
       if (occluders_.size() == top) {
         GatherVisible(tree.subspan(i, skip));
       } else if (skip == 1) {
-        irradiance_ += view_.VisibleFormFactor(seen, std::span(occluders_).subspan(top)) * node.radiosity;
+        irradiance_ += view_.VisibleFormFactor(*seen, std::span(occluders_).subspan(top)) * node.radiosity;
       } else {
         for (std::size_t child = i + 1; child < i + skip; child += static_cast<std::size_t>(tree[child].skip))
           GatherNode(tree, child, top);

@@ -23,7 +23,7 @@ double EstimateSolutionError(const RadiositySolution& solution, const PointIrrad
   std::vector<double> squares(points), means(points);
   ParallelFor(points, kPointGrain, [&](std::size_t i) {
     const ElementId leaf = solution.forest.LeafAt(at[i].patch, at[i].position);
-    const Rgb exact = ExactLeafIrradiance(solution, irradiance, leaf).mean;
+    const Rgb exact = ExactLeafIrradiance(solution, irradiance, leaf, LeafSampling::kCubature).mean;
     const double difference = (exact - solution.irradiance[leaf]).abs().maxCoeff();
     squares[i] = difference * difference;
     means[i] = exact.maxCoeff();

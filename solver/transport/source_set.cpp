@@ -12,6 +12,8 @@ SourceSet::Node MakeNode(std::span<const Vec3> vertices, const Rgb& radiosity) {
   node.size = static_cast<std::int32_t>(vertices.size());
   std::copy(vertices.begin(), vertices.end(), node.vertex.begin());
   node.radiosity = radiosity;
+  for (const Vec3& v : vertices) node.centre += v / static_cast<double>(vertices.size());
+  for (const Vec3& v : vertices) node.radius = std::max(node.radius, (v - node.centre).norm());
   return node;
 }
 

@@ -29,6 +29,8 @@ class SourceSet {
     std::int32_t skip = 1;                        // nodes in this subtree, this one counted: a leaf has 1
     std::int32_t first_leaf = 0, leaf_count = 1;  // the subtree's leaves, among all of the set
     Rgb radiosity = Rgb::Zero();                  // [W/m^2]; of a leaf
+    Vec3 centre = Vec3::Zero();                   // of a ball around it [m]
+    double radius = 0;
   };
 
   // What the leaves of the solution emit and reflect.

@@ -1,6 +1,7 @@
 #include "solver/visibility/direction_polygon.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -231,6 +232,8 @@ Overlap Classify(Occluder& occluder, const DirectionPolygon& polygon) {
   }
   occluder.planes = cutting;
   if (cutting == 0) return Overlap::kAll;
+  // Across one plane and inside of all others: there is no way to lie beside the cone.
+  if (std::has_single_bit(cutting)) return Overlap::kPart;
   for (int i = 0; i < polygon.size(); ++i) {
     const Vec3 m = EdgeNormal(polygon[i], polygon.Next(i));
     if (IsArcShorter(polygon[i], polygon.Next(i), m, kShortArc)) continue;
@@ -240,6 +243,21 @@ Overlap Classify(Occluder& occluder, const DirectionPolygon& polygon) {
     if (!any_inside) return Overlap::kNone;
   }
   return Overlap::kPart;
+}
+
+Overlap ClassifyBall(Occluder& occluder, const Vec3& centre, double radius) {
+  const Cone& cone = *occluder.cone;
+  // What is nearer to a plane than its rounding must be judged by its vertices.
+  const double reach = radius + cone.rounding + kHeightError * (centre.cwiseAbs().sum() + radius);
+  std::uint32_t cutting = 0;
+  for (int k = 0; k < cone.size; ++k) {
+    if ((occluder.planes >> k & 1U) == 0) continue;
+    const double height = cone.normal[static_cast<std::size_t>(k)].dot(centre);
+    if (height < -reach) return Overlap::kNone;
+    if (height <= reach) cutting |= 1U << k;
+  }
+  occluder.planes = cutting;
+  return cutting == 0 && cone.size > 0 ? Overlap::kAll : Overlap::kPart;
 }
 
 void Subtract(const Occluder& occluder, std::vector<DirectionPolygon>& pieces) {

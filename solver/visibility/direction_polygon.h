@@ -116,6 +116,10 @@ struct Occluder {
 // that cut the polygon. kPart may be returned for a cone just beside it.
 Overlap Classify(Occluder& occluder, const DirectionPolygon& polygon);
 
+// The same for a ball about `centre`, as seen from the point, and cheaper: kPart leaves those planes that may
+// cut it.
+Overlap ClassifyBall(Occluder& occluder, const Vec3& centre, double radius);
+
 // Cuts the occluder out of every piece, which lie in its region: what remains visible, as convex pieces.
 void Subtract(const Occluder& occluder, std::vector<DirectionPolygon>& pieces);
 
