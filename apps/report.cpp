@@ -53,7 +53,7 @@ Json IterationsJson(const std::vector<IterationReport>& reports) {
 }
 
 Json ErrorJson(const PipelineReport& report) {
-  const ErrorStatistics& error = report.interpolant_error;
+  const RepresentationError& error = report.interpolant_error;
   return {{"interpolant",
            {{"points", error.points},
             {"max", error.max},
@@ -111,7 +111,7 @@ std::string ReportTable(const RunReport& report) {
   table += fmt::format("Energy [W]\n   emitted {:.6g}, absorbed {:.6g}, escaped {:.6g}; imbalance {:.2g}\n",
                        energy.emitted, energy.absorbed, energy.escaped, energy.relative_imbalance);
 
-  const ErrorStatistics& error = pipeline.interpolant_error;
+  const RepresentationError& error = pipeline.interpolant_error;
   table += "Relative error\n";
   if (error.points > 0)
     table += fmt::format("   interpolants, at {} points: p99 {:.3g}, p95 {:.3g}, rms {:.3g}, max {:.3g}\n",

@@ -80,6 +80,10 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
             "Iterate until no radiosity is farther off, relative to the largest (default: follows from "
             "--error)")
       ->group(group);
+  AddInteger(
+      app, "--corrections", &solving->max_corrections, 0, 100,
+      "Passes that correct the converged solution by exact irradiance; 0: links alone, as in the thesis")
+      ->group(group);
   AddInteger(app, "--iterations", &solving->max_iterations, 1, 1'000'000,
              "Most iterations of gathering and refining")
       ->group(group);

@@ -1,27 +1,13 @@
 #include "mesh/local_pass.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "mesh/discontinuity.h"
 #include "mesh/dset.h"
 #include "solver/base/parallel.h"
+#include "solver/base/stopwatch.h"
 
 namespace penumbra {
-namespace {
-
-class Stopwatch {
- public:
-  double Seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-}  // namespace
-
 std::vector<double> SourceStrengths(const RadiositySolution& solution) {
   std::vector<double> strength(solution.forest.scene().patches.size(), 0.0);
   for (std::size_t i = 0; i < solution.forest.size(); ++i) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mesh/irradiance_mesh.h"
+#include "mesh/representation_error.h"
 #include "solver/base/progress.h"
 #include "solver/scene/scene.h"
 #include "solver/transport/energy.h"
@@ -30,6 +31,7 @@ struct PipelineOptions {
   std::optional<double> min_discontinuity_weight;  // [W/m^2] Appendix A, 4
   int max_leaf_dsets = 10;                         // Appendix A, 5
   std::optional<double> relative_cutoff;           // Appendix A, 7
+  int max_corrections = 2;                         // SolverOptions::max_corrections
   int max_iterations = 100;
   std::size_t error_points = 1000;  // random points that measure the interpolants' error; 0 leaves it out
   std::uint64_t seed = 1;
@@ -56,12 +58,6 @@ struct Phase {
   double seconds = 0;
 };
 
-// A distribution of relative errors, |shown - true| / max(true, 1 % of the channel's mean irradiance).
-struct ErrorStatistics {
-  std::size_t points = 0;
-  double max = 0, p99 = 0, p95 = 0, rms = 0;
-};
-
 struct PipelineReport {
   std::vector<Phase>
       phases;  // load (by the caller), link, iterate, discontinuities, triangulate, interpolate
@@ -72,8 +68,8 @@ struct PipelineReport {
   } counts;
   std::vector<IterationReport> iterations;
   EnergyBalance energy;
-  ErrorStatistics interpolant_error;
-  double solution_error_estimate = 0;
+  RepresentationError interpolant_error;
+  double solution_error_estimate = 0;  // EstimateSolutionError() + EstimateSourceError()
   double error_asked = 0;
   bool error_met = false;
   std::vector<std::string> unmet;  // what missed the target, and why; one line each

@@ -18,8 +18,8 @@ struct EnergyBalance {
   double relative_imbalance = 0;  // |emitted - absorbed - escaped| / emitted; 0 in a dark scene
 };
 
-// Rays leave the leaves by a low-discrepancy rule, as many from each as its share of the flux, cosine
-// distributed. Their error is about 1 / rays for smooth scenes. Deterministic for a given seed.
+// Rays leave the leaves and fragments by a low-discrepancy rule, as many from each as its share of the flux,
+// cosine distributed. Their error is about 1 / rays for smooth scenes. Deterministic for a given seed.
 EnergyBalance MeasureEnergy(const RadiositySolution& solution, std::size_t rays = std::size_t{1} << 18,
                             std::uint64_t seed = 1);
 

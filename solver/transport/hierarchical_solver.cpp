@@ -1,10 +1,10 @@
 #include "solver/transport/hierarchical_solver.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "solver/base/parallel.h"
+#include "solver/base/stopwatch.h"
 #include "solver/transport/leaf_fragments.h"
 #include "solver/transport/leaf_irradiance.h"
 #include "solver/transport/link_former.h"
@@ -12,12 +12,6 @@
 
 namespace penumbra {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double SecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Elements a task gathers, receivers it links, leaves it corrects.
 constexpr std::size_t kGatherGrain = 256;
@@ -248,7 +242,7 @@ void HierarchicalSolver::Balance() {
 }
 
 IterationReport HierarchicalSolver::Iterate(const ExecutionContext& context) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch stopwatch;
   IterationReport report;
   report.residual = SweepToCutoff(report, context);
   while (!context.Cancelled()) {
@@ -264,7 +258,7 @@ IterationReport HierarchicalSolver::Iterate(const ExecutionContext& context) {
   converged_ = report.links_split == 0 && report.residual <= options_.relative_cutoff;
   report.elements = solution_.forest.size();
   report.links = solution_.links.links.size();
-  report.seconds = SecondsSince(start);
+  report.seconds = stopwatch.Seconds();
   return report;
 }
 

@@ -9,7 +9,7 @@ namespace {
 // brings does not: near bright parts of a wall receivers are bright, so that it errs to the dark side on
 // every link and adds up to some hundredths of missing energy. Deferred correction takes most of that away;
 // this share of eps leaves it little to do. (Without it, 0.004 balances the energy of closed boxes to 1e-3,
-// with four times the links.)
+// with five times the links.)
 constexpr double kSourceShare = 0.3;
 
 }  // namespace

@@ -12,4 +12,12 @@ std::span<const Fragment> RadiositySolution::FragmentsOf(ElementId leaf) const {
   return {first, last};
 }
 
+Rgb RadiositySolution::RadiosityAt(PatchId patch, const Vec3& point) const {
+  const ElementId leaf = forest.LeafAt(patch, point);
+  for (const Fragment& fragment : FragmentsOf(leaf))
+    if (ConvexContains(fragment.polygon, forest.scene().patches[patch].normal, point, 0))
+      return fragment.radiosity;
+  return radiosity[leaf];
+}
+
 }  // namespace penumbra

@@ -63,6 +63,9 @@ struct RadiositySolution {
   std::vector<double> spread_below;
 
   std::span<const Fragment> FragmentsOf(ElementId leaf) const;
+
+  // The radiosity of the leaf, or fragment, that contains a point of the patch [W/m^2].
+  Rgb RadiosityAt(PatchId patch, const Vec3& point) const;
 };
 
 }  // namespace penumbra

@@ -42,7 +42,6 @@ class SourceSet {
   std::span<const Node> Tree(PatchId patch) const {
     return {nodes_.data() + first_[patch], nodes_.data() + first_[patch + 1]};
   }
-  std::size_t LeafCount() const { return leaf_radiosity_.size(); }
 
   // All leaves, tree after tree: their polygons and radiosities.
   const PolygonBatch& LeafPolygons() const { return leaf_polygons_; }

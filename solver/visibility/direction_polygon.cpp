@@ -85,7 +85,7 @@ double HeightAbove(const Cone& cone, int k, const Vec3& v) {
   return std::abs(height) <= cone.rounding + kHeightError * v.cwiseAbs().sum() ? 0 : height;
 }
 
-// The same for plane k of a cone.
+// SplitAt() for plane k of a cone.
 void Split(const DirectionPolygon& polygon, const Cone& cone, int k, DirectionPolygon* inside,
            DirectionPolygon* outside) {
   Heights height;

@@ -14,7 +14,8 @@
 
 namespace penumbra {
 
-enum class Visibility : std::uint8_t { kVisible, kPartial, kInvisible };
+// The class of a tube. Pairs that one blocker hides wholly are not kept.
+enum class Visibility : std::uint8_t { kVisible, kPartial };
 
 // One source that a receiver's front may see.
 struct PatchPair {

@@ -1,13 +1,11 @@
 #include "solver/visibility/tube.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "solver/visibility/direction_polygon.h"
 
 namespace penumbra {
 namespace {
-
-// A height n . (p - q) of coordinates of size 1 is off by at most about this: a few roundings of each term.
-constexpr double kHeightError = 16 * std::numeric_limits<double>::epsilon();
 
 // Two edges whose cross product is this small beside their lengths are parallel but for rounding: they span
 // no plane.
@@ -21,7 +19,7 @@ Tube::Tube(std::span<const Vec3> a, std::span<const Vec3> b) : a_(a), b_(b), low
       low_ = low_.cwiseMin(v);
       high_ = high_.cwiseMax(v);
     }
-  rounding_ = kHeightError * std::max(MaxAbs(low_), MaxAbs(high_));
+  rounding_ = HeightRounding(std::max(MaxAbs(low_), MaxAbs(high_)));
   planes_.reserve(a.size() + b.size() + 2);
   AddSupportingPlanes(a, b);
   AddSupportingPlanes(b, a);
@@ -62,7 +60,7 @@ bool Tube::Misses(std::span<const Vec3> polygon, const Vec3& normal) const {
   }
   if (((low - high_).array() > 0).any() || ((low_ - high).array() > 0).any()) return true;
 
-  const double tolerance = rounding_ + kHeightError * std::max(MaxAbs(low), MaxAbs(high));
+  const double tolerance = rounding_ + HeightRounding(std::max(MaxAbs(low), MaxAbs(high)));
   for (const Plane& plane : planes_) {
     bool outside = true;
     for (const Vec3& v : polygon) outside = outside && plane.normal.dot(v) - plane.offset <= tolerance;
