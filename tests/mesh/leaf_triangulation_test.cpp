@@ -8,6 +8,7 @@
 
 #include "mesh_test_scenes.h"
 #include "solver/base/parallel.h"
+#include "solver/scene/tolerances.h"
 
 namespace penumbra {
 namespace {
