@@ -32,8 +32,8 @@ struct ToneMapping {
 // of their largest channel, to kMeteredValue; emitters and background do not count. 1 if no surface pixel is
 // lit. REQUIRES: kinds.size() == image.PixelCount().
 double MeterExposure(const RgbImage& image, std::span<const PixelKind> kinds);
-inline constexpr double kMeteredFraction = 0.98;
-inline constexpr double kMeteredValue = 0.85;
+inline constexpr double kMeteredFraction = 0.97;
+inline constexpr double kMeteredValue = 0.9;
 
 // The image exposed, emitters white, background grey: linear, in [0, 1]. Supersampled pictures are averaged
 // here, between exposure and transfer, so that the edges of lights are smooth.
