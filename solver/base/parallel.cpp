@@ -47,7 +47,8 @@ void RunChunks(std::size_t chunks, int threads, const std::function<void(std::si
 }
 #else
 void RunChunks(std::size_t chunks, int threads, const std::function<void(std::size_t)>& run) {
-  tbb::task_arena arena(threads);
+  // More threads than processors bring nothing, and oneTBB complains of them.
+  tbb::task_arena arena(std::min(threads, HardwareThreads()));
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, chunks, 1),

@@ -186,12 +186,13 @@ double HierarchicalSolver::Sweep() {
 // understates what is missing by 1 / (1 - rho).
 double HierarchicalSolver::SweepToCutoff(IterationReport& report, const ExecutionContext& context) {
   const double remaining = max_reflectance_ / (1 - max_reflectance_);
-  double bound = INFINITY;
-  while (bound > options_.relative_cutoff && report.sweeps < kMaxSweeps && !context.Cancelled()) {
-    bound = Sweep() * remaining;
+  residual_ = 1;
+  for (std::size_t sweep = 0; sweep < kMaxSweeps && residual_ > options_.relative_cutoff; ++sweep) {
+    if (context.Cancelled()) break;
+    residual_ = Sweep() * remaining;
     ++report.sweeps;
   }
-  return bound;
+  return residual_;
 }
 
 // Splits every link that the oracle rejects, once. Returns how many.

@@ -81,6 +81,7 @@ class HierarchicalSolver {
   std::vector<Rgb> correction_;          // per leaf: exact less linked irradiance [W/m^2]
   std::vector<Rgb> fragment_offset_;     // per fragment: exact irradiance less its leaf's [W/m^2]
   double max_reflectance_ = 0;
+  double residual_ = 1;  // of the last sweep
   bool converged_ = false;
 };
 

@@ -79,10 +79,15 @@ const auto kBetween = [](const Vec3& a, const Vec3& b, double ha, double hb) -> 
   return (hb * a + ha * b) / (ha + hb);
 };
 
+// How far the height of v above a plane of the cone may be off by rounding.
+double HeightRoundingOf(const Cone& cone, const Vec3& v) {
+  return cone.rounding + kHeightError * v.cwiseAbs().sum();
+}
+
 // The height of v above plane k of the cone; zero within rounding.
 double HeightAbove(const Cone& cone, int k, const Vec3& v) {
   const double height = cone.normal[static_cast<std::size_t>(k)].dot(v);
-  return std::abs(height) <= cone.rounding + kHeightError * v.cwiseAbs().sum() ? 0 : height;
+  return std::abs(height) <= HeightRoundingOf(cone, v) ? 0 : height;
 }
 
 // SplitAt() for plane k of a cone.
@@ -218,14 +223,18 @@ Cone MakeCone(const ReceiverPoint& at, const DirectionPolygon& blocker, double e
 Overlap Classify(Occluder& occluder, const DirectionPolygon& polygon) {
   const Cone& cone = *occluder.cone;
   if (cone.size == 0) return Overlap::kNone;
+  Heights rounding;
+  for (int i = 0; i < polygon.size(); ++i)
+    rounding[static_cast<std::size_t>(i)] = HeightRoundingOf(cone, polygon[i]);
   std::uint32_t cutting = 0;
   for (int k = 0; k < cone.size; ++k) {
     if ((occluder.planes >> k & 1U) == 0) continue;
+    const Vec3& m = cone.normal[static_cast<std::size_t>(k)];
     bool any_inside = false, any_outside = false;
     for (int i = 0; i < polygon.size() && !(any_inside && any_outside); ++i) {
-      const double h = HeightAbove(cone, k, polygon[i]);
-      any_inside = any_inside || h > 0;
-      any_outside = any_outside || h < 0;
+      const double h = m.dot(polygon[i]), zero = rounding[static_cast<std::size_t>(i)];
+      any_inside = any_inside || h > zero;
+      any_outside = any_outside || h < -zero;
     }
     if (!any_inside) return Overlap::kNone;
     if (any_outside) cutting |= 1U << k;
