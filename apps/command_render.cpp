@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <filesystem>
@@ -46,6 +47,7 @@ struct RenderArguments {
   int width = 1280, height = 960;
   std::optional<double> exposure;  // [m^2/W]; metered if not given
   int benchmark_frames = 0;        // 0: no benchmark
+  int supersampling = 2;           // of PNG pictures: samples a side of a pixel
 };
 
 bool IsExr(const std::string& path) { return std::filesystem::path(path).extension() == ".exr"; }
@@ -80,12 +82,20 @@ void CheckOutputs(const RenderArguments& arguments) {
     throw UsageError("render needs -o IMAGE.png or -o IMAGE.exr, or --benchmark FRAMES");
   if (arguments.output) CheckWritable(*arguments.output);
   if (arguments.scene.report) CheckWritable(*arguments.scene.report);
+  const int side = arguments.supersampling * std::max(arguments.width, arguments.height);
+  if (arguments.output && IsPng(*arguments.output) &&
+      (side > kMaxPictureSize ||
+       arguments.supersampling * arguments.height > kMaxPixels / (arguments.supersampling * arguments.width)))
+    throw UsageError(
+        fmt::format("a picture of {}x{} is too large for a supersampling of {}; give --supersampling 1",
+                    arguments.width, arguments.height, arguments.supersampling));
 }
 
 nlohmann::ordered_json RenderOptionsUsed(const RenderArguments& arguments) {
   nlohmann::ordered_json options;
   options["mode"] = arguments.mode.name;
   options["size"] = fmt::format("{}x{}", arguments.width, arguments.height);
+  options["supersampling"] = arguments.supersampling;
   if (arguments.exposure)
     options["exposure"] = *arguments.exposure;
   else
@@ -101,11 +111,23 @@ double ExposureFor(const RenderArguments& arguments, const Camera& camera, TwoPa
   return arguments.mode.shading == ShadingMode::kReflectance ? 1 : MeterExposure(frame.linear, frame.kind);
 }
 
-void WriteImage(const std::string& path, const ToneMapping& tone, TwoPassDisplay& display) {
-  if (IsExr(path))
+// A PNG is drawn larger by the supersampling, exposed, and averaged: smooth edges. An EXR holds one value a
+// pixel, that of its centre.
+void WriteImage(const RenderArguments& arguments, const Camera& camera, const ToneMapping& tone,
+                TwoPassDisplay& display) {
+  const std::string& path = *arguments.output;
+  const int k = arguments.supersampling;
+  if (IsExr(path)) {
     WriteExr(path, display.frame().linear);
-  else
+  } else if (k == 1) {
     WritePng(path, display.ToneMap(tone).screen);
+  } else {
+    const RenderedFrame& frame =
+        display.Render(camera, k * arguments.width, k * arguments.height, arguments.mode.shading);
+    Srgb8Image screen;
+    EncodeSrgb(Downsample(Expose(frame.linear, frame.kind, tone.exposure), k), tone.dither, &screen);
+    WritePng(path, screen);
+  }
 }
 
 void Render(const RenderArguments& arguments) {
@@ -118,7 +140,7 @@ void Render(const RenderArguments& arguments) {
   TwoPassDisplay display(loaded.scene, run.pipeline().mesh());
   ToneMapping tone;
   tone.exposure = ExposureFor(arguments, camera, display);
-  if (arguments.output) WriteImage(*arguments.output, tone, display);
+  if (arguments.output) WriteImage(arguments, camera, tone, display);
   run.Tell();
   if (arguments.benchmark_frames > 0)
     WriteResult(std::nullopt,
@@ -161,6 +183,9 @@ void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
       ->group("Picture");
   AddNumber(app, "--exposure", &arguments->exposure, kPositive,
             "Brightness on the screen, 0 to 1, per W/m^2 (default: metered from the picture; rho: 1)")
+      ->group("Picture");
+  AddInteger(app, "--supersampling", &arguments->supersampling, 1, 8,
+             "Samples a side of each pixel of a PNG, averaged; an EXR has one, at the pixel's centre")
       ->group("Picture");
   AddInteger(app, "--benchmark", &arguments->benchmark_frames, 1, kMaxFrames,
              "Render N frames along an orbit of the camera and print fps and milliseconds as a line of JSON; "
