@@ -38,6 +38,8 @@ void ValidateCamera(const Camera& camera) {
   const std::string name = camera.name.empty() ? "camera" : fmt::format("camera '{}'", camera.name);
   if (!camera.eye.allFinite() || !camera.look_at.allFinite() || !camera.up.allFinite())
     throw InputError(fmt::format("{}: error: a coordinate is not finite; give numbers in metres", name));
+  if (!(camera.look_at - camera.eye).allFinite())
+    throw InputError(fmt::format("{}: error: eye and look-at are too far apart; move them closer", name));
   if (!((camera.look_at - camera.eye).stableNorm() > 0))
     throw InputError(fmt::format("{}: error: eye and look-at are the same point; move one of them", name));
   if (!(camera.vertical_fov > 0 && camera.vertical_fov < 180))

@@ -4,11 +4,14 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -54,6 +57,25 @@ void WriteBytes(const std::string& path, const std::vector<char>& bytes) {
   if (!file) throw std::runtime_error(std::strerror(errno != 0 ? errno : EIO));
 }
 
+// A file in memory: OpenEXR's own does not tell when a disk is full.
+class MemoryStream : public Imf::OStream {
+ public:
+  MemoryStream() : Imf::OStream("memory") {}
+  void write(const char c[], int n) override {
+    const std::size_t end = at_ + static_cast<std::size_t>(n);
+    if (bytes_.size() < end) bytes_.resize(end);
+    std::copy_n(c, n, bytes_.begin() + static_cast<std::ptrdiff_t>(at_));
+    at_ = end;
+  }
+  std::uint64_t tellp() override { return at_; }
+  void seekp(std::uint64_t position) override { at_ = position; }
+  const std::vector<char>& bytes() const { return bytes_; }
+
+ private:
+  std::vector<char> bytes_;
+  std::size_t at_ = 0;
+};
+
 // A slice over one plane of the image.
 Imf::Slice PlaneSlice(const float* plane, int x_min, int y_min, int width) {
   // OpenEXR addresses pixels by their place in the data window and takes a pointer to non-const for reading,
@@ -92,9 +114,13 @@ void WriteExr(const std::string& path, const RgbImage& image) {
       header.channels().insert(kChannelNames[c], Imf::Channel(Imf::FLOAT));
       frame.insert(kChannelNames[c], PlaneSlice(image.channel[c].data(), 0, 0, image.width));
     }
-    Imf::OutputFile file(temporary.c_str(), header);
-    file.setFrameBuffer(frame);
-    file.writePixels(image.height);
+    MemoryStream memory;
+    {
+      Imf::OutputFile file(memory, header);
+      file.setFrameBuffer(frame);
+      file.writePixels(image.height);
+    }  // the table of lines is written at the end
+    WriteBytes(temporary, memory.bytes());
   });
 }
 

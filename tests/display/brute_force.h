@@ -1,0 +1,112 @@
+// tests/display/brute_force.h
+//
+// What a pixel shows, found by meeting its ray with every triangle in binary64. Slow; the reference of the
+// rasteriser's tests.
+
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "display/camera.h"
+#include "display/rasteriser.h"
+#include "display/vector_kernels.h"
+
+namespace penumbra {
+
+struct Triangles {
+  std::vector<Vec3> positions;
+  std::vector<Rasteriser::VertexIndices> triangles;
+
+  std::uint32_t AddVertex(const Vec3& p) {
+    positions.push_back(p);
+    return static_cast<std::uint32_t>(positions.size() - 1);
+  }
+  void AddTriangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const std::uint32_t i = AddVertex(a), j = AddVertex(b), k = AddVertex(c);
+    triangles.push_back({i, j, k});
+  }
+};
+
+// Where the ray of a picture's point meets the plane of a triangle.
+struct Meeting {
+  bool front = false;        // whether the triangle turns its front to the eye
+  double depth = 0;          // [m], of the plane at this point
+  double pixels_inside = 0;  // distance to the nearest edge's line [pixels], negative outside
+  double s = 0, t = 0;       // barycentric coordinates of vertices 1 and 2
+};
+
+inline Meeting Meet(const PixelRays& rays, double x, double y, const Triangles& mesh, std::size_t id) {
+  std::array<Vec3, 3> v;
+  for (std::size_t k = 0; k < 3; ++k) v[k] = mesh.positions[mesh.triangles[id][k]] - rays.eye;
+  Meeting meeting;
+  const double volume = -v[0].dot((v[1] - v[0]).cross(v[2] - v[0]));
+  meeting.front = volume > 0;
+  if (!meeting.front) return meeting;
+  const Vec3 direction = rays.Direction(x, y);
+  std::array<double, 3> b;
+  meeting.pixels_inside = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 plane = v[(k + 2) % 3].cross(v[(k + 1) % 3]);
+    b[k] = plane.dot(direction);
+    const double slope = std::hypot(plane.dot(rays.dx), plane.dot(rays.dy));
+    meeting.pixels_inside = std::min(meeting.pixels_inside, b[k] / slope);
+  }
+  const double sum = b[0] + b[1] + b[2];
+  meeting.depth = volume / sum;
+  meeting.s = b[1] / sum;
+  meeting.t = b[2] / sum;
+  return meeting;
+}
+
+// How a drawn picture agrees with the reference.
+struct Agreement {
+  int pixels = 0;
+  int wrong = 0;  // a triangle that is not there, or one that another hides; or none where one must be
+  int loose = 0;  // right, yet at an edge, where more than one answer is
+  std::size_t first_wrong = 0;
+};
+
+// Compares ids with the nearest triangle of each pixel's ray. Within two fringes of an edge, and at depths
+// that differ by less than 1e-5, either side is right.
+inline Agreement CompareIds(const PixelRays& rays, int width, int height, const Triangles& mesh,
+                            const std::vector<std::uint32_t>& ids) {
+  constexpr double kNear = 2 * static_cast<double>(kFringe);
+  constexpr double kDepth = 1 + 1e-5;
+  Agreement agreement;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::size_t at =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+      double nearest = std::numeric_limits<double>::infinity();
+      std::uint32_t nearest_id = kNoTriangle;
+      for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const Meeting m = Meet(rays, x + 0.5, y + 0.5, mesh, i);
+        if (!m.front || !(m.pixels_inside > kNear) || !(m.depth > 0) || m.depth >= nearest) continue;
+        nearest = m.depth;
+        nearest_id = static_cast<std::uint32_t>(i);
+      }
+      ++agreement.pixels;
+      if (ids[at] == nearest_id) continue;
+      bool right = false;
+      if (ids[at] == kNoTriangle) {
+        right = nearest_id == kNoTriangle;
+      } else {
+        const Meeting m = Meet(rays, x + 0.5, y + 0.5, mesh, ids[at]);
+        // At the fringe the plane's depth means little: it may rise without bound.
+        const bool inner = m.pixels_inside > kNear;
+        right = m.front && m.pixels_inside > -kNear && (!inner || m.depth <= nearest * kDepth);
+      }
+      if (right) {
+        ++agreement.loose;
+      } else if (agreement.wrong++ == 0) {
+        agreement.first_wrong = at;
+      }
+    }
+  return agreement;
+}
+
+}  // namespace penumbra
