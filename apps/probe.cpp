@@ -118,7 +118,8 @@ Measurement Prober::MeasureAt(const ProbePoint& point) const {
   measurement.exact = irradiance_.Anywhere({point.position, normal, Vec3::Zero(), 0}).irradiance;
   measurement.footing = FindFooting(point.position, normal);
   if (pipeline_ && measurement.footing.patch != kNoPatch)
-    if (const std::optional<Rgb> value = pipeline_->Interpolated(measurement.footing.patch, point.position))
+    if (const std::optional<Rgb> value =
+            pipeline_->Interpolated(measurement.footing.patch, point.position, reach_))
       measurement.interpolated = *value;
   if (SeesOnlyBacks(point.position, normal)) measurement.surroundings = Surroundings::kBehind;
   return measurement;

@@ -114,6 +114,7 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["min_area"] = resolved->solver.min_area;
     options["min_discontinuity_weight"] = resolved->min_discontinuity_weight;
     options["max_leaf_dsets"] = resolved->max_leaf_dsets;
+    options["corrections"] = resolved->solver.max_corrections;
     options["relative_cutoff"] = resolved->solver.relative_cutoff;
     options["iterations"] = resolved->solver.max_iterations;
     options["error_points"] = arguments.solving.error_points;

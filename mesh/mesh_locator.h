@@ -39,7 +39,7 @@ class MeshLocator {
   std::unique_ptr<Impl> impl_;
 };
 
-// The interpolated irradiance there [W/m^2].
+// The interpolant's value there [W/m^2]; it may dip below zero beside a dark place.
 Rgb IrradianceAt(const IrradianceMesh& mesh, const MeshLocator::Location& at);
 
 }  // namespace penumbra

@@ -160,7 +160,8 @@ void Pipeline::Measure(const ExecutionContext& context) {
   report.error_met = error.p99 + report.solution_error_estimate <= report.error_asked;
   if (!report.error_met)
     report.unmet.push_back(
-        fmt::format("error: the 99th percentile {:.3g} of the interpolants and {:.3g} of the solution exceed "
+        fmt::format("error: {:.3g} of the interpolants (99th percentile) and {:.3g} of the solution "
+                    "(estimated) add up to more than "
                     "{:.3g}; the worst "
                     "point is ({:.4g}, {:.4g}, {:.4g})",
                     error.p99, report.solution_error_estimate, report.error_asked, error.worst_point.x(),
@@ -175,11 +176,11 @@ const PointIrradiance& Pipeline::irradiance() const { return *impl_->irradiance;
 const IrradianceMesh& Pipeline::mesh() const { return impl_->mesh; }
 const PipelineReport& Pipeline::report() const { return impl_->report; }
 
-std::optional<Rgb> Pipeline::Interpolated(PatchId patch, const Vec3& point) const {
+std::optional<Rgb> Pipeline::Interpolated(PatchId patch, const Vec3& point, double reach) const {
   PENUMBRA_CHECK(impl_->locator != nullptr);
-  const auto location = impl_->locator->Find(patch, point);
+  const auto location = impl_->locator->Find(patch, point, reach);
   if (!location) return std::nullopt;
-  return IrradianceAt(impl_->mesh, *location);
+  return Rgb(IrradianceAt(impl_->mesh, *location).max(0.0));
 }
 
 }  // namespace penumbra

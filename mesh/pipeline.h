@@ -96,8 +96,10 @@ class Pipeline {
   const PointIrradiance& irradiance() const;  // exact, from the solution's leaves. REQUIRES: Solve()
   const IrradianceMesh& mesh() const;         // REQUIRES: BuildMesh()
 
-  // The interpolant's irradiance at a point of a patch [W/m^2]. REQUIRES: BuildMesh().
-  std::optional<Rgb> Interpolated(PatchId patch, const Vec3& point) const;
+  // The interpolant's irradiance at a point of a patch, or at most `reach` [m] beside it, not
+  // below 0 [W/m^2]. REQUIRES:
+  // BuildMesh().
+  std::optional<Rgb> Interpolated(PatchId patch, const Vec3& point, double reach = 0) const;
 
   const PipelineReport& report() const;
 

@@ -32,7 +32,7 @@ RepresentationError MeasureRepresentationError(const Scene& scene, const Irradia
   ParallelFor(points, kPointsATask, [&](std::size_t i) {
     const auto place = locator.Find(at[i].patch, at[i].position);
     PENUMBRA_CHECK(place.has_value());
-    shown[i] = IrradianceAt(mesh, *place);
+    shown[i] = IrradianceAt(mesh, *place).max(0.0);
     ReceiverPoint receiver;
     receiver.position = at[i].position;
     receiver.normal = scene.patches[at[i].patch].normal;

@@ -8,6 +8,9 @@
 namespace penumbra {
 namespace {
 
+// Products with areas and sums over faces must not overflow [W/m^2].
+constexpr double kLargestEmittance = 1e100;
+
 // One value for all channels, or three.
 Rgb ReadColour(const StatementReader& reader) {
   const std::vector<std::string_view> words = reader.Words();
@@ -45,7 +48,7 @@ std::vector<Material> ReadMtlText(std::string_view text, std::string_view file, 
     const Rgb colour = ReadColour(reader);
     if (keyword == "Ke") {
       materials.back().emittance = options.emission_is_radiance ? Rgb(colour * std::numbers::pi) : colour;
-      if (!materials.back().emittance.allFinite())
+      if (!(materials.back().emittance <= kLargestEmittance).all())
         throw reader.Error("Ke is too large; give a smaller emittance");
     } else if (options.max_reflectance) {
       materials.back().reflectance = colour.min(*options.max_reflectance);

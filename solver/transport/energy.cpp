@@ -7,6 +7,7 @@
 #include "solver/base/parallel.h"
 #include "solver/base/random.h"
 #include "solver/scene/surface_points.h"
+#include "solver/scene/tolerances.h"
 #include "solver/transport/source_set.h"
 #include "solver/visibility/ray_caster.h"
 
@@ -34,7 +35,7 @@ Vec3 CosineDirection(const Vec3& normal, double s, double t) {
 
 // The i-th ray of `count`, leaving the sender whose share of the flux covers (i + 1/2) / count.
 Ray MakeRay(const Scene& scene, const std::vector<Sender>& senders, const std::vector<double>& cumulative,
-            std::size_t i, std::size_t count, std::uint64_t seed) {
+            std::size_t i, std::size_t count, std::uint64_t seed, double lift) {
   const double at = (static_cast<double>(i) + 0.5) / static_cast<double>(count) * cumulative.back();
   const auto found = static_cast<std::size_t>(std::upper_bound(cumulative.begin(), cumulative.end(), at) -
                                               cumulative.begin());
@@ -43,8 +44,10 @@ Ray MakeRay(const Scene& scene, const std::vector<Sender>& senders, const std::v
   for (std::size_t d = 0; d < 4; ++d) x[d] = AdditiveRecurrence(i + 7919 * seed, kR4Alpha[d]);
   const std::span<const Vec3> polygon(sender.node->vertex.data(),
                                       static_cast<std::size_t>(sender.node->size));
-  return {sender.patch, PointOn(polygon, x[0], x[1]),
-          CosineDirection(scene.patches[sender.patch].normal, x[2], x[3])};
+  const Vec3& normal = scene.patches[sender.patch].normal;
+  // What lies on the sender, looking the other way, neither lights nor blocks it.
+  const Vec3 before = PointOn(polygon, x[0], x[1]) + lift * normal;
+  return {sender.patch, before, CosineDirection(normal, x[2], x[3])};
 }
 
 }  // namespace
@@ -74,10 +77,11 @@ EnergyBalance MeasureEnergy(const RadiositySolution& solution, std::size_t rays,
   if (flux <= 0 || rays == 0) return balance;
 
   const RayCaster caster(scene);
+  const double lift = ContactGap(scene);
   enum : char { kFront, kBack, kAway };
   std::vector<char> fate(rays);
   ParallelFor(rays, kRayGrain, [&](std::size_t i) {
-    const Ray ray = MakeRay(scene, senders, cumulative, i, rays, seed);
+    const Ray ray = MakeRay(scene, senders, cumulative, i, rays, seed, lift);
     const RayCaster::Hit hit = caster.Cast(ray.origin, ray.direction, ray.patch);
     fate[i] = hit.patch == kNoPatch ? kAway : hit.front ? kFront : kBack;
   });

@@ -120,7 +120,7 @@ void HierarchicalSolver::PushPull(ElementId id, const Rgb& from_above) {
   const Rgb irradiance = from_above + gathered_[id];
   if (element.IsLeaf()) {
     const Material& material = scene_.MaterialOf(element.patch);
-    solution_.irradiance[id] = irradiance + correction_[id];
+    solution_.irradiance[id] = (irradiance + correction_[id]).max(0.0);
     solution_.radiosity[id] = material.emittance + material.reflectance * solution_.irradiance[id];
     solution_.radiosity_spread[id] = 0;
     solution_.spread_below[id] = 0;

@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -10,16 +11,26 @@
 namespace penumbra {
 namespace {
 
+// Two faces that lie on each other, one looking either way, are one sheet: a ray meets the front. Hits nearer
+// to each other than this, relative to the scene's diagonal, are at the same place (floats keep 7 digits).
+constexpr double kSamePlace = 1e-6;
+
 // The ray's own patch travels with the intersection context, since Embree hands that to the filter.
 struct FilterContext {
   RTCIntersectContext base;
   unsigned int ignore;
+  const std::vector<Vec3>* backs;  // the patches' normals, if hits on backs are to be passed over; else null
+  Vec3 direction;
 };
 
-void IgnoreOwnPatch(const RTCFilterFunctionNArguments* args) {
+void FilterHits(const RTCFilterFunctionNArguments* args) {
   const auto* context = reinterpret_cast<const FilterContext*>(args->context);
-  for (unsigned int i = 0; i < args->N; ++i)
-    if (args->valid[i] == -1 && RTCHitN_primID(args->hit, args->N, i) == context->ignore) args->valid[i] = 0;
+  for (unsigned int i = 0; i < args->N; ++i) {
+    if (args->valid[i] != -1) continue;
+    const unsigned int patch = RTCHitN_primID(args->hit, args->N, i);
+    const bool back = context->backs && (*context->backs)[patch].dot(context->direction) >= 0;
+    if (patch == context->ignore || back) args->valid[i] = 0;
+  }
 }
 
 }  // namespace
@@ -28,7 +39,11 @@ struct RayCaster::Impl {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   std::vector<Vec3> normals;   // unit, a patch
+  double diagonal = 0;         // of the scene [m]
   Vec3 origin = Vec3::Zero();  // Embree's: the middle of the scene, since its floats keep 7 digits only
+
+  RTCRayHit Intersect(const Vec3& from, const Vec3& direction, double near, double far,
+                      FilterContext& context) const;
 };
 
 RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
@@ -38,6 +53,7 @@ RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
   const auto [low, high] = scene.Bounds();
   impl_->origin = 0.5 * (low + high);
+  impl_->diagonal = (high - low).norm();
   if (!scene.patches.empty()) {
     // Triangles are quads whose last two vertices coincide, as Embree documents.
     const RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_QUAD);
@@ -55,7 +71,7 @@ RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
         index[4 * p + k] = static_cast<unsigned int>(4 * p + k);
       }
     }
-    rtcSetGeometryIntersectFilterFunction(geometry, &IgnoreOwnPatch);
+    rtcSetGeometryIntersectFilterFunction(geometry, &FilterHits);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(impl_->scene, geometry);
     rtcReleaseGeometry(geometry);
@@ -68,11 +84,8 @@ RayCaster::~RayCaster() {
   rtcReleaseDevice(impl_->device);
 }
 
-RayCaster::Hit RayCaster::Cast(const Vec3& origin, const Vec3& direction, PatchId ignore) const {
-  FilterContext context;
-  rtcInitIntersectContext(&context.base);
-  context.ignore = ignore == kNoPatch ? RTC_INVALID_GEOMETRY_ID : static_cast<unsigned int>(ignore);
-  const Vec3 from = origin - impl_->origin;
+RTCRayHit RayCaster::Impl::Intersect(const Vec3& from, const Vec3& direction, double near, double far,
+                                     FilterContext& context) const {
   RTCRayHit ray{};
   ray.ray.org_x = static_cast<float>(from.x());
   ray.ray.org_y = static_cast<float>(from.y());
@@ -80,13 +93,48 @@ RayCaster::Hit RayCaster::Cast(const Vec3& origin, const Vec3& direction, PatchI
   ray.ray.dir_x = static_cast<float>(direction.x());
   ray.ray.dir_y = static_cast<float>(direction.y());
   ray.ray.dir_z = static_cast<float>(direction.z());
-  ray.ray.tfar = std::numeric_limits<float>::infinity();
+  ray.ray.tnear = static_cast<float>(near);
+  ray.ray.tfar = static_cast<float>(far);
   ray.ray.mask = 0xFFFFFFFFU;
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(impl_->scene, &context.base, &ray);
-  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  const auto patch = static_cast<PatchId>(ray.hit.primID);
-  return {patch, static_cast<double>(ray.ray.tfar), impl_->normals[ray.hit.primID].dot(direction) < 0};
+  rtcIntersect1(scene, &context.base, &ray);
+  return ray;
+}
+
+RayCaster::Hit RayCaster::Cast(const Vec3& origin, const Vec3& direction, PatchId ignore) const {
+  FilterContext context;
+  rtcInitIntersectContext(&context.base);
+  context.ignore = ignore == kNoPatch ? RTC_INVALID_GEOMETRY_ID : static_cast<unsigned int>(ignore);
+  context.backs = nullptr;
+
+  // From far away the ray starts where it nears the ball around the scene: floats overflow, and lose digits.
+  Vec3 from = origin - impl_->origin;
+  double skipped = 0;
+  const double distance = from.stableNorm(), reach = impl_->diagonal;
+  if (distance > 2 * reach) {
+    const double along =
+        -(from / distance).dot(direction) / direction.norm() * distance;  // to the nearest point
+    if (!(along > 0)) return {};
+    skipped = (along - reach) / direction.norm();
+    from += skipped * direction;
+    if (!(from.stableNorm() <= 2 * reach)) return {};
+  }
+
+  const double infinity = std::numeric_limits<double>::infinity();
+  const RTCRayHit first = impl_->Intersect(from, direction, 0, infinity, context);
+  if (first.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  const Vec3& normal = impl_->normals[first.hit.primID];
+  const double at = static_cast<double>(first.ray.tfar);
+  if (normal.dot(direction) >= 0) {
+    const double margin = kSamePlace * impl_->diagonal / direction.norm();
+    context.backs = &impl_->normals;
+    context.direction = direction;
+    const RTCRayHit front =
+        impl_->Intersect(from, direction, std::max(0.0, at - margin), at + margin, context);
+    if (front.hit.geomID != RTC_INVALID_GEOMETRY_ID)
+      return {static_cast<PatchId>(front.hit.primID), skipped + static_cast<double>(front.ray.tfar), true};
+  }
+  return {static_cast<PatchId>(first.hit.primID), skipped + at, normal.dot(direction) < 0};
 }
 
 }  // namespace penumbra

@@ -22,6 +22,7 @@ class RayCaster {
   explicit RayCaster(const Scene& scene);
   ~RayCaster();
 
+  // Of two patches that lie on each other and look either way, the front is met.
   // The first patch that the ray from `origin` along `direction` meets, `ignore` left out. Safe from any
   // thread.
   Hit Cast(const Vec3& origin, const Vec3& direction, PatchId ignore = kNoPatch) const;

@@ -52,13 +52,14 @@ struct RandomMesh {
 // A quadratic irradiance is reproduced everywhere, and each node is evaluated once: as many evaluations as
 // the mesh has vertices and edges.
 TEST(BuildIrradianceMesh, QuadraticsAreReproduced) {
+  constexpr double kAboveZero = 100;  // what is shown is never negative
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
     const RandomMesh random_mesh(seed, seed % 2 == 0);
     std::atomic<std::size_t> calls = 0;
     const IrradianceSampler sampler = [&](PatchId, const ReceiverPoint& at) {
       ++calls;
-      return PointIrradianceResult{SomeQuadratic(at.position), false};
+      return PointIrradianceResult{SomeQuadratic(at.position) + kAboveZero, false};
     };
     const BuiltMesh built = BuildIrradianceMesh(random_mesh.scene, random_mesh.patches,
                                                 InterpolantOrder::kQuadratic, sampler, ExecutionContext());
