@@ -20,6 +20,8 @@ constexpr std::array<float, kTileSize> kColumn = [] {
   return column;
 }();
 
+constexpr std::size_t kDitherSpan = 128;  // pixels encoded at a time; a multiple of the dither's period
+
 inline float Min(float a, float b) { return a < b ? a : b; }
 inline float Max(float a, float b) { return a > b ? a : b; }
 
@@ -103,21 +105,28 @@ void ExposeRow(const float* __restrict value, const PixelKind* __restrict kind, 
 PENUMBRA_VECTOR_CLONES
 void EncodeSrgbRow(const float* __restrict linear, const float* __restrict dither, std::size_t n,
                    std::uint8_t* __restrict code) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const float x = linear[i];
-    // x^(5/12) = x y^7 with y = x^(-1/12) by Newton's iteration from a logarithm read off the exponent bits.
-    const float z = Max(x, 0x1p-10f);
-    const float log2z = static_cast<float>(std::bit_cast<std::int32_t>(z)) * 0x1p-23f - 127.0f;
-    float y = std::bit_cast<float>(static_cast<std::int32_t>((127.0f - log2z * (1.0f / 12)) * 0x1p23f));
-    for (int iteration = 0; iteration < 3; ++iteration) {
-      const float y3 = y * y * y, y6 = y3 * y3;
-      y *= (13.0f - z * (y6 * y6)) * (1.0f / 12);
+  // The offsets laid out once, so that the loop below reads all its arrays straight on.
+  std::array<float, kDitherSpan> offset;
+  for (std::size_t i = 0; i < kDitherSpan; ++i) offset[i] = 0.5f + dither[i % 8];
+  for (std::size_t begin = 0; begin < n; begin += kDitherSpan) {
+    const std::size_t count = n - begin < kDitherSpan ? n - begin : kDitherSpan;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float x = linear[begin + i];
+      // x^(5/12) = x y^7 with y = x^(-1/12) by Newton's iteration from a logarithm read off the exponent
+      // bits.
+      const float z = Max(x, 0x1p-10f);
+      const float log2z = static_cast<float>(std::bit_cast<std::int32_t>(z)) * 0x1p-23f - 127.0f;
+      float y = std::bit_cast<float>(static_cast<std::int32_t>((127.0f - log2z * (1.0f / 12)) * 0x1p23f));
+      for (int iteration = 0; iteration < 3; ++iteration) {
+        const float y3 = y * y * y, y6 = y3 * y3;
+        y *= (13.0f - z * (y6 * y6)) * (1.0f / 12);
+      }
+      const float y3 = y * y * y;
+      const float power = 1.055f * (z * (y3 * y3 * y)) - 0.055f;
+      const float encoded = x <= 0.0031308f ? 12.92f * x : power;
+      const float rounded = 255.0f * encoded + offset[i];
+      code[begin + i] = static_cast<std::uint8_t>(static_cast<std::int32_t>(Min(Max(rounded, 0.0f), 255.0f)));
     }
-    const float y3 = y * y * y;
-    const float power = 1.055f * (z * (y3 * y3 * y)) - 0.055f;
-    const float encoded = x <= 0.0031308f ? 12.92f * x : power;
-    const float rounded = 255.0f * encoded + 0.5f + dither[i & 7];
-    code[i] = static_cast<std::uint8_t>(static_cast<std::int32_t>(Min(Max(rounded, 0.0f), 255.0f)));
   }
 }
 
