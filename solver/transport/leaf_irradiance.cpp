@@ -20,14 +20,13 @@ LeafIrradiance ExactLeafIrradiance(const RadiositySolution& solution, const Poin
   ReceiverPoint at;
   at.normal = solution.forest.scene().patches[element.patch].normal;
   const auto mean_over = [&](std::span<const Vec3> polygon) -> Rgb {
-    if (sampling == LeafSampling::kCentroid) {
-      at.position = Centroid(polygon);
-      return irradiance.OnPatch(element.patch, at).irradiance;
-    }
-    Rgb mean = Rgb::Zero();
+    at.position = Centroid(polygon);
+    const Rgb centre = irradiance.OnPatch(element.patch, at).irradiance;
+    if (sampling == LeafSampling::kCentroid) return centre;
     for (int refinement = 0;; ++refinement) {
-      Rgb lowest = Rgb::Constant(INFINITY), highest = Rgb::Zero();
-      mean = Rgb::Zero();
+      // The centre tells whether the rule's points, evenly spaced, all fell on the stripes of a blind.
+      Rgb lowest = centre, highest = centre;
+      Rgb mean = Rgb::Zero();
       for (const CubaturePoint& point : Cubature(polygon, refinement)) {
         at.position = point.position;
         const Rgb value = irradiance.OnPatch(element.patch, at).irradiance;

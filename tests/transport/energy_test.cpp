@@ -23,9 +23,11 @@ Scene LightWithBlackBack(bool with_plate) {
   return scene;
 }
 
-EnergyBalance Balance(const Scene& scene) {
+EnergyBalance Balance(const Scene& scene, double eps = 0.1) {
   const PatchVisibility visibility(scene);
-  HierarchicalSolver solver(scene, visibility, {});
+  SolverOptions options;
+  options.eps = eps;  // [W/m^2]
+  HierarchicalSolver solver(scene, visibility, options);
   solver.Solve({});
   return MeasureEnergy(solver.solution());
 }
@@ -37,6 +39,26 @@ TEST(MeasureEnergy, ACoincidentBackNeitherBlocksNorAbsorbs) {
   EXPECT_NEAR(alone.escaped, 900, 1e-6);
   EXPECT_NEAR(alone.absorbed, 0, 1e-6);
   EXPECT_LE(Balance(LightWithBlackBack(true)).relative_imbalance, 1e-3);
+}
+
+// A floor under a blind of 16 slats, whose stripes are as far apart as the points of a coarse leaf's rule:
+// the light still adds up, at an eps at which a leaf is wider than a stripe.
+TEST(MeasureEnergy, StripesOfABlindAreNotMissed) {
+  Scene scene;
+  scene.materials.resize(3);
+  scene.materials[0].reflectance = Rgb::Constant(0.5);
+  scene.materials[1].reflectance = scene.materials[2].reflectance = Rgb::Zero();
+  scene.materials[2].emittance = Rgb::Constant(100);
+  const auto add = [&](const std::vector<Vec3>& polygon, int material) {
+    scene.patches.push_back(MakePatch(polygon, material, 0, {}));
+  };
+  add({{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, 0);
+  add({{-0.5, 0.5, 3}, {0.5, 0.5, 3}, {0.5, -0.5, 3}, {-0.5, -0.5, 3}}, 2);
+  for (int i = 0; i < 16; ++i) {
+    const double x = -2 + 0.25 * i;
+    add({{x, -2, 1}, {x + 0.2, -2, 1}, {x + 0.2, 2, 1}, {x, 2, 1}}, 1);
+  }
+  EXPECT_LE(Balance(scene, 0.18).relative_imbalance, 1e-3);
 }
 
 }  // namespace
