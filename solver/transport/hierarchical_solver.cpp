@@ -232,6 +232,10 @@ std::size_t HierarchicalSolver::RefineOnce() {
   }
   if (split > 0) {
     Install(FormGroups(solution_.forest, groups), dropped);
+    // What corrected the old leaves says nothing of the new ones.
+    solution_.fragments.clear();
+    fragment_offset_.clear();
+    std::fill(correction_.begin(), correction_.end(), Rgb::Zero());
     ResizeLight();
   }
   return split;

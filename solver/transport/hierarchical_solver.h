@@ -50,7 +50,8 @@ class HierarchicalSolver {
   IterationReport Iterate(const ExecutionContext& context);
 
   // One pass of deferred correction. Returns the root mean square change of the leaves' irradiance, relative
-  // to its mean; 0 if cancelled, which leaves the solution as it was.
+  // to its mean; 0 if cancelled, which leaves the solution as it was. An iteration that refines takes
+  // corrections back.
   double Correct(LeafSampling sampling, const ExecutionContext& context);
 
   // Iterates to convergence, to the most iterations, or until the context is cancelled, then corrects. A

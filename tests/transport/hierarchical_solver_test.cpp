@@ -251,6 +251,26 @@ TEST(HierarchicalSolver, CancelledAndCutShort) {
   ExpectValid(solver.solution());
 }
 
+// An iteration after a correction takes the correction back if it refines: fragments belong to leaves, and
+// the solution is what another correction makes of it, as near to balance as if there had been none before.
+TEST(HierarchicalSolver, IteratesAfterACorrection) {
+  const Scene scene = LampRoom();
+  const PatchVisibility visibility(scene);
+  SolverOptions options;
+  options.eps = 0.5;
+  HierarchicalSolver solver(scene, visibility, options);
+  const ExecutionContext context;
+  solver.Iterate(context);
+  EXPECT_GT(solver.Correct(LeafSampling::kCentroid, context), 0);
+  while (!solver.Converged()) solver.Iterate(context);
+  for (const Fragment& fragment : solver.solution().fragments)
+    EXPECT_TRUE(solver.solution().forest[fragment.leaf].IsLeaf());
+  ExpectValid(solver.solution());
+  solver.Correct(LeafSampling::kCentroid, context);
+  solver.Correct(LeafSampling::kCubature, context);
+  EXPECT_LE(MeasureEnergy(solver.solution()).relative_imbalance, 2e-3);
+}
+
 // No patches, one patch, no light: solved at once, and dark but for what shines of itself.
 TEST(HierarchicalSolver, EmptySingleAndDark) {
   const Scene empty;
