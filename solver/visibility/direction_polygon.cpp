@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace penumbra {
 namespace {
@@ -26,15 +25,6 @@ constexpr double kShortArc = 1e-6;
 
 bool IsArcShorter(const Vec3& a, const Vec3& b, const Vec3& normal, double angle) {
   return normal.squaredNorm() <= angle * angle * a.squaredNorm() * b.squaredNorm();
-}
-
-// The edge's normal a x b. Both neighbours of an edge compute it from the same end, the nearer one, with the
-// same operations: the results are opposite to the bit.
-Vec3 EdgeNormal(const Vec3& a, const Vec3& b) {
-  const double aa = a.squaredNorm(), bb = b.squaredNorm();
-  const bool a_first =
-      aa < bb || (aa == bb && std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3));
-  return a_first ? Vec3(a.cross(b - a)) : Vec3(-b.cross(a - b));
 }
 
 using Heights = std::array<double, DirectionPolygon::kCapacity>;
@@ -129,6 +119,13 @@ Levelled Level(const DirectionPolygon& seen, const Vec3& normal, double rounding
 
 }  // namespace
 
+Vec3 EdgeNormal(const Vec3& a, const Vec3& b) {
+  const double aa = a.squaredNorm(), bb = b.squaredNorm();
+  const bool a_first =
+      aa < bb || (aa == bb && std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3));
+  return a_first ? Vec3(a.cross(b - a)) : Vec3(-b.cross(a - b));
+}
+
 double HeightRounding(double extent) { return kHeightError * extent; }
 
 Side SideOf(const ReceiverPoint& at, const Vec3& normal, const Vec3& on, double extent) {
@@ -178,17 +175,6 @@ DirectionPolygon SeenInContact(const ReceiverPoint& at, std::span<const Vec3> po
   }
   if (!touches) limit.clear();
   return limit;
-}
-
-double FormFactor(const DirectionPolygon& polygon, const Vec3& receiver_normal) {
-  double sum = 0;
-  for (int i = 0; i < polygon.size(); ++i) {
-    const Vec3 &a = polygon[i], &b = polygon.Next(i);
-    const Vec3 m = EdgeNormal(a, b);
-    const double length = m.norm();
-    if (length > 0) sum += receiver_normal.dot(m) / length * std::atan2(length, a.dot(b));
-  }
-  return std::max(0.0, sum / (2 * std::numbers::pi));
 }
 
 DirectionPolygon ClipToHorizon(const ReceiverPoint& at, const DirectionPolygon& polygon, double extent) {

@@ -75,11 +75,6 @@ DirectionPolygon Seen(const ReceiverPoint& at, std::span<const Vec3> polygon, bo
 // approach, and so is the middle of an edge through the point.
 DirectionPolygon SeenInContact(const ReceiverPoint& at, std::span<const Vec3> polygon, bool from_front);
 
-// Form factor of the point to what it sees: (1 / 2 pi) sum gamma n . m / |m| (Baum, Rushmeier and Winget
-// 1989; thesis eq. 6.1), gamma by atan2 on vectors that are not normalised. The polygon must lie above the
-// horizon.
-double FormFactor(const DirectionPolygon& polygon, const Vec3& receiver_normal);
-
 // The part above the receiver's horizon n . direction >= 0 of what is seen of a polygon with coordinates up
 // to `extent` [m]. Vertices on the horizon but for rounding lie on it. Crossings are taken as directions, n x
 // (a x b).
@@ -94,6 +89,10 @@ struct Cone {
   // and a sliver that was cut off by rounding has edges that run anywhere.
   double rounding = 0;
 };
+
+// The normal a x b of the edge from a to b. Both neighbours of an edge compute it from the same end, the
+// nearer one, with the same operations: the results are opposite to the bit.
+Vec3 EdgeNormal(const Vec3& a, const Vec3& b);
 
 // The cone over what is seen of a blocker with coordinates up to `extent` [m]. Two blockers that share an
 // edge get opposite normals for it, to the bit, so that no light leaks between them.

@@ -6,6 +6,7 @@
 
 #include "solver/base/check.h"
 #include "solver/base/vector_dispatch.h"
+#include "solver/visibility/form_factor.h"
 
 namespace penumbra {
 namespace {
@@ -58,10 +59,13 @@ constexpr double kTanEighthPi = 0.41421356237309503;
   return rise / (length > 0 ? length : 1.0) * AngleOf(length, cosine);
 }
 
-// c[3 k + axis] points to the coordinates of the k-th vertices.
+[[gnu::always_inline]] inline double Magnitude(double x) { return x < 0 ? -x : x; }
+
+// out[i] is the sum over the edges of polygon i, to be done in another way where loss[i] > 0. c[3 k + axis]
+// points to the coordinates of the k-th vertices.
 PENUMBRA_VECTOR_CLONES
 void Kernel(const std::array<const double*, 12>& c, std::size_t count, double px, double py, double pz,
-            double nx, double ny, double nz, double* __restrict out) {
+            double nx, double ny, double nz, double* __restrict out, double* __restrict loss) {
   const double* __restrict x0 = c[0], * __restrict y0 = c[1], * __restrict z0 = c[2];
   const double* __restrict x1 = c[3], * __restrict y1 = c[4], * __restrict z1 = c[5];
   const double* __restrict x2 = c[6], * __restrict y2 = c[7], * __restrict z2 = c[8];
@@ -72,9 +76,21 @@ void Kernel(const std::array<const double*, 12>& c, std::size_t count, double px
     const double third = EdgeTerm(x2[i], y2[i], z2[i], x3[i], y3[i], z3[i], px, py, pz, nx, ny, nz);
     const double fourth = EdgeTerm(x3[i], y3[i], z3[i], x0[i], y0[i], z0[i], px, py, pz, nx, ny, nz);
     // Counter-clockwise about a normal that points to the point: the sum is negative.
-    const double factor = -((first + second) + (third + fourth)) * (0.5 / std::numbers::pi);
-    out[i] = factor > 0 ? factor : 0;
+    const double sum = -((first + second) + (third + fourth));
+    const double magnitude = (Magnitude(first) + Magnitude(second)) + (Magnitude(third) + Magnitude(fourth));
+    out[i] = (sum > 0 ? sum : 0) * (0.5 / std::numbers::pi);
+    loss[i] = magnitude - kFormFactorCancellation * Magnitude(sum);
   }
+}
+
+double ByQuadrature(const PolygonBatch& batch, std::size_t i, const Vec3& position, const Vec3& normal) {
+  const auto vertex = [&](std::size_t k) {
+    return Vec3(batch.Coordinates(k, 0)[i], batch.Coordinates(k, 1)[i], batch.Coordinates(k, 2)[i]);
+  };
+  // Clockwise as seen is counter-clockwise about the direction of sight.
+  const Vec3 first = vertex(0);
+  const std::array<Vec3, 4> offset = {Vec3::Zero(), vertex(3) - first, vertex(2) - first, vertex(1) - first};
+  return FormFactorByQuadrature(first - position, offset, normal);
 }
 
 }  // namespace
@@ -89,11 +105,19 @@ void PolygonBatch::Add(std::span<const Vec3> polygon) {
 
 void FormFactors(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
                  const Vec3& normal, double* out) {
-  std::array<const double*, 12> corner;
-  for (std::size_t k = 0; k < 4; ++k)
-    for (std::size_t axis = 0; axis < 3; ++axis) corner[3 * k + axis] = batch.Coordinates(k, axis) + begin;
-  Kernel(corner, end - begin, position.x(), position.y(), position.z(), normal.x(), normal.y(), normal.z(),
-         out);
+  constexpr std::size_t kBlock = 128;
+  std::array<double, kBlock> loss;
+  for (std::size_t first = begin; first < end; first += kBlock) {
+    const std::size_t count = std::min(kBlock, end - first);
+    double* factor = out + (first - begin);
+    std::array<const double*, 12> corner;
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis) corner[3 * k + axis] = batch.Coordinates(k, axis) + first;
+    Kernel(corner, count, position.x(), position.y(), position.z(), normal.x(), normal.y(), normal.z(),
+           factor, loss.data());
+    for (std::size_t i = 0; i < count; ++i)
+      if (loss[i] > 0) factor[i] = ByQuadrature(batch, first + i, position, normal);
+  }
 }
 
 }  // namespace penumbra

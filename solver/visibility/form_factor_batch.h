@@ -28,15 +28,11 @@ class PolygonBatch {
 };
 
 // Writes out[i - begin], the form factor of the point at `position` with unit normal `normal` to polygon i of
-// the batch, for begin <= i < end: the sum of FormFactor() in solver/visibility/direction_polygon.h, to
-// kFormFactorBatchError. REQUIRES: the polygons lie above the point's horizon and turn their fronts to it.
+// the batch, for begin <= i < end, within kFormFactorError of the value. REQUIRES: the polygons lie above the
+// point's horizon and turn their fronts to it.
 //
 // Vectorised, with the width chosen when the program starts; the results are the same for every width.
 void FormFactors(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
                  const Vec3& normal, double* out);
-
-// Largest absolute difference from the scalar form factor: four edges, each off by some roundings of an angle
-// below pi.
-inline constexpr double kFormFactorBatchError = 4e-15;
 
 }  // namespace penumbra

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <deque>
 
+#include "solver/visibility/form_factor.h"
+
 namespace penumbra {
 
 struct PointView::Buffers {
@@ -11,7 +13,6 @@ struct PointView::Buffers {
   std::uint32_t now = 0;
   std::deque<BlockerView> cut;  // blockers cut at the plane of the source at hand; addresses stay
   std::vector<Occluder> occluders;
-  std::vector<DirectionPolygon> pieces;
 
   void Begin(std::size_t patches) {
     if (stamp.size() < patches) {
@@ -32,8 +33,8 @@ PointView::Buffers& PointView::ThreadBuffers() {
   return buffers;
 }
 
-PointView::PointView(const Scene& scene, const ReceiverPoint& at)
-    : scene_(scene), at_(at), buffers_(ThreadBuffers()) {
+PointView::PointView(const Scene& scene, const ReceiverPoint& at, const OcclusionMethod& method)
+    : scene_(scene), at_(at), method_(method), buffers_(ThreadBuffers()) {
   buffers_.Begin(scene.patches.size());
 }
 
@@ -121,16 +122,8 @@ bool PointView::FindBlockers(std::span<const PatchId> candidates, PatchId own, c
 }
 
 double PointView::VisibleFormFactor(const DirectionPolygon& seen, std::span<const Occluder> occluders) const {
-  if (occluders.empty()) return FormFactor(seen, at_.normal);
-  std::vector<DirectionPolygon>& pieces = buffers_.pieces;
-  pieces.assign(1, seen);
-  for (const Occluder& occluder : occluders) {
-    if (pieces.empty()) break;
-    Subtract(occluder, pieces);
-  }
-  double factor = 0;
-  for (const DirectionPolygon& piece : pieces) factor += FormFactor(piece, at_.normal);
-  return factor;
+  return occluders.empty() ? FormFactor(seen, at_.normal)
+                           : method_.VisibleFormFactor(seen, occluders, at_.normal);
 }
 
 }  // namespace penumbra

@@ -10,15 +10,17 @@
 
 #include "solver/scene/scene.h"
 #include "solver/visibility/direction_polygon.h"
+#include "solver/visibility/occlusion_method.h"
 #include "solver/visibility/receiver_point.h"
 
 namespace penumbra {
 
-// At most one PointView is alive a thread at any time: all share the thread's buffers. Both arguments must
+// At most one PointView is alive a thread at any time: all share the thread's buffers. All arguments must
 // outlive it.
 class PointView {
  public:
-  PointView(const Scene& scene, const ReceiverPoint& at);
+  PointView(const Scene& scene, const ReceiverPoint& at,
+            const OcclusionMethod& method = FastestExactMethod());
   ~PointView();
   PointView(const PointView&) = delete;
   PointView& operator=(const PointView&) = delete;
@@ -40,7 +42,7 @@ class PointView {
   bool FindBlockers(std::span<const PatchId> candidates, PatchId own, const DirectionPolygon& seen,
                     std::vector<Occluder>& occluders);
 
-  // The form factor of the point to what the occluders leave of `seen`; exact visibility.
+  // The form factor of the point to what the occluders leave of `seen`, by the method of the view.
   double VisibleFormFactor(const DirectionPolygon& seen, std::span<const Occluder> occluders) const;
 
   // Whether the approach direction of the point has decided anything so far.
@@ -62,6 +64,7 @@ class PointView {
 
   const Scene& scene_;
   const ReceiverPoint& at_;
+  const OcclusionMethod& method_;
   Buffers& buffers_;
   const Patch* source_ = nullptr;
   bool source_in_contact_ = false;

@@ -1,6 +1,7 @@
 // Cutting cones out of what a point sees.
 
 #include "solver/visibility/direction_polygon.h"
+#include "solver/visibility/form_factor.h"
 
 #include <gtest/gtest.h>
 

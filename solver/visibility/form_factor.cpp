@@ -1,0 +1,135 @@
+#include "solver/visibility/form_factor.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace penumbra {
+namespace {
+
+// Both ends of an edge as seen, and the edge itself, with all its digits.
+double EdgeTerm(const Vec3& a, const Vec3& edge, const Vec3& normal) {
+  const Vec3 m = a.cross(edge);
+  const double length = m.norm();
+  return length > 0 ? normal.dot(m) / length * std::atan2(length, a.dot(a + edge)) : 0;
+}
+
+// Gauss and Legendre's rules on [0, 1].
+template <std::size_t N>
+struct GaussRule {
+  std::array<double, N> node, weight;
+};
+constexpr GaussRule<4> kFour = {
+    {0.069431844202973712, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629},
+    {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693}};
+constexpr GaussRule<8> kEight = {
+    {0.019855071751231884, 0.10166676129318664, 0.23723379504183550, 0.40828267875217510, 0.59171732124782490,
+     0.76276620495816450, 0.89833323870681336, 0.98014492824876812},
+    {0.050614268145188130, 0.11119051722668724, 0.15685332293894364, 0.18134189168918099, 0.18134189168918099,
+     0.15685332293894364, 0.11119051722668724, 0.050614268145188130}};
+
+// A rule of N nodes errs by some (h / 4r)^2N on a part of diameter h at distance r.
+constexpr double kFarForFour = 0.08, kFarForEight = 0.5;
+constexpr int kMostHalvings = 120;
+
+// A convex quadrilateral as the image of the unit square: p(s, t) = corner + s u + t v + s t w. Two vertices
+// may coincide.
+struct Bilinear {
+  Vec3 corner, u, v, w;
+  double h0, hu, hv, hw;  // height of p above the horizon: h0 + s hu + t hv + s t hw
+  double c0, c1, c2;      // Jacobian times distance to the plane: c0 + s c1 + t c2
+
+  Bilinear(const Vec3& base, const Vec3& o0, const Vec3& o1, const Vec3& o2, const Vec3& o3,
+           const Vec3& normal)
+      : corner(base + o0), u(o1 - o0), v(o3 - o0), w((o2 - o1) - (o3 - o0)) {
+    h0 = normal.dot(corner), hu = normal.dot(u), hv = normal.dot(v), hw = normal.dot(w);
+    c0 = corner.dot(u.cross(v)), c1 = corner.dot(u.cross(w)), c2 = corner.dot(w.cross(v));
+  }
+  Vec3 At(double s, double t) const { return corner + s * u + t * (v + s * w); }
+};
+
+// A part of the unit square.
+struct Box {
+  double s, t, width, height;
+};
+
+template <std::size_t N>
+double Integrate(const Bilinear& q, const Box& box, const GaussRule<N>& rule) {
+  double sum = 0;
+  for (std::size_t i = 0; i < N; ++i)
+    for (std::size_t j = 0; j < N; ++j) {
+      const double s = box.s + box.width * rule.node[i], t = box.t + box.height * rule.node[j];
+      const double rise = std::max(0.0, q.h0 + s * q.hu + t * (q.hv + s * q.hw));
+      const double square = q.At(s, t).squaredNorm();
+      sum += rule.weight[i] * rule.weight[j] * rise * (q.c0 + s * q.c1 + t * q.c2) / (square * square);
+    }
+  return sum * box.width * box.height;
+}
+
+// The integral of (n . p) (p . dA) / |p|^4 over a part of the quadrilateral, halved where it is near.
+double Integrate(const Bilinear& q, const Box& box, int halvings) {
+  const double s1 = box.s + box.width, t1 = box.t + box.height;
+  const std::array<Vec3, 4> p = {q.At(box.s, box.t), q.At(s1, box.t), q.At(s1, t1), q.At(box.s, t1)};
+  const double nearest =
+      std::sqrt(std::min({p[0].squaredNorm(), p[1].squaredNorm(), p[2].squaredNorm(), p[3].squaredNorm()}));
+  const double along_s = std::max((p[1] - p[0]).squaredNorm(), (p[2] - p[3]).squaredNorm());
+  const double along_t = std::max((p[3] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm());
+  const double longest = std::sqrt(std::max(along_s, along_t));
+  if (longest <= kFarForFour * nearest) return Integrate(q, box, kFour);
+  if (longest <= kFarForEight * nearest || halvings == kMostHalvings) return Integrate(q, box, kEight);
+  Box first = box, second = box;
+  if (along_s >= along_t) {
+    first.width = second.width = 0.5 * box.width;
+    second.s += first.width;
+  } else {
+    first.height = second.height = 0.5 * box.height;
+    second.t += first.height;
+  }
+  return Integrate(q, first, halvings + 1) + Integrate(q, second, halvings + 1);
+}
+
+}  // namespace
+
+double FormFactorByQuadrature(const Vec3& base, std::span<const Vec3> offset, const Vec3& normal) {
+  double sum = 0;
+  for (std::size_t i = 2; i < offset.size(); i += 2) {
+    const Vec3& last = offset[std::min(i + 1, offset.size() - 1)];
+    sum += Integrate(Bilinear(base, offset[0], offset[i - 1], offset[i], last, normal), {0, 0, 1, 1}, 0);
+  }
+  return std::max(0.0, sum * std::numbers::inv_pi);
+}
+
+double FormFactor(const Vec3& base, std::span<const Vec3> offset, const Vec3& normal) {
+  double sum = 0, magnitude = 0;
+  for (std::size_t i = 0; i < offset.size(); ++i) {
+    const Vec3& next = offset[i + 1 == offset.size() ? 0 : i + 1];
+    const double term = EdgeTerm(base + offset[i], next - offset[i], normal);
+    sum += term;
+    magnitude += std::abs(term);
+  }
+  if (magnitude > kFormFactorCancellation * std::abs(sum))
+    return FormFactorByQuadrature(base, offset, normal);
+  return std::max(0.0, sum * (0.5 * std::numbers::inv_pi));
+}
+
+double FormFactor(const DirectionPolygon& polygon, const Vec3& normal) {
+  double sum = 0, magnitude = 0;
+  for (int i = 0; i < polygon.size(); ++i) {
+    const Vec3 &a = polygon[i], &b = polygon.Next(i);
+    const Vec3 m = EdgeNormal(a, b);
+    const double length = m.norm();
+    if (length == 0) continue;
+    const double term = normal.dot(m) / length * std::atan2(length, a.dot(b));
+    sum += term;
+    magnitude += std::abs(term);
+  }
+  if (magnitude <= kFormFactorCancellation * std::abs(sum))
+    return std::max(0.0, sum * (0.5 * std::numbers::inv_pi));
+  std::array<Vec3, DirectionPolygon::kCapacity> offset;
+  for (int i = 0; i < polygon.size(); ++i) offset[static_cast<std::size_t>(i)] = polygon[i] - polygon[0];
+  return FormFactorByQuadrature(polygon[0], {offset.data(), static_cast<std::size_t>(polygon.size())},
+                                normal);
+}
+
+}  // namespace penumbra

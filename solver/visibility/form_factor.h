@@ -1,0 +1,35 @@
+// solver/visibility/form_factor.h
+//
+// The form factor of a point to a polygon that it sees: the fraction of what the point's surface would send
+// out that meets the polygon; times the polygon's radiosity, the irradiance that comes from it.
+
+#pragma once
+
+#include <span>
+
+#include "solver/geometry/vec.h"
+#include "solver/visibility/direction_polygon.h"
+
+namespace penumbra {
+
+// The sum over the edges is used unless its terms are together this many times its result. Beyond that the
+// integral is done by Gauss quadrature, which adds up positive terms only.
+inline constexpr double kFormFactorCancellation = 200;
+
+// Largest error of a form factor, relative to its value, for exactly the vertices, point and normal given: a
+// term of the sum is off by some 2 roundings of 1.1e-16, and 200 such terms; 8 x 8 Gauss nodes by less.
+inline constexpr double kFormFactorError = 1e-13;
+
+// (1 / 2 pi) sum gamma n . m / |m| over the edges a -> b of the polygon, m = a x b, gamma the angle between a
+// and b by atan2 (Baum, Rushmeier and Winget 1989; thesis eq. 6.1). The polygon must lie above the horizon
+// of `normal` (unit).
+double FormFactor(const DirectionPolygon& polygon, const Vec3& normal);
+
+// The same for the polygon with the vertices base + offset[i], which keeps the digits of a polygon that is
+// small or far: its edges are differences of the offsets.
+double FormFactor(const Vec3& base, std::span<const Vec3> offset, const Vec3& normal);
+
+// The same by adaptive Gauss quadrature: slower, without cancellation.
+double FormFactorByQuadrature(const Vec3& base, std::span<const Vec3> offset, const Vec3& normal);
+
+}  // namespace penumbra

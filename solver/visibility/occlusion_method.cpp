@@ -1,0 +1,20 @@
+#include "solver/visibility/occlusion_method.h"
+
+#include <string>
+
+#include "solver/base/check.h"
+#include "solver/visibility/clipping.h"
+
+namespace penumbra {
+
+std::unique_ptr<const OcclusionMethod> MakeOcclusionMethod(std::string_view name) {
+  if (name == "auto" || name == "clipping") return std::make_unique<Clipping>();
+  throw InputError("no method is called '" + std::string(name) + "'");
+}
+
+const OcclusionMethod& FastestExactMethod() {
+  static const Clipping method;
+  return method;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,34 @@
+// solver/visibility/occlusion_method.h
+//
+// What blockers leave of a source, as seen from a point: several methods behind one interface, to choose from
+// and to check against each other.
+
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "solver/visibility/direction_polygon.h"
+
+namespace penumbra {
+
+class OcclusionMethod {
+ public:
+  virtual ~OcclusionMethod() = default;
+
+  // The form factor of a point with unit normal `normal` to what none of the occluders covers of `source`, a
+  // convex polygon of directions above the horizon. All occluders lie before the source. Safe from any
+  // thread.
+  virtual double VisibleFormFactor(const DirectionPolygon& source, std::span<const Occluder> occluders,
+                                   const Vec3& normal) const = 0;
+};
+
+// By name: `auto`, `clipping`, `backprojection`, `vertex-tracing`, `sampled`. Throws InputError for others.
+std::unique_ptr<const OcclusionMethod> MakeOcclusionMethod(std::string_view name);
+
+// What `auto` stands for.
+const OcclusionMethod& FastestExactMethod();
+
+}  // namespace penumbra
