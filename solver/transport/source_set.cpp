@@ -12,8 +12,6 @@ SourceSet::Node MakeNode(std::span<const Vec3> vertices, const Rgb& radiosity) {
   node.size = static_cast<std::int32_t>(vertices.size());
   std::copy(vertices.begin(), vertices.end(), node.vertex.begin());
   node.radiosity = radiosity;
-  for (const Vec3& v : vertices) node.centre += v / static_cast<double>(vertices.size());
-  for (const Vec3& v : vertices) node.radius = std::max(node.radius, (v - node.centre).norm());
   return node;
 }
 
@@ -57,6 +55,7 @@ SourceSet SourceSet::FromSolution(const RadiositySolution& solution) {
   SourceSet set;
   for (std::size_t p = 0; p < solution.forest.scene().patches.size(); ++p) {
     set.first_.push_back(set.nodes_.size());
+    set.emittance_.push_back(solution.forest.scene().MaterialOf(static_cast<PatchId>(p)).emittance);
     const ElementId root = ElementForest::Root(static_cast<PatchId>(p));
     if ((solution.radiosity[root] != 0).any()) Append(solution, root, set.nodes_);
   }
@@ -70,6 +69,7 @@ SourceSet SourceSet::Emitters(const Scene& scene) {
   for (const Patch& patch : scene.patches) {
     set.first_.push_back(set.nodes_.size());
     const Rgb& emittance = scene.materials[patch.material].emittance;
+    set.emittance_.push_back(emittance);
     if ((emittance != 0).any()) set.nodes_.push_back(MakeNode(patch.Vertices(), emittance));
   }
   set.first_.push_back(set.nodes_.size());
@@ -86,6 +86,7 @@ void SourceSet::NumberLeaves() {
     if (node.skip != 1) continue;
     leaf_polygons_.Add({node.vertex.data(), static_cast<std::size_t>(node.size)});
     leaf_radiosity_.push_back(node.radiosity);
+    leaf_node_.push_back(static_cast<std::int32_t>(i));
   }
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     nodes_[i].leaf_count = before[i + static_cast<std::size_t>(nodes_[i].skip)] - before[i];

@@ -29,8 +29,6 @@ class SourceSet {
     std::int32_t skip = 1;                        // nodes in this subtree, this one counted: a leaf has 1
     std::int32_t first_leaf = 0, leaf_count = 1;  // the subtree's leaves, among all of the set
     Rgb radiosity = Rgb::Zero();                  // [W/m^2]; of a leaf
-    Vec3 centre = Vec3::Zero();                   // of a ball around it [m]
-    double radius = 0;
   };
 
   // What the leaves of the solution emit and reflect.
@@ -46,6 +44,13 @@ class SourceSet {
   // All leaves, tree after tree: their polygons and radiosities.
   const PolygonBatch& LeafPolygons() const { return leaf_polygons_; }
   std::span<const Rgb> LeafRadiosities() const { return leaf_radiosity_; }
+  std::span<const Vec3> LeafVertices(std::int32_t leaf) const {
+    const Node& node = nodes_[static_cast<std::size_t>(leaf_node_[static_cast<std::size_t>(leaf)])];
+    return {node.vertex.data(), static_cast<std::size_t>(node.size)};
+  }
+
+  // What the patch emits of itself [W/m^2].
+  const Rgb& Emittance(PatchId patch) const { return emittance_[static_cast<std::size_t>(patch)]; }
 
  private:
   void NumberLeaves();
@@ -54,6 +59,8 @@ class SourceSet {
   std::vector<Node> nodes_;
   PolygonBatch leaf_polygons_;
   std::vector<Rgb> leaf_radiosity_;
+  std::vector<std::int32_t> leaf_node_;  // into nodes_
+  std::vector<Rgb> emittance_;           // per patch
 };
 
 }  // namespace penumbra

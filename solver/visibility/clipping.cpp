@@ -1,21 +1,415 @@
 #include "solver/visibility/clipping.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <vector>
 
 #include "solver/visibility/form_factor.h"
 
 namespace penumbra {
+namespace {
+
+// A vertex this near to a line, relative to the source's image, lies on it. Lines coincide all the time, and
+// slivers cut off by rounding would go on to be cut. Moves what is visible by as much of the source.
+constexpr double kSnap = 32 * std::numeric_limits<double>::epsilon();
+
+// A piece no larger than this, relative to the source's image, is where lines that should meet in a point
+// cross in three.
+constexpr double kDust = 1e4 * kSnap;
+
+// In a smaller image the roundings of a line's distance count for more than kSnap.
+constexpr double kFineImage = 0.1;
+
+// With more occluders than this a piece is halved rather than cut along one of them: each half is left with
+// fewer.
+constexpr std::size_t kCrowd = 16;
+
+constexpr int kMostCuts = 12;  // lines of a cone, each of which may add a vertex to what it cuts
+constexpr int kLanes = 4;
+
+// A convex polygon of the image, counter-clockwise.
+struct Piece {
+  static constexpr int kCapacity = 36;
+
+  int size = 0;
+  std::array<double, kCapacity> x, y;
+  std::array<std::int32_t, kCapacity> label;  // of the edge from vertex i to the next
+
+  Piece() {}  // NOLINT: the arrays stay as they are
+  Piece(const Piece& other) { *this = other; }
+  Piece& operator=(const Piece& other) {
+    size = other.size;
+    for (int i = 0; i < size; ++i) {
+      x[i] = other.x[i];
+      y[i] = other.y[i];
+      label[i] = other.label[i];
+    }
+    return *this;
+  }
+
+  void Add(double px, double py, std::int32_t label_to_next) {
+    x[size] = px;
+    y[size] = py;
+    label[size] = label_to_next;
+    ++size;
+  }
+};
+
+struct Bounds {
+  double low_x, high_x, low_y, high_y;
+};
+
+Bounds BoundsOf(const Piece& piece) {
+  Bounds b{piece.x[0], piece.x[0], piece.y[0], piece.y[0]};
+  for (int i = 1; i < piece.size; ++i) {
+    b.low_x = std::min(b.low_x, piece.x[i]);
+    b.high_x = std::max(b.high_x, piece.x[i]);
+    b.low_y = std::min(b.low_y, piece.y[i]);
+    b.high_y = std::max(b.high_y, piece.y[i]);
+  }
+  return b;
+}
+
+// An occluder in the image. Lines and vertices stand in groups of kLanes, so that a group is worked on at
+// once; what fills up the last group changes nothing.
+struct ImageCone {
+  int size = 0;
+  int padded = 0;  // a multiple of kLanes
+  std::size_t occluder = 0;
+  Bounds bounds;                             // of its vertices; infinite if some lie behind the point
+  std::array<double, kMostCuts> a, b, h;     // its lines
+  std::array<double, kMostCuts> vx, vy, vw;  // its vertices, homogeneous
+};
+
+// A cone that may cover a part of a piece, and those of its lines that may cut it.
+struct Candidate {
+  std::int32_t cone;
+  std::uint32_t lines;
+  std::int32_t count;  // of the lines
+};
+
+// A piece that some candidates cover in part: candidates[first] to candidates[last - 1].
+struct Work {
+  Piece piece;
+  std::size_t first, last;
+  int halvings;  // that may still be done because of a crowd
+};
+
+ImageCone MakeImageCone(const ImageFrame& frame, const Occluder& occluder, std::size_t index, bool fine) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  // Nearer to the horizon of the image than this, coordinates are left alone.
+  constexpr double kLeastHeight = 1e-9;
+  const Cone& cone = *occluder.cone;
+  ImageCone image;
+  image.size = cone.size;
+  image.padded = (cone.size + kLanes - 1) / kLanes * kLanes;
+  image.occluder = index;
+  image.bounds = {kInfinity, -kInfinity, kInfinity, -kInfinity};
+  bool behind = false;
+  for (int k = 0; k < image.padded; ++k) {
+    // Everything lies within lines that are known not to cut, and within none at all.
+    const bool cuts = k < cone.size && (occluder.planes >> k & 1U) != 0;
+    const ImageLine line = cuts ? frame.Line(cone, k, fine) : ImageLine{0, 0, kInfinity};
+    image.a[k] = line.a;
+    image.b[k] = line.b;
+    image.h[k] = line.h;
+    const int vertex = std::min(k, cone.size - 1);
+    const Vec3 v = frame.Homogeneous(cone.direction[vertex]);
+    image.vx[k] = v.x();
+    image.vy[k] = v.y();
+    image.vw[k] = v.z();
+    behind = behind || v.z() <= kLeastHeight * (std::abs(v.x()) + std::abs(v.y()));
+    const double scale = 1 / v.z(), x = scale * v.x(), y = scale * v.y();
+    image.bounds.low_x = std::min(image.bounds.low_x, x);
+    image.bounds.high_x = std::max(image.bounds.high_x, x);
+    image.bounds.low_y = std::min(image.bounds.low_y, y);
+    image.bounds.high_y = std::max(image.bounds.high_y, y);
+  }
+  if (behind) image.bounds = {-kInfinity, kInfinity, -kInfinity, kInfinity};
+  return image;
+}
+
+}  // namespace
+
+struct Clipper::Impl {
+  std::vector<ImageCone> cones;
+  std::vector<Candidate> candidates;
+  std::vector<Work> stack;
+  std::size_t depth = 0;  // of the stack; what lies above keeps its memory
+  Piece inside, outside;
+  ImageEdges visible;
+  const ImageFrame* frame = nullptr;
+  std::span<const Occluder> occluders;
+  std::int32_t owner = 0;  // of the pieces that are found
+  double snap = 0, dust = 0;
+
+  bool Beside(const ImageCone& cone, const Piece& piece) const;
+  Overlap Classify(Candidate& candidate, const Piece& piece, const Bounds& bounds) const;
+  void Split(const Piece& piece, const ImageLine& line, std::int32_t label);
+  Overlap Narrow(const Piece& piece, std::size_t first, std::size_t last);
+  void Sort(const Piece& piece, std::size_t first, std::size_t last, int halvings);
+  Piece Image(const DirectionPolygon& polygon, std::span<const std::int32_t> label) const;
+  void Halve(const Work& work, int halvings);
+  void CutOut(Work& work);
+  void Run();
+};
+
+Clipper::Clipper() : impl_(std::make_unique<Impl>()) {}
+Clipper::~Clipper() = default;
+
+// Whether some edge of the piece has the whole cone on its outer side.
+bool Clipper::Impl::Beside(const ImageCone& cone, const Piece& piece) const {
+  for (int i = 0; i < piece.size; ++i) {
+    const int j = i + 1 == piece.size ? 0 : i + 1;
+    const double dx = piece.x[j] - piece.x[i], dy = piece.y[j] - piece.y[i];
+    // The edge of a piece of dust runs anywhere.
+    if (std::abs(dx) + std::abs(dy) <= dust) continue;
+    const double h = dy * piece.x[i] - dx * piece.y[i];
+    double highest = -1;
+    for (int group = 0; group < cone.padded; group += kLanes)
+      for (int k = group; k < group + kLanes; ++k)
+        highest = std::max(highest, dx * cone.vy[k] - dy * cone.vx[k] + h * cone.vw[k]);
+    if (highest <= 0) return true;
+  }
+  return false;
+}
+
+// How the candidate covers the piece; for kPart its lines are those that cut the piece.
+Overlap Clipper::Impl::Classify(Candidate& candidate, const Piece& piece, const Bounds& bounds) const {
+  const ImageCone& cone = cones[candidate.cone];
+  if (cone.bounds.low_x >= bounds.high_x - snap || cone.bounds.high_x <= bounds.low_x + snap ||
+      cone.bounds.low_y >= bounds.high_y - snap || cone.bounds.high_y <= bounds.low_y + snap)
+    return Overlap::kNone;
+  std::uint32_t cutting = 0;
+  int count = 0;
+  for (int group = 0; group < cone.padded; group += kLanes) {
+    std::array<double, kLanes> lowest, highest;
+    lowest.fill(std::numeric_limits<double>::infinity());
+    highest.fill(-std::numeric_limits<double>::infinity());
+    for (int i = 0; i < piece.size; ++i)
+      for (int k = 0; k < kLanes; ++k) {
+        const double height =
+            cone.a[group + k] * piece.x[i] + cone.b[group + k] * piece.y[i] + cone.h[group + k];
+        lowest[k] = height < lowest[k] ? height : lowest[k];
+        highest[k] = height > highest[k] ? height : highest[k];
+      }
+    bool beyond = false;
+    for (int k = 0; k < kLanes; ++k) {
+      beyond |= highest[k] <= snap;
+      const bool cuts = lowest[k] < -snap;
+      cutting |= static_cast<std::uint32_t>(cuts) << (group + k);
+      count += cuts;
+    }
+    if (beyond) return Overlap::kNone;
+  }
+  candidate.lines = cutting;
+  candidate.count = count;
+  if (cutting == 0) return Overlap::kAll;
+  // Across one line and inside of all others: there is no way to lie beside the cone.
+  if (count == 1) return Overlap::kPart;
+  return Beside(cone, piece) ? Overlap::kNone : Overlap::kPart;
+}
+
+// `inside` and `outside` become the parts of the piece on either side of a line; the cut gets the label.
+void Clipper::Impl::Split(const Piece& piece, const ImageLine& line, std::int32_t label) {
+  std::array<double, Piece::kCapacity> height;
+  for (int i = 0; i < piece.size; ++i) {
+    const double h = line.a * piece.x[i] + line.b * piece.y[i] + line.h;
+    height[i] = std::abs(h) <= snap ? 0 : h;
+  }
+  inside.size = outside.size = 0;
+  for (int i = 0; i < piece.size; ++i) {
+    const int j = i + 1 == piece.size ? 0 : i + 1;
+    const double ha = height[i], hb = height[j], x = piece.x[i], y = piece.y[i];
+    // A vertex on the line starts the cut in the part that the next edge leaves.
+    if (ha >= 0) inside.Add(x, y, hb < 0 && ha == 0 ? label : piece.label[i]);
+    if (ha <= 0) outside.Add(x, y, hb > 0 && ha == 0 ? label : piece.label[i]);
+    if ((ha > 0 && hb < 0) || (ha < 0 && hb > 0)) {
+      const double t = ha / (ha - hb);
+      const double cx = x + t * (piece.x[j] - x), cy = y + t * (piece.y[j] - y);
+      inside.Add(cx, cy, ha > 0 ? label : piece.label[i]);
+      outside.Add(cx, cy, ha > 0 ? piece.label[i] : label);
+    }
+  }
+}
+
+// How the candidates [first, last) cover the piece; those that cover a part are pushed.
+Overlap Clipper::Impl::Narrow(const Piece& piece, std::size_t first, std::size_t last) {
+  const Bounds bounds = BoundsOf(piece);
+  if (piece.size < 3 || (bounds.high_x - bounds.low_x <= dust && bounds.high_y - bounds.low_y <= dust))
+    return Overlap::kAll;
+  const std::size_t top = candidates.size();
+  for (std::size_t c = first; c < last; ++c) {
+    Candidate candidate = candidates[c];
+    const Overlap overlap = Classify(candidate, piece, bounds);
+    if (overlap == Overlap::kAll) {
+      candidates.resize(top);
+      return Overlap::kAll;
+    }
+    if (overlap == Overlap::kPart) candidates.push_back(candidate);
+  }
+  return candidates.size() == top ? Overlap::kNone : Overlap::kPart;
+}
+
+// Forgets the piece if candidates [first, last) hide it, keeps it if they leave it alone, and else puts it on
+// the stack.
+void Clipper::Impl::Sort(const Piece& piece, std::size_t first, std::size_t last, int halvings) {
+  const std::size_t top = candidates.size();
+  switch (Narrow(piece, first, last)) {
+    case Overlap::kAll:
+      break;
+    case Overlap::kNone:
+      visible.AddPiece(piece.x.data(), piece.y.data(), piece.label.data(), piece.size, owner);
+      break;
+    case Overlap::kPart: {
+      if (depth == stack.size()) stack.emplace_back();
+      Work& work = stack[depth++];
+      work.piece = piece;
+      work.first = top;
+      work.last = candidates.size();
+      work.halvings = halvings;
+    }
+  }
+}
+
+// Cuts the piece across the middle of its longer side.
+void Clipper::Impl::Halve(const Work& work, int halvings) {
+  const Bounds b = BoundsOf(work.piece);
+  const bool along_x = b.high_x - b.low_x > b.high_y - b.low_y;
+  Split(work.piece,
+        along_x ? ImageLine{1, 0, -0.5 * (b.low_x + b.high_x)} : ImageLine{0, 1, -0.5 * (b.low_y + b.high_y)},
+        kInnerEdge);
+  const std::size_t first = work.first, last = work.last;
+  const Piece other = outside;
+  Sort(inside, first, last, halvings);
+  Sort(other, first, last, halvings);
+}
+
+// Cuts one of the candidates out of the piece, and sorts what remains by the others.
+void Clipper::Impl::CutOut(Work& work) {
+  // The fewer lines, the fewer pieces.
+  const std::size_t first = work.first, last = work.last;
+  std::size_t chosen = first;
+  for (std::size_t c = first + 1; c < last; ++c)
+    if (candidates[c].count < candidates[chosen].count) chosen = c;
+  std::swap(candidates[first], candidates[chosen]);
+  const Candidate cutter = candidates[first];
+  const int halvings = work.halvings;
+  Piece rest = work.piece;  // the stack may move from here on
+  for (std::uint32_t lines = cutter.lines; lines != 0 && rest.size >= 3; lines &= lines - 1) {
+    const int k = std::countr_zero(lines);
+    const ImageCone& cone = cones[cutter.cone];
+    Split(rest, {cone.a[k], cone.b[k], cone.h[k]}, OccluderEdge(cone.occluder, k));
+    rest = inside;
+    Sort(outside, first + 1, last, halvings);
+  }
+}
+
+void Clipper::Impl::Run() {
+  while (depth > 0) {
+    Work& work = stack[--depth];
+    candidates.resize(work.last);  // those above were of pieces that are done
+    if (work.piece.size + kMostCuts > Piece::kCapacity) {
+      Halve(Work(work), work.halvings);  // so that cuts can never overflow a piece
+    } else if (work.halvings > 0 && work.last - work.first > kCrowd) {
+      Halve(Work(work), work.halvings - 1);
+    } else {
+      CutOut(work);
+    }
+  }
+}
+
+Piece Clipper::Impl::Image(const DirectionPolygon& polygon, std::span<const std::int32_t> label) const {
+  Piece piece;
+  for (int i = 0; i < polygon.size(); ++i) {
+    const Vec2 p = frame->Image(polygon[i]);
+    piece.Add(p.x(), p.y(), label.empty() ? i : label[i]);
+  }
+  return piece;
+}
+
+Clipper::Candidates Clipper::Begin(const ImageFrame& frame, const DirectionPolygon& whole,
+                                   std::span<const Occluder> occluders) {
+  Impl& impl = *impl_;
+  impl.frame = &frame;
+  impl.occluders = occluders;
+  const Piece image = impl.Image(whole, {});
+  double reach = 0;
+  for (int i = 0; i < image.size; ++i) reach = std::max({reach, std::abs(image.x[i]), std::abs(image.y[i])});
+  impl.snap = kSnap * reach;
+  impl.dust = kDust * reach;
+  impl.visible.Clear();
+  impl.cones.clear();
+  impl.candidates.clear();
+  for (std::size_t i = 0; i < occluders.size(); ++i) {
+    impl.cones.push_back(MakeImageCone(frame, occluders[i], i, reach < kFineImage));
+    impl.candidates.push_back({static_cast<std::int32_t>(i), occluders[i].planes, 0});
+  }
+  return {0, occluders.size()};
+}
+
+Overlap Clipper::Narrow(const DirectionPolygon& polygon, const Candidates& candidates, Candidates* own) {
+  own->first = impl_->candidates.size();
+  const Overlap overlap = impl_->Narrow(impl_->Image(polygon, {}), candidates.first, candidates.last);
+  own->last = impl_->candidates.size();
+  return overlap;
+}
+
+void Clipper::Restore(const Candidates& candidates) { impl_->candidates.resize(candidates.last); }
+
+void Clipper::CutOut(const DirectionPolygon& polygon, const Candidates& candidates, std::int32_t owner,
+                     std::span<const std::int32_t> label) {
+  Impl& impl = *impl_;
+  impl.owner = owner;
+  if (candidates.empty()) {
+    const Piece piece = impl.Image(polygon, label);
+    impl.visible.AddPiece(piece.x.data(), piece.y.data(), piece.label.data(), piece.size, owner);
+    return;
+  }
+  impl.stack.resize(std::max<std::size_t>(impl.stack.size(), 1));
+  Work& work = impl.stack[0];
+  work.piece = impl.Image(polygon, label);
+  work.first = candidates.first;
+  work.last = candidates.last;
+  // As many halvings as leave some candidates a piece, were they spread evenly.
+  work.halvings = static_cast<int>(std::bit_width((candidates.last - candidates.first) / 2));
+  impl.depth = 1;
+  impl.Run();
+}
+
+void Clipper::List(const Candidates& candidates, std::vector<Occluder>& occluders) const {
+  occluders.clear();
+  for (std::size_t c = candidates.first; c < candidates.last; ++c)
+    occluders.push_back(impl_->occluders[impl_->cones[impl_->candidates[c].cone].occluder]);
+}
+
+ImageEdges& Clipper::Visible() { return impl_->visible; }
 
 double Clipping::VisibleFormFactor(const DirectionPolygon& source, std::span<const Occluder> occluders,
                                    const Vec3& normal) const {
-  thread_local std::vector<DirectionPolygon> pieces;
-  pieces.assign(1, source);
-  for (const Occluder& occluder : occluders) {
-    if (pieces.empty()) break;
-    Subtract(occluder, pieces);
-  }
+  thread_local std::vector<ImagePart> parts;
+  thread_local Clipper clipper;
+  parts.clear();
+  SplitForImages(source, normal, parts);
   double factor = 0;
-  for (const DirectionPolygon& piece : pieces) factor += FormFactor(piece, normal);
+  for (const ImagePart& part : parts) {
+    const ImageFrame frame(part.polygon, part.axis);
+    const Clipper::Candidates all = clipper.Begin(frame, part.polygon, occluders);
+    Clipper::Candidates own;
+    if (clipper.Narrow(part.polygon, all, &own) == Overlap::kAll) continue;
+    clipper.CutOut(part.polygon, own, 0, part.label);
+    ImageEdges& visible = clipper.Visible();
+    const ImageEdges::Sum sum = visible.FormFactorSum(frame, normal);
+    if (sum.magnitude <= kFormFactorCancellation * std::abs(sum.value)) {
+      factor += std::max(0.0, sum.value * (0.5 * std::numbers::inv_pi));
+      continue;
+    }
+    for (std::size_t p = 0; p < visible.Pieces(); ++p) factor += visible.PieceByQuadrature(frame, normal, p);
+  }
   return factor;
 }
 

@@ -1,13 +1,63 @@
 // solver/visibility/clipping.h
+//
+// What blockers leave of a source, by clipping: the shadow of each blocker is cut out of the source, and the
+// rest remains as convex pieces. Exact, and the fastest of the methods.
 
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "solver/visibility/image_edges.h"
+#include "solver/visibility/image_frame.h"
 #include "solver/visibility/occlusion_method.h"
 
 namespace penumbra {
 
-// Cuts what each occluder covers out of the source; the rest remains as convex pieces. The fastest exact
-// method.
+// Cuts shadows out of the polygons of one image. Occluders and the lists of them keep their buffers from one
+// image to the next. One object a thread.
+class Clipper {
+ public:
+  // Some of the occluders, on a stack.
+  struct Candidates {
+    std::size_t first = 0, last = 0;
+    bool empty() const { return first == last; }
+  };
+
+  Clipper();
+  ~Clipper();
+  Clipper(const Clipper&) = delete;
+  Clipper& operator=(const Clipper&) = delete;
+
+  // Turns to the image `frame` of `whole`, which holds all polygons to come. Returns all occluders as
+  // candidates. Both arguments' data must stay.
+  Candidates Begin(const ImageFrame& frame, const DirectionPolygon& whole,
+                   std::span<const Occluder> occluders);
+
+  // How the candidates, which are on top of the stack, cover the polygon. kAll: one of them does alone.
+  // kPart: those that may cover a part are pushed as `own`.
+  Overlap Narrow(const DirectionPolygon& polygon, const Candidates& candidates, Candidates* own);
+  // Drops everything above.
+  void Restore(const Candidates& candidates);
+
+  // Cuts the candidates, which Narrow() found for this very polygon, out of it. What remains goes to
+  // Visible(), with its owner and labels: those of the polygon's edges, from 0 if none are given, and
+  // OccluderEdge() of the cuts.
+  void CutOut(const DirectionPolygon& polygon, const Candidates& candidates, std::int32_t owner,
+              std::span<const std::int32_t> label = {});
+
+  // The candidates as they came.
+  void List(const Candidates& candidates, std::vector<Occluder>& occluders) const;
+
+  ImageEdges& Visible();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 class Clipping final : public OcclusionMethod {
  public:
   double VisibleFormFactor(const DirectionPolygon& source, std::span<const Occluder> occluders,

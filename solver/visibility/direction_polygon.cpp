@@ -29,40 +29,26 @@ bool IsArcShorter(const Vec3& a, const Vec3& b, const Vec3& normal, double angle
 
 using Heights = std::array<double, DirectionPolygon::kCapacity>;
 
-// The parts of the polygon on either side of a plane, from the heights of its vertices above it. `crossing`
-// makes the direction where an edge meets the plane.
+// The part of the polygon above a plane, from the heights of its vertices. `crossing` makes the direction
+// where an edge meets the plane.
 template <class Crossing>
-void SplitAt(const DirectionPolygon& polygon, const Heights& height, const Crossing& crossing,
-             DirectionPolygon* inside, DirectionPolygon* outside) {
-  bool any_inside = false, any_outside = false;
+DirectionPolygon PartAbove(const DirectionPolygon& polygon, const Heights& height, const Crossing& crossing) {
+  bool any_above = false, any_below = false;
   for (int i = 0; i < polygon.size(); ++i) {
-    any_inside |= height[static_cast<std::size_t>(i)] > 0;
-    any_outside |= height[static_cast<std::size_t>(i)] < 0;
+    any_above |= height[static_cast<std::size_t>(i)] > 0;
+    any_below |= height[static_cast<std::size_t>(i)] < 0;
   }
-  if (!any_outside) {
-    if (inside) *inside = polygon;
-    if (outside) outside->clear();
-    return;
-  }
-  if (!any_inside) {
-    if (outside) *outside = polygon;
-    if (inside) inside->clear();
-    return;
-  }
-  DirectionPolygon in, out;
+  if (!any_below) return polygon;
+  DirectionPolygon above;
+  if (!any_above) return above;
   for (int i = 0; i < polygon.size(); ++i) {
     const int j = i + 1 == polygon.size() ? 0 : i + 1;
     const double ha = height[static_cast<std::size_t>(i)], hb = height[static_cast<std::size_t>(j)];
-    if (ha >= 0) in.Add(polygon[i]);
-    if (ha <= 0) out.Add(polygon[i]);
-    if ((ha > 0 && hb < 0) || (ha < 0 && hb > 0)) {
-      const Vec3 c = crossing(polygon[i], polygon[j], std::abs(ha), std::abs(hb));
-      in.Add(c);
-      out.Add(c);
-    }
+    if (ha >= 0) above.Add(polygon[i]);
+    if ((ha > 0 && hb < 0) || (ha < 0 && hb > 0))
+      above.Add(crossing(polygon[i], polygon[j], std::abs(ha), std::abs(hb)));
   }
-  if (inside) *inside = in;
-  if (outside) *outside = out;
+  return above;
 }
 
 const auto kBetween = [](const Vec3& a, const Vec3& b, double ha, double hb) -> Vec3 {
@@ -72,21 +58,6 @@ const auto kBetween = [](const Vec3& a, const Vec3& b, double ha, double hb) -> 
 // How far the height of v above a plane of the cone may be off by rounding.
 double HeightRoundingOf(const Cone& cone, const Vec3& v) {
   return cone.rounding + kHeightError * v.cwiseAbs().sum();
-}
-
-// The height of v above plane k of the cone; zero within rounding.
-double HeightAbove(const Cone& cone, int k, const Vec3& v) {
-  const double height = cone.normal[static_cast<std::size_t>(k)].dot(v);
-  return std::abs(height) <= HeightRoundingOf(cone, v) ? 0 : height;
-}
-
-// SplitAt() for plane k of a cone.
-void Split(const DirectionPolygon& polygon, const Cone& cone, int k, DirectionPolygon* inside,
-           DirectionPolygon* outside) {
-  Heights height;
-  for (int i = 0; i < polygon.size(); ++i)
-    height[static_cast<std::size_t>(i)] = HeightAbove(cone, k, polygon[i]);
-  SplitAt(polygon, height, kBetween, inside, outside);
 }
 
 // Whether x lies on the segment from a to b (seen from x), within `tolerance`.
@@ -153,8 +124,7 @@ DirectionPolygon SeenInContact(const ReceiverPoint& at, std::span<const Vec3> po
   const double rounding = Rounding(at, extent);
 
   const Levelled seen = Level(Seen(at, polygon, from_front), at.normal, rounding);
-  DirectionPolygon above;
-  SplitAt(seen.polygon, seen.height, kBetween, &above, nullptr);
+  const DirectionPolygon above = PartAbove(seen.polygon, seen.height, kBetween);
 
   DirectionPolygon limit;
   bool touches = false;
@@ -183,9 +153,7 @@ DirectionPolygon ClipToHorizon(const ReceiverPoint& at, const DirectionPolygon& 
     return c.dot(hb * a + ha * b) < 0 ? Vec3(-c) : c;
   };
   const Levelled seen = Level(polygon, at.normal, Rounding(at, extent));
-  DirectionPolygon above;
-  SplitAt(seen.polygon, seen.height, crossing, &above, nullptr);
-  return above;
+  return PartAbove(seen.polygon, seen.height, crossing);
 }
 
 Cone MakeCone(const ReceiverPoint& at, const DirectionPolygon& blocker, double extent) {
@@ -199,6 +167,7 @@ Cone MakeCone(const ReceiverPoint& at, const DirectionPolygon& blocker, double e
     PENUMBRA_CHECK(cone.size < static_cast<int>(cone.normal.size()));
     cone.normal[static_cast<std::size_t>(cone.size)] = m / length;
     cone.direction[static_cast<std::size_t>(cone.size)] = blocker[i];
+    cone.end[static_cast<std::size_t>(cone.size)] = blocker.Next(i);
     ++cone.size;
   }
   if (cone.size < 3) cone.size = 0;
@@ -240,59 +209,10 @@ Overlap Classify(Occluder& occluder, const DirectionPolygon& polygon) {
   return Overlap::kPart;
 }
 
-Overlap ClassifyBall(Occluder& occluder, const Vec3& centre, double radius) {
-  const Cone& cone = *occluder.cone;
-  // What is nearer to a plane than its rounding must be judged by its vertices.
-  const double reach = radius + cone.rounding + kHeightError * (centre.cwiseAbs().sum() + radius);
-  std::uint32_t cutting = 0;
-  for (int k = 0; k < cone.size; ++k) {
-    if ((occluder.planes >> k & 1U) == 0) continue;
-    const double height = cone.normal[static_cast<std::size_t>(k)].dot(centre);
-    if (height < -reach) return Overlap::kNone;
-    if (height <= reach) cutting |= 1U << k;
-  }
-  occluder.planes = cutting;
-  return cutting == 0 && cone.size > 0 ? Overlap::kAll : Overlap::kPart;
-}
-
-void Subtract(const Occluder& occluder, std::vector<DirectionPolygon>& pieces) {
-  const Cone& cone = *occluder.cone;
-  const std::size_t count = pieces.size();
-  std::size_t kept = 0;
-  for (std::size_t p = 0; p < count; ++p) {
-    DirectionPolygon rest = pieces[p];
-    if (rest.TooFullFor(cone.size)) {
-      // Two halves, so that cuts can never overflow a piece.
-      DirectionPolygon half;
-      half.Add(rest[0]);
-      for (int i = rest.size() / 2; i < rest.size(); ++i) half.Add(rest[i]);
-      DirectionPolygon other;
-      for (int i = 0; i <= rest.size() / 2; ++i) other.Add(rest[i]);
-      std::vector<DirectionPolygon> halves{other, half};
-      Subtract(occluder, halves);
-      pieces.insert(pieces.end(), halves.begin(), halves.end());
-      continue;
-    }
-    Occluder cutting = occluder;
-    switch (Classify(cutting, rest)) {
-      case Overlap::kAll:
-        break;
-      case Overlap::kNone:
-        if (kept != p) pieces[kept] = rest;
-        ++kept;
-        break;
-      case Overlap::kPart:
-        for (int k = 0; k < cone.size && !rest.empty(); ++k) {
-          if ((cutting.planes >> k & 1U) == 0) continue;
-          DirectionPolygon outside;
-          Split(rest, cone, k, &rest, &outside);
-          if (!outside.empty()) pieces.push_back(outside);
-        }
-        break;
-    }
-  }
-  pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(kept),
-               pieces.begin() + static_cast<std::ptrdiff_t>(count));
+DirectionPolygon Above(const DirectionPolygon& polygon, const Vec3& plane) {
+  Heights height;
+  for (int i = 0; i < polygon.size(); ++i) height[static_cast<std::size_t>(i)] = plane.dot(polygon[i]);
+  return PartAbove(polygon, height, kBetween);
 }
 
 }  // namespace penumbra

@@ -12,7 +12,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "solver/base/check.h"
 #include "solver/geometry/vec.h"
@@ -42,8 +41,6 @@ class DirectionPolygon {
     PENUMBRA_CHECK(size_ < kCapacity);
     vertex_[static_cast<std::size_t>(size_++)] = direction;
   }
-  // Whether as many cuts, each of which may add a vertex, could overflow it.
-  bool TooFullFor(int cuts) const { return size_ + cuts > kCapacity; }
 
  private:
   std::array<Vec3, kCapacity> vertex_;
@@ -84,7 +81,8 @@ DirectionPolygon ClipToHorizon(const ReceiverPoint& at, const DirectionPolygon& 
 struct Cone {
   int size = 0;
   std::array<Vec3, 12> normal;     // unit
-  std::array<Vec3, 12> direction;  // the blocker's vertices as seen
+  std::array<Vec3, 12> direction;  // the blocker's vertices as seen: plane k starts here
+  std::array<Vec3, 12> end;        // and ends here
   // A vertex this near to one of the planes lies in it, but for rounding [m]. Planes coincide all the time,
   // and a sliver that was cut off by rounding has edges that run anywhere.
   double rounding = 0;
@@ -115,11 +113,7 @@ struct Occluder {
 // that cut the polygon. kPart may be returned for a cone just beside it.
 Overlap Classify(Occluder& occluder, const DirectionPolygon& polygon);
 
-// The same for a ball about `centre`, as seen from the point, and cheaper: kPart leaves those planes that may
-// cut it.
-Overlap ClassifyBall(Occluder& occluder, const Vec3& centre, double radius);
-
-// Cuts the occluder out of every piece, which lie in its region: what remains visible, as convex pieces.
-void Subtract(const Occluder& occluder, std::vector<DirectionPolygon>& pieces);
+// The part of the polygon where plane . direction >= 0.
+DirectionPolygon Above(const DirectionPolygon& polygon, const Vec3& plane);
 
 }  // namespace penumbra

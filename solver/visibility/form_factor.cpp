@@ -132,4 +132,26 @@ double FormFactor(const DirectionPolygon& polygon, const Vec3& normal) {
                                 normal);
 }
 
+Vec3 EdgeGradient(const Vec3& a, const Vec3& b, const Vec3& from, const Vec3& to, const Vec3& normal) {
+  const Vec3 m = EdgeNormal(a, b);
+  const double length = (b - a).norm(), area = m.norm();
+  if (area <= 1e-14 * length * std::max(a.norm(), b.norm())) return Vec3::Zero();
+  // The foot of the perpendicular lies at distance area / length; angles along the edge count from there.
+  const Vec3 along = (b - a) / length, left = m / area, foot = along.cross(left);
+  const double from_angle = std::atan2(along.dot(from), foot.dot(from)),
+               to_angle = std::atan2(along.dot(to), foot.dot(to));
+  const double turn = to_angle - from_angle, middle = to_angle + from_angle;
+  // The integral of (n . w) cos(angle) over the arc, w = cos(angle) foot + sin(angle) along.
+  const double share = 0.5 * normal.dot(foot) * (turn + std::sin(turn) * std::cos(middle)) +
+                       0.5 * normal.dot(along) * std::sin(turn) * std::sin(middle);
+  return share * std::numbers::inv_pi * length / area * left;
+}
+
+Vec3 FormFactorGradient(const DirectionPolygon& polygon, const Vec3& normal) {
+  Vec3 gradient = Vec3::Zero();
+  for (int i = 0; i < polygon.size(); ++i)
+    gradient += EdgeGradient(polygon[i], polygon.Next(i), polygon[i], polygon.Next(i), normal);
+  return gradient;
+}
+
 }  // namespace penumbra

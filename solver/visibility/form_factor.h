@@ -32,4 +32,15 @@ double FormFactor(const Vec3& base, std::span<const Vec3> offset, const Vec3& no
 // The same by adaptive Gauss quadrature: slower, without cancellation.
 double FormFactorByQuadrature(const Vec3& base, std::span<const Vec3> offset, const Vec3& normal);
 
+// The share of one edge of what is visible in the gradient of the form factor by the position of the point,
+// normal fixed [1/m]. The edge runs between the directions `from` and `to`, with what is visible on its left;
+// it is the image of the line through `a` and `b` (as seen from the point), be it an edge of the source or of
+// a blocker: as the point moves by d, the image moves across by d . m / distance (the boundary form of Arvo,
+// The irradiance Jacobian for partially occluded polyhedral sources, 1994). Zero where the line passes
+// through the point: there is no gradient.
+Vec3 EdgeGradient(const Vec3& a, const Vec3& b, const Vec3& from, const Vec3& to, const Vec3& normal);
+
+// The gradient of the form factor to a polygon, all of whose edges are edges in space.
+Vec3 FormFactorGradient(const DirectionPolygon& polygon, const Vec3& normal);
+
 }  // namespace penumbra

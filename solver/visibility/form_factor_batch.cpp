@@ -6,43 +6,11 @@
 
 #include "solver/base/check.h"
 #include "solver/base/vector_dispatch.h"
+#include "solver/visibility/arc_tangent.h"
 #include "solver/visibility/form_factor.h"
 
 namespace penumbra {
 namespace {
-
-// The arc tangent on [0, tan(pi/8)] as x times a polynomial in x^2 that interpolates atan(x)/x in twelve
-// Chebyshev nodes; its error there is 4e-18.
-constexpr std::array<double, 12> kAtan = {1.0,
-                                          -0.3333333333333312,
-                                          0.19999999999940893,
-                                          -0.14285714279250245,
-                                          0.11111110744919658,
-                                          -0.09090896809064027,
-                                          0.07692045330902225,
-                                          -0.06662951813629191,
-                                          0.05846878297330872,
-                                          -0.05035102456601552,
-                                          0.03796525745386593,
-                                          -0.017805397205419446};
-constexpr double kTanEighthPi = 0.41421356237309503;
-
-// atan2(y, x) for y >= 0, without branches.
-[[gnu::always_inline]] inline double AngleOf(double y, double x) {
-  const double ax = x < 0 ? -x : x;
-  const double low = y < ax ? y : ax, high = y < ax ? ax : y;
-  const bool big = low > kTanEighthPi * high;
-  // tan(a - pi/4) = (tan a - 1) / (tan a + 1)
-  const double numerator = big ? low - high : low, denominator = big ? low + high : high;
-  const double t = numerator / (denominator > 0 ? denominator : 1.0);
-  const double z = t * t;
-  double p = kAtan[11];
-#pragma GCC unroll 11
-  for (int k = 10; k >= 0; --k) p = p * z + kAtan[static_cast<std::size_t>(k)];
-  const double first = (big ? std::numbers::pi / 4 : 0.0) + t * p;
-  const double octant = y < ax ? first : std::numbers::pi / 2 - first;
-  return x < 0 ? std::numbers::pi - octant : octant;
-}
 
 // One edge's share of 2 pi times the negated form factor. a is the edge's start, b its end, p the point, n
 // its normal.
@@ -56,7 +24,7 @@ constexpr double kTanEighthPi = 0.41421356237309503;
   const double length = std::sqrt(mx * mx + my * my + mz * mz);
   const double cosine = rx * (rx + ex) + ry * (ry + ey) + rz * (rz + ez);
   const double rise = nx * mx + ny * my + nz * mz;
-  return rise / (length > 0 ? length : 1.0) * AngleOf(length, cosine);
+  return rise / (length > 0 ? length : 1.0) * internal::AngleOf(length, cosine);
 }
 
 [[gnu::always_inline]] inline double Magnitude(double x) { return x < 0 ? -x : x; }

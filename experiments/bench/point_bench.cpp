@@ -1,0 +1,222 @@
+// How long irradiance at a point takes, and how far it is off: one polygon, one source behind blockers by
+// each method, many sources, a furnished scene, and scenes that grow where the point cannot see.
+//
+// Sample run: penumbra_bench --benchmark_filter=Point
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include "solver/base/parallel.h"
+#include "solver/base/random.h"
+#include "solver/scene/builtin_scenes.h"
+#include "solver/scene/surface_points.h"
+#include "solver/transport/point_irradiance.h"
+#include "solver/transport/source_set.h"
+#include "solver/visibility/form_factor.h"
+#include "solver/visibility/form_factor_batch.h"
+#include "solver/visibility/occlusion_method.h"
+#include "solver/visibility/point_view.h"
+
+namespace penumbra {
+namespace {
+
+PatchId AddPatch(Scene& scene, const Polygon3& vertices, std::int32_t material) {
+  scene.patches.push_back(
+      MakePatch(vertices, material, 0, {static_cast<std::int32_t>(scene.patches.size())}));
+  return static_cast<PatchId>(scene.patches.size()) - 1;
+}
+
+std::vector<Material> GreyAndLight() {
+  std::vector<Material> materials(2);
+  materials[1].emittance = Rgb::Ones();
+  return materials;
+}
+
+ReceiverPoint OnFloor(double x, double y) { return {Vec3(x, y, 0), Vec3::UnitZ(), Vec3::Zero(), 0}; }
+
+// Quadrilaterals that face the origin from all around above it.
+std::vector<Polygon3> Quadrilaterals(int count) {
+  Random random(2);
+  std::vector<Polygon3> all;
+  for (int i = 0; i < count; ++i) {
+    const double angle = random.Uniform(0, 2 * std::numbers::pi), z = random.Uniform(0.2, 1);
+    const Vec3 towards(std::cos(angle), std::sin(angle), z);
+    const Vec3 u = towards.unitOrthogonal(), v = towards.normalized().cross(u);
+    const Vec3 centre = random.Uniform(1, 4) * towards.normalized();
+    const double a = random.Uniform(0.1, 0.3), b = random.Uniform(0.1, 0.3);
+    all.push_back({centre + a * u, centre - b * v, centre - a * u, centre + b * v});
+  }
+  return all;
+}
+
+void PointQuadrilateral(benchmark::State& state) {
+  const std::vector<Polygon3> all = Quadrilaterals(256);
+  const ReceiverPoint at = OnFloor(0, 0);
+  for (auto _ : state) {
+    double sum = 0;
+    for (const Polygon3& polygon : all) sum += FormFactor(Seen(at, polygon, true), at.normal);
+    benchmark::DoNotOptimize(sum);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
+}
+BENCHMARK(PointQuadrilateral);
+
+void PointQuadrilateralBatched(benchmark::State& state) {
+  const std::vector<Polygon3> all = Quadrilaterals(256);
+  PolygonBatch batch;
+  for (const Polygon3& polygon : all) batch.Add(polygon);
+  const ReceiverPoint at = OnFloor(0, 0);
+  std::vector<double> factor(all.size());
+  for (auto _ : state) {
+    FormFactors(batch, 0, batch.size(), at.position, at.normal, factor.data());
+    benchmark::DoNotOptimize(factor.data());
+  }
+  double worst = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    worst = std::max(worst, std::abs(factor[i] / FormFactor(Seen(at, all[i], true), at.normal) - 1));
+  state.counters["error"] = worst;
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
+}
+BENCHMARK(PointQuadrilateralBatched);
+
+// A square light of side 1 over the origin at height 4, and `n` boards between them, none alone as large as
+// the light; together they hide about half of it.
+Scene LightAndBoards(int n) {
+  Scene scene;
+  scene.materials = GreyAndLight();
+  AddPatch(scene, {{-0.5, -0.5, 4}, {-0.5, 0.5, 4}, {0.5, 0.5, 4}, {0.5, -0.5, 4}}, 1);
+  Random random(3);
+  const double size = 0.55 / std::sqrt(n);
+  for (int i = 0; i < n; ++i) {
+    const double z = random.Uniform(0.5, 3.5), scale = z / 4, angle = random.Uniform(0, std::numbers::pi);
+    const Vec3 centre(scale * random.Uniform(-0.5, 0.5), scale * random.Uniform(-0.5, 0.5), z);
+    const Vec3 u = scale * size * Vec3(std::cos(angle), std::sin(angle), 0.3),
+               v = scale * size * Vec3(-std::sin(angle), std::cos(angle), -0.2);
+    AddPatch(scene, {centre - u - v, centre + u - v, centre + u + v, centre - u + v}, 0);
+  }
+  return scene;
+}
+
+constexpr int kPoints = 16;  // around the origin, so that no single arrangement counts
+
+double VisibleFactor(const Scene& scene, std::span<const PatchId> boards, const ReceiverPoint& at,
+                     const OcclusionMethod& method) {
+  PointView view(scene, at, method);
+  view.FaceSource(0);
+  const DirectionPolygon seen = view.SeeSource(scene.patches[0].Vertices());
+  std::vector<Occluder>& occluders = view.occluder_stack();
+  return view.FindBlockers(boards, kNoPatch, seen, occluders) ? view.VisibleFormFactor(seen, occluders) : 0;
+}
+
+// One source behind boards. `error`: the largest difference from the exact backprojection, relative to the
+// light without boards.
+void PointBlockers(benchmark::State& state, const std::string& name) {
+  const auto n = static_cast<int>(state.range(0));
+  const Scene scene = LightAndBoards(n);
+  std::vector<PatchId> boards;
+  for (int i = 1; i <= n; ++i) boards.push_back(i);
+  std::vector<ReceiverPoint> points;
+  for (int i = 0; i < kPoints; ++i) points.push_back(OnFloor(0.02 * i, 0.013 * i));
+  const std::unique_ptr<const OcclusionMethod> method = MakeOcclusionMethod(name);
+  for (auto _ : state) {
+    double sum = 0;
+    for (const ReceiverPoint& at : points) sum += VisibleFactor(scene, boards, at, *method);
+    benchmark::DoNotOptimize(sum);
+  }
+  state.SetItemsProcessed(state.iterations() * kPoints);
+}
+BENCHMARK_CAPTURE(PointBlockers, clipping, "clipping")
+    ->Arg(1)
+    ->Arg(5)
+    ->Arg(20)
+    ->Arg(100)
+    ->Arg(300)
+    ->Arg(1000);
+
+// Direct light at points all over the fronts that look up, every emitter and every blocker looked at: 10 us.
+void PointOffice(benchmark::State& state) {
+  const Scene scene = *LoadBuiltinScene("office", {});
+  const PatchVisibility unused;
+  const PointIrradiance irradiance(scene, unused, SourceSet::Emitters(scene));
+  std::vector<ReceiverPoint> points;
+  for (const SurfacePoint& p : SpreadPoints(scene, 2000, 1))
+    if (scene.patches[p.patch].normal.z() > 0.99 && p.position.z() < 0.01)
+      points.push_back({p.position, Vec3::UnitZ(), Vec3::Zero(), 0});
+  for (auto _ : state) {
+    Rgb sum = Rgb::Zero();
+    for (const ReceiverPoint& at : points) sum += irradiance.Anywhere(at).irradiance;
+    benchmark::DoNotOptimize(sum);
+  }
+  state.counters["patches"] = static_cast<double>(scene.patches.size());
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size()));
+}
+BENCHMARK(PointOffice)->Unit(benchmark::kMicrosecond);
+
+void AddBox(Scene& scene, const Vec3& low, const Vec3& high, bool inwards) {
+  const auto at = [&](int i) {
+    return Vec3(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z());
+  };
+  constexpr std::array<std::array<int, 4>, 6> kFaces = {
+      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+  for (const std::array<int, 4>& face : kFaces) {
+    Polygon3 polygon;
+    for (const int i : face) polygon.push_back(at(i));
+    if (inwards) std::reverse(polygon.begin(), polygon.end());
+    AddPatch(scene, polygon, 0);
+  }
+}
+
+// n by n closed rooms side by side, each with two lights and ten boxes: from inside one, the others are
+// hidden.
+Scene Rooms(int n) {
+  Scene scene;
+  scene.materials = GreyAndLight();
+  Random random(4);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const Vec3 o(4.2 * i, 4.2 * j, 0);
+      AddBox(scene, o, o + Vec3(4, 4, 3), true);
+      for (const double x : {1.0, 2.5})
+        AddPatch(
+            scene,
+            {o + Vec3(x, 1, 2.9), o + Vec3(x, 3, 2.9), o + Vec3(x + 0.5, 3, 2.9), o + Vec3(x + 0.5, 1, 2.9)},
+            1);
+      for (int k = 0; k < 10; ++k) {
+        const Vec3 low(random.Uniform(0, 3), random.Uniform(0, 3), random.Uniform(0, 1));
+        AddBox(scene, o + low,
+               o + low + Vec3(random.Uniform(0.1, 0.8), random.Uniform(0.1, 0.8), random.Uniform(0.1, 1)),
+               false);
+      }
+    }
+  return scene;
+}
+
+// Direct light at points of one room of many: what cannot be seen should not cost.
+void PointRooms(benchmark::State& state) {
+  const auto n = static_cast<int>(state.range(0));
+  const Scene scene = Rooms(n);
+  const PatchVisibility unused;
+  const PointIrradiance irradiance(scene, unused, SourceSet::Emitters(scene));
+  Random random(5);
+  std::vector<ReceiverPoint> points;
+  const double origin = 4.2 * (n / 2);
+  for (int i = 0; i < 256; ++i)
+    points.push_back({Vec3(origin + random.Uniform(0.01, 3.99), origin + random.Uniform(0.01, 3.99), 0),
+                      Vec3::UnitZ(), Vec3::Zero(), 0});
+  for (auto _ : state) {
+    Rgb sum = Rgb::Zero();
+    for (const ReceiverPoint& at : points) sum += irradiance.Anywhere(at).irradiance;
+    benchmark::DoNotOptimize(sum);
+  }
+  state.counters["patches"] = static_cast<double>(scene.patches.size());
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size()));
+}
+BENCHMARK(PointRooms)->Arg(1)->Arg(3)->Arg(10)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace penumbra

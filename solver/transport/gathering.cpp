@@ -1,0 +1,189 @@
+#include "solver/transport/gathering.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "solver/visibility/form_factor.h"
+#include "solver/visibility/form_factor_batch.h"
+
+namespace penumbra {
+namespace {
+
+using Node = SourceSet::Node;
+
+std::span<const Vec3> Vertices(const Node& node) {
+  return {node.vertex.data(), static_cast<std::size_t>(node.size)};
+}
+
+Clipper& ThreadClipper() {
+  thread_local Clipper clipper;
+  return clipper;
+}
+
+}  // namespace
+
+Gathering::Gathering(const Scene& scene, const SourceSet& sources, const ReceiverPoint& at,
+                     const OcclusionMethod* method, IrradianceParts* parts)
+    : sources_(sources),
+      at_(at),
+      method_(method),
+      parts_(parts),
+      view_(scene, at, method ? *method : FastestExactMethod()),
+      occluders_(view_.occluder_stack()),
+      clipper_(ThreadClipper()) {}
+
+void Gathering::AddSource(PatchId source, std::span<const PatchId> candidates, PatchId own) {
+  const Tree tree = sources_.Tree(source);
+  if (tree.empty() || !view_.FaceSource(source)) return;
+  const DirectionPolygon seen = view_.SeeSource(Vertices(tree[0]));
+  if (seen.empty()) return;
+  const Rgb before = irradiance_;
+  factor_ = 0;
+  occluders_.clear();
+  if (!view_.FindBlockers(candidates, own, seen, occluders_)) return;
+  if (occluders_.empty())
+    GatherVisible(tree);
+  else
+    GatherShadowed(tree, 0);
+  if (!parts_ || factor_ == 0) return;
+  parts_->contributions.push_back({source, irradiance_ - before});
+  parts_->direct += factor_ * sources_.Emittance(source);
+}
+
+// Gathers from the subtree at node i, of which the occluders may hide parts.
+void Gathering::GatherShadowed(Tree tree, std::size_t i) {
+  const Node& node = tree[i];
+  const auto skip = static_cast<std::size_t>(node.skip);
+  const DirectionPolygon seen = view_.SeeSource(Vertices(node));
+  if (seen.empty()) return;
+  const Vec3 axis = ImageAxis(seen);
+  if (axis.isZero(0)) {
+    // Seen all round: children fit where the whole does not.
+    if (skip == 1) return GatherUnfit(node, seen);
+    for (std::size_t child = i + 1; child < i + skip; child += static_cast<std::size_t>(tree[child].skip))
+      GatherShadowed(tree, child);
+    return;
+  }
+  const ImageFrame frame(seen, axis);
+  const double factor_before = factor_;
+  const Clipper::Candidates all = clipper_.Begin(frame, seen, occluders_);
+  GatherNode(tree, i, seen, all);
+  AddVisiblePieces(frame, factor_before);
+}
+
+// The same in the image at hand, past the candidates.
+void Gathering::GatherNode(Tree tree, std::size_t i, const DirectionPolygon& seen,
+                           const Clipper::Candidates& candidates) {
+  const Node& node = tree[i];
+  const auto skip = static_cast<std::size_t>(node.skip);
+  Clipper::Candidates own;
+  const Overlap overlap = clipper_.Narrow(seen, candidates, &own);
+  if (overlap == Overlap::kNone) {
+    GatherVisible(tree.subspan(i, skip));
+  } else if (overlap == Overlap::kPart && skip == 1) {
+    if (!method_ || parts_) clipper_.CutOut(seen, own, node.first_leaf);
+    if (method_) {
+      thread_local std::vector<Occluder> listed;
+      clipper_.List(own, listed);
+      Add(node.first_leaf, method_->VisibleFormFactor(seen, listed, at_.normal));
+    }
+  } else if (overlap == Overlap::kPart) {
+    for (std::size_t child = i + 1; child < i + skip; child += static_cast<std::size_t>(tree[child].skip)) {
+      const DirectionPolygon child_seen = view_.SeeSource(Vertices(tree[child]));
+      if (!child_seen.empty()) GatherNode(tree, child, child_seen, own);
+    }
+  }
+  clipper_.Restore(candidates);
+}
+
+// Adds all leaves of a subtree that nothing hides.
+void Gathering::GatherVisible(Tree nodes) {
+  if (parts_)
+    for (const Node& node : nodes)
+      if (node.skip == 1)
+        AddGradient(node.first_leaf, FormFactorGradient(view_.SeeSource(Vertices(node)), at_.normal));
+  if (!view_.SourceIsPlain()) {
+    for (const Node& node : nodes)
+      if (node.skip == 1) Add(node.first_leaf, FormFactor(view_.SeeSource(Vertices(node)), at_.normal));
+    return;
+  }
+  constexpr std::size_t kBatch = 128;
+  std::array<double, kBatch> factor;
+  const auto first = static_cast<std::size_t>(nodes[0].first_leaf);
+  const auto end = first + static_cast<std::size_t>(nodes[0].leaf_count);
+  for (std::size_t begin = first; begin < end; begin += kBatch) {
+    const std::size_t stop = std::min(end, begin + kBatch);
+    FormFactors(sources_.LeafPolygons(), begin, stop, at_.position, at_.normal, factor.data());
+    for (std::size_t i = begin; i < stop; ++i) Add(static_cast<std::int32_t>(i), factor[i - begin]);
+  }
+}
+
+// A leaf that fits into no image.
+void Gathering::GatherUnfit(const Node& leaf, const DirectionPolygon& seen) {
+  if (method_) Add(leaf.first_leaf, method_->VisibleFormFactor(seen, occluders_, at_.normal));
+  if (method_ && !parts_) return;
+  std::vector<ImagePart> parts;
+  SplitForImages(seen, at_.normal, parts);
+  for (const ImagePart& part : parts) {
+    const ImageFrame frame(part.polygon, part.axis);
+    const double factor_before = factor_;
+    const Clipper::Candidates all = clipper_.Begin(frame, part.polygon, occluders_);
+    Clipper::Candidates own;
+    if (clipper_.Narrow(part.polygon, all, &own) == Overlap::kAll) continue;
+    clipper_.CutOut(part.polygon, own, leaf.first_leaf, {part.label.data(), part.label.size()});
+    AddVisiblePieces(frame, factor_before);
+  }
+}
+
+// Adds what the clipper left of leaves that are covered in part.
+void Gathering::AddVisiblePieces(const ImageFrame& frame, double factor_before) {
+  ImageEdges& visible = clipper_.Visible();
+  if (visible.Pieces() == 0) return;
+  if (parts_) AddGradientOfPieces(frame);
+  if (method_) return;
+  const ImageEdges::Sum sum = visible.FormFactorSum(frame, at_.normal);
+  const double together = std::abs(sum.value) + 2 * std::numbers::pi * (factor_ - factor_before);
+  const bool cancels = sum.magnitude > kFormFactorCancellation * together;
+  for (std::size_t p = 0; p < visible.Pieces(); ++p) {
+    const double factor = cancels ? visible.PieceByQuadrature(frame, at_.normal, p)
+                                  : 0.5 * std::numbers::inv_pi * visible.PieceSum(p);
+    Add(visible.Owner(p), std::max(0.0, factor));
+  }
+}
+
+void Gathering::AddGradientOfPieces(const ImageFrame& frame) {
+  const ImageEdges& visible = clipper_.Visible();
+  for (std::size_t p = 0; p < visible.Pieces(); ++p) {
+    const std::int32_t leaf = visible.Owner(p);
+    const DirectionPolygon whole = view_.SeeSource(sources_.LeafVertices(leaf));
+    Vec3 gradient = Vec3::Zero();
+    for (std::size_t i = visible.Begin(p); i < visible.Begin(p + 1); ++i) {
+      const std::int32_t label = visible.Label(i);
+      if (label == kInnerEdge) continue;
+      const Vec3 from = frame.Direction(visible.Start(i)),
+                 to = frame.Direction(visible.Start(i) + visible.Difference(i));
+      if (label < kFirstOccluderEdge) {
+        gradient += EdgeGradient(whole[label], whole.Next(label), from, to, at_.normal);
+        continue;
+      }
+      const Cone& cone = *occluders_[OccluderOfEdge(label)].cone;
+      const auto plane = static_cast<std::size_t>(PlaneOfEdge(label));
+      gradient += EdgeGradient(cone.direction[plane], cone.end[plane], from, to, at_.normal);
+    }
+    AddGradient(leaf, gradient);
+  }
+}
+
+void Gathering::Add(std::int32_t leaf, double factor) {
+  factor_ += factor;
+  irradiance_ += factor * sources_.LeafRadiosities()[static_cast<std::size_t>(leaf)];
+}
+
+void Gathering::AddGradient(std::int32_t leaf, const Vec3& gradient) {
+  const Rgb& radiosity = sources_.LeafRadiosities()[static_cast<std::size_t>(leaf)];
+  parts_->gradient += radiosity.matrix() * gradient.transpose();
+}
+
+}  // namespace penumbra

@@ -1,0 +1,72 @@
+// solver/transport/gathering.h
+//
+// What one receiver point gathers from the sources of a SourceSet, one patch after the other.
+
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/transport/source_set.h"
+#include "solver/visibility/clipping.h"
+#include "solver/visibility/point_view.h"
+
+namespace penumbra {
+
+// The light that a point receives from one patch.
+struct PatchContribution {
+  PatchId source = kNoPatch;
+  Rgb irradiance = Rgb::Zero();  // [W/m^2]
+};
+
+// One row a channel: its derivatives by x, y and z [W/m^3].
+using IrradianceGradient = Eigen::Matrix3d;
+
+// What irradiance at a point is made of.
+struct IrradianceParts {
+  Rgb direct = Rgb::Zero();  // from what surfaces emit of themselves [W/m^2]
+  // By the position of the point, its normal fixed. Edges through the point have no share in it.
+  IrradianceGradient gradient = IrradianceGradient::Zero();
+  std::vector<PatchContribution>
+      contributions;  // of the patches that light the point, in the order asked for
+};
+
+class Gathering {
+ public:
+  // Without a method, sources are clipped as whole trees, which is fastest; with one, it is asked about every
+  // polygon that blockers cover in part. `parts` may be null. All arguments must outlive the object.
+  Gathering(const Scene& scene, const SourceSet& sources, const ReceiverPoint& at,
+            const OcclusionMethod* method, IrradianceParts* parts);
+
+  // Adds the light of a patch past those of the candidates that stand before it; `own`, the receiver's patch,
+  // does not block.
+  void AddSource(PatchId source, std::span<const PatchId> candidates, PatchId own);
+
+  const Rgb& irradiance() const { return irradiance_; }
+  bool one_sided() const { return view_.one_sided(); }
+
+ private:
+  using Tree = std::span<const SourceSet::Node>;
+
+  void GatherShadowed(Tree tree, std::size_t i);
+  void GatherNode(Tree tree, std::size_t i, const DirectionPolygon& seen,
+                  const Clipper::Candidates& candidates);
+  void GatherVisible(Tree nodes);
+  void GatherUnfit(const SourceSet::Node& leaf, const DirectionPolygon& seen);
+  void AddVisiblePieces(const ImageFrame& frame, double visible_before);
+  void AddGradientOfPieces(const ImageFrame& frame);
+  void Add(std::int32_t leaf, double factor);
+  void AddGradient(std::int32_t leaf, const Vec3& gradient);
+
+  const SourceSet& sources_;
+  const ReceiverPoint& at_;
+  const OcclusionMethod* method_;
+  IrradianceParts* parts_;
+  PointView view_;
+  std::vector<Occluder>& occluders_;  // of the source at hand
+  Clipper& clipper_;
+  double factor_ = 0;  // of the source at hand, so far
+  Rgb irradiance_ = Rgb::Zero();
+};
+
+}  // namespace penumbra
