@@ -25,24 +25,55 @@ Clipper& ThreadClipper() {
 }  // namespace
 
 Gathering::Gathering(const Scene& scene, const SourceSet& sources, const ReceiverPoint& at,
-                     const OcclusionMethod* method, IrradianceParts* parts)
-    : sources_(sources),
+                     const PointIrradianceOptions& options, IrradianceParts* parts)
+    : scene_(scene),
+      sources_(sources),
       at_(at),
-      method_(method),
+      method_(options.method),
       parts_(parts),
-      view_(scene, at, method ? *method : FastestExactMethod()),
+      view_(scene, at, options.method ? *options.method : FastestExactMethod(), options.source_push_off),
       occluders_(view_.occluder_stack()),
       clipper_(ThreadClipper()) {}
 
-void Gathering::AddSource(PatchId source, std::span<const PatchId> candidates, PatchId own) {
+// Turns to the source; false if nothing of it can be seen.
+bool Gathering::Face(PatchId source, DirectionPolygon* seen) {
   const Tree tree = sources_.Tree(source);
-  if (tree.empty() || !view_.FaceSource(source)) return;
-  const DirectionPolygon seen = view_.SeeSource(Vertices(tree[0]));
-  if (seen.empty()) return;
+  if (tree.empty() || !view_.FaceSource(source)) return false;
+  *seen = view_.SeeSource(Vertices(tree[0]));
+  return !seen->empty();
+}
+
+void Gathering::AddSource(PatchId source, std::span<const PatchId> candidates, PatchId own) {
+  DirectionPolygon seen;
+  if (Face(source, &seen)) Gather(source, seen, candidates, own);
+}
+
+void Gathering::AddSource(PatchId source, const PatchHierarchy& patches) {
+  DirectionPolygon seen;
+  if (!Face(source, &seen)) return;
+  // Between the point and the source's plane, within what is seen of the source.
+  thread_local ConvexRegion region;
+  thread_local std::vector<PatchId> candidates;
+  region.clear();
+  const Patch& patch = scene_.patches[static_cast<std::size_t>(source)];
+  region.push_back({patch.normal, patch.normal.dot(patch.vertex[0])});
+  if (!view_.SourceInContact())
+    for (int i = 0; i < seen.size(); ++i) {
+      const Vec3 m = EdgeNormal(seen[i], seen.Next(i));
+      const double length = m.norm();
+      if (length > 0) region.push_back({m / length, m.dot(at_.position) / length});
+    }
+  patches.Find(region, {}, candidates);
+  Gather(source, seen, candidates, kNoPatch);
+}
+
+void Gathering::Gather(PatchId source, const DirectionPolygon& seen, std::span<const PatchId> candidates,
+                       PatchId own) {
   const Rgb before = irradiance_;
   factor_ = 0;
   occluders_.clear();
   if (!view_.FindBlockers(candidates, own, seen, occluders_)) return;
+  const Tree tree = sources_.Tree(source);
   if (occluders_.empty())
     GatherVisible(tree);
   else
@@ -115,7 +146,7 @@ void Gathering::GatherVisible(Tree nodes) {
   const auto end = first + static_cast<std::size_t>(nodes[0].leaf_count);
   for (std::size_t begin = first; begin < end; begin += kBatch) {
     const std::size_t stop = std::min(end, begin + kBatch);
-    FormFactors(sources_.LeafPolygons(), begin, stop, at_.position, at_.normal, factor.data());
+    FormFactors(sources_.LeafPolygons(), begin, stop, view_.SourceEye(), at_.normal, factor.data());
     for (std::size_t i = begin; i < stop; ++i) Add(static_cast<std::int32_t>(i), factor[i - begin]);
   }
 }

@@ -9,9 +9,20 @@
 
 #include "solver/transport/source_set.h"
 #include "solver/visibility/clipping.h"
+#include "solver/visibility/patch_hierarchy.h"
 #include "solver/visibility/point_view.h"
 
 namespace penumbra {
+
+struct PointIrradianceOptions {
+  // What decides which part of a source blockers leave. Null: the fastest exact way.
+  const OcclusionMethod* method = nullptr;
+  // The thesis's substitutes for limits (6.3, 6.4, Appendix A), to compare with. A point that asks for a
+  // limit is moved this far along its approach [m]; sources are lifted this far along the receiver's normal
+  // [m].
+  double nudge = 0;
+  double source_push_off = 0;
+};
 
 // The light that a point receives from one patch.
 struct PatchContribution {
@@ -36,11 +47,13 @@ class Gathering {
   // Without a method, sources are clipped as whole trees, which is fastest; with one, it is asked about every
   // polygon that blockers cover in part. `parts` may be null. All arguments must outlive the object.
   Gathering(const Scene& scene, const SourceSet& sources, const ReceiverPoint& at,
-            const OcclusionMethod* method, IrradianceParts* parts);
+            const PointIrradianceOptions& options, IrradianceParts* parts);
 
   // Adds the light of a patch past those of the candidates that stand before it; `own`, the receiver's patch,
   // does not block.
   void AddSource(PatchId source, std::span<const PatchId> candidates, PatchId own);
+  // The same past whatever of the hierarchy stands before it.
+  void AddSource(PatchId source, const PatchHierarchy& patches);
 
   const Rgb& irradiance() const { return irradiance_; }
   bool one_sided() const { return view_.one_sided(); }
@@ -48,6 +61,8 @@ class Gathering {
  private:
   using Tree = std::span<const SourceSet::Node>;
 
+  bool Face(PatchId source, DirectionPolygon* seen);
+  void Gather(PatchId source, const DirectionPolygon& seen, std::span<const PatchId> candidates, PatchId own);
   void GatherShadowed(Tree tree, std::size_t i);
   void GatherNode(Tree tree, std::size_t i, const DirectionPolygon& seen,
                   const Clipper::Candidates& candidates);
@@ -58,6 +73,7 @@ class Gathering {
   void Add(std::int32_t leaf, double factor);
   void AddGradient(std::int32_t leaf, const Vec3& gradient);
 
+  const Scene& scene_;
   const SourceSet& sources_;
   const ReceiverPoint& at_;
   const OcclusionMethod* method_;

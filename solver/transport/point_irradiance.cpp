@@ -9,26 +9,57 @@
 
 namespace penumbra {
 
-PointIrradiance::PointIrradiance(const RadiositySolution& solution, const PatchVisibility& visibility)
+namespace {
+
+// With fewer sources than this a search for what hides them costs more than it saves.
+constexpr std::size_t kManySources = 16;
+
+// What may hide many sources at once: the largest patches in view, if they are larger than this [sr].
+constexpr std::size_t kMostScreens = 16;
+constexpr double kLeastScreen = 0.02;
+
+}  // namespace
+
+PointIrradiance::PointIrradiance(const RadiositySolution& solution, const PatchVisibility& visibility,
+                                 const PointIrradianceOptions& options)
     : scene_(solution.forest.scene()),
       visibility_(visibility),
       forest_(&solution.forest),
       sources_(SourceSet::FromSolution(solution)),
       leaves_(solution.forest, visibility),
-      all_patches_(scene_.patches.size()) {
-  std::iota(all_patches_.begin(), all_patches_.end(), 0);
+      options_(options) {
+  BuildHierarchies();
 }
 
-PointIrradiance::PointIrradiance(const Scene& scene, const PatchVisibility& visibility, SourceSet sources)
-    : scene_(scene),
-      visibility_(visibility),
-      sources_(std::move(sources)),
-      all_patches_(scene.patches.size()) {
-  std::iota(all_patches_.begin(), all_patches_.end(), 0);
+PointIrradiance::PointIrradiance(const Scene& scene, const PatchVisibility& visibility, SourceSet sources,
+                                 const PointIrradianceOptions& options)
+    : scene_(scene), visibility_(visibility), sources_(std::move(sources)), options_(options) {
+  BuildHierarchies();
 }
 
-PointIrradianceResult PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& at) const {
-  Gathering gathering(scene_, sources_, at, nullptr, nullptr);
+void PointIrradiance::BuildHierarchies() {
+  std::vector<PatchId> all(scene_.patches.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<PatchId> bright;
+  for (const PatchId p : all)
+    if (!sources_.Tree(p).empty()) bright.push_back(p);
+  patches_ = PatchHierarchy(scene_, std::move(all));
+  source_patches_ = PatchHierarchy(scene_, std::move(bright));
+}
+
+ReceiverPoint PointIrradiance::Nudged(const ReceiverPoint& at) const {
+  ReceiverPoint moved = at;
+  if (options_.nudge > 0 && !at.approach.isZero(0)) {
+    moved.position += options_.nudge * at.approach.normalized();
+    moved.approach.setZero();
+  }
+  return moved;
+}
+
+PointIrradianceResult PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given,
+                                               IrradianceParts* parts) const {
+  const ReceiverPoint at = Nudged(given);
+  Gathering gathering(scene_, sources_, at, options_, parts);
   if (forest_ != nullptr) {
     for (const PatchPair& pair : leaves_.SourcesOf(forest_->LeafAt(patch, at.position)))
       gathering.AddSource(pair.source, leaves_.Blockers(pair), patch);
@@ -39,9 +70,21 @@ PointIrradianceResult PointIrradiance::OnPatch(PatchId patch, const ReceiverPoin
   return {gathering.irradiance(), gathering.one_sided()};
 }
 
-PointIrradianceResult PointIrradiance::Anywhere(const ReceiverPoint& at) const {
-  Gathering gathering(scene_, sources_, at, nullptr, nullptr);
-  for (const PatchId source : all_patches_) gathering.AddSource(source, all_patches_, kNoPatch);
+PointIrradianceResult PointIrradiance::Anywhere(const ReceiverPoint& given, IrradianceParts* parts) const {
+  const ReceiverPoint at = Nudged(given);
+  Gathering gathering(scene_, sources_, at, options_, parts);
+  thread_local std::vector<PatchId> found;
+  std::vector<ConvexRegion> shadows;
+  if (source_patches_.size() > kManySources) {
+    patches_.FindLargest(at.position, kLeastScreen, kMostScreens, found);
+    for (const PatchId screen : found) {
+      ConvexRegion shadow = ShadowRegion(at, scene_.patches[static_cast<std::size_t>(screen)]);
+      if (!shadow.empty()) shadows.push_back(std::move(shadow));
+    }
+  }
+  const ConvexRegion above_horizon = {{at.normal, at.normal.dot(at.position)}};
+  source_patches_.Find(above_horizon, shadows, found);
+  for (const PatchId source : found) gathering.AddSource(source, patches_);
   return {gathering.irradiance(), gathering.one_sided()};
 }
 

@@ -8,12 +8,13 @@
 
 #pragma once
 
-#include <vector>
-
 #include "solver/geometry/vec.h"
 #include "solver/scene/scene.h"
+#include "solver/transport/gathering.h"
 #include "solver/transport/leaf_visibility.h"
 #include "solver/transport/source_set.h"
+#include "solver/visibility/occlusion_method.h"
+#include "solver/visibility/patch_hierarchy.h"
 #include "solver/visibility/patch_visibility.h"
 #include "solver/visibility/receiver_point.h"
 
@@ -29,24 +30,34 @@ struct PointIrradianceResult {
 class PointIrradiance {
  public:
   // From the leaves of a solution. Everything referred to must outlive this object.
-  PointIrradiance(const RadiositySolution& solution, const PatchVisibility& visibility);
+  PointIrradiance(const RadiositySolution& solution, const PatchVisibility& visibility,
+                  const PointIrradianceOptions& options = {});
   // From any set of sources, with the sources and blockers that the patches have: direct light, say.
-  PointIrradiance(const Scene& scene, const PatchVisibility& visibility, SourceSet sources);
+  PointIrradiance(const Scene& scene, const PatchVisibility& visibility, SourceSet sources,
+                  const PointIrradianceOptions& options = {});
 
   // At a point on the front of a patch: only the sources of its leaf (or patch) and their blockers are looked
   // at, and the patch itself neither lights nor blocks. Safe from any thread.
-  PointIrradianceResult OnPatch(PatchId patch, const ReceiverPoint& at) const;
+  // If `parts` is not null it gets what the irradiance is made of.
+  PointIrradianceResult OnPatch(PatchId patch, const ReceiverPoint& at,
+                                IrradianceParts* parts = nullptr) const;
 
-  // Anywhere, in free space too: every patch may light and block. Safe from any thread.
-  PointIrradianceResult Anywhere(const ReceiverPoint& at) const;
+  // Anywhere, in free space too: every patch may light and block, and a hierarchy finds those that do. Safe
+  // from any thread.
+  PointIrradianceResult Anywhere(const ReceiverPoint& at, IrradianceParts* parts = nullptr) const;
 
  private:
+  void BuildHierarchies();
+  ReceiverPoint Nudged(const ReceiverPoint& at) const;
+
   const Scene& scene_;
   const PatchVisibility& visibility_;
   const ElementForest* forest_ = nullptr;  // whose leaves leaves_ knows; null without a solution
   SourceSet sources_;
   LeafVisibility leaves_;
-  std::vector<PatchId> all_patches_;
+  PointIrradianceOptions options_;
+  PatchHierarchy patches_;         // all of them
+  PatchHierarchy source_patches_;  // those that send light
 };
 
 }  // namespace penumbra

@@ -74,6 +74,18 @@ Bounds BoundsOf(const Piece& piece) {
   return b;
 }
 
+// Whether the piece is nowhere wider than `width`, or little more.
+bool IsSliver(const Piece& piece, double width) {
+  double twice_area = 0, longest = 0;
+  for (int i = 1; i < piece.size; ++i) {
+    const double ax = piece.x[i - 1] - piece.x[0], ay = piece.y[i - 1] - piece.y[0],
+                 bx = piece.x[i] - piece.x[0], by = piece.y[i] - piece.y[0];
+    twice_area += ax * by - ay * bx;
+    longest = std::max({longest, std::abs(bx), std::abs(by)});
+  }
+  return twice_area <= width * longest;
+}
+
 // An occluder in the image. Lines and vertices stand in groups of kLanes, so that a group is worked on at
 // once; what fills up the last group changes nothing.
 struct ImageCone {
@@ -263,6 +275,7 @@ void Clipper::Impl::Sort(const Piece& piece, std::size_t first, std::size_t last
     case Overlap::kAll:
       break;
     case Overlap::kNone:
+      if (IsSliver(piece, snap)) break;
       visible.AddPiece(piece.x.data(), piece.y.data(), piece.label.data(), piece.size, owner);
       break;
     case Overlap::kPart: {

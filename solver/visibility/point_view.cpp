@@ -33,8 +33,10 @@ PointView::Buffers& PointView::ThreadBuffers() {
   return buffers;
 }
 
-PointView::PointView(const Scene& scene, const ReceiverPoint& at, const OcclusionMethod& method)
-    : scene_(scene), at_(at), method_(method), buffers_(ThreadBuffers()) {
+PointView::PointView(const Scene& scene, const ReceiverPoint& at, const OcclusionMethod& method,
+                     double source_push_off)
+    : scene_(scene), at_(at), source_at_(at), method_(method), buffers_(ThreadBuffers()) {
+  source_at_.position -= source_push_off * at.normal;
   buffers_.Begin(scene.patches.size());
 }
 
@@ -45,25 +47,25 @@ std::vector<Occluder>& PointView::occluder_stack() { return buffers_.occluders; 
 bool PointView::FaceSource(PatchId source) {
   source_ = &scene_.patches[source];
   buffers_.cut.clear();
-  const Side side = SideOf(at_, source_->normal, source_->vertex[0], source_->extent);
+  const Side side = SideOf(source_at_, source_->normal, source_->vertex[0], source_->extent);
   if (side != Side::kFront && side != Side::kFrontInLimit) return false;
   source_in_contact_ = side == Side::kFrontInLimit;
   double lowest = 0, highest = 0;
   for (const Vec3& v : source_->Vertices()) {
-    const double height = at_.normal.dot(v - at_.position);
+    const double height = source_at_.normal.dot(v - source_at_.position);
     lowest = std::min(lowest, height);
     highest = std::max(highest, height);
   }
   source_crosses_horizon_ = lowest < 0;
   if (highest <= 0) return false;
-  if (source_in_contact_ && !SeenInContact(at_, source_->Vertices(), true).empty()) one_sided_ = true;
+  if (source_in_contact_ && !SeenInContact(source_at_, source_->Vertices(), true).empty()) one_sided_ = true;
   return true;
 }
 
 DirectionPolygon PointView::SeeSource(std::span<const Vec3> part) const {
-  if (source_in_contact_) return SeenInContact(at_, part, true);
-  const DirectionPolygon seen = Seen(at_, part, true);
-  return source_crosses_horizon_ ? ClipToHorizon(at_, seen, source_->extent) : seen;
+  if (source_in_contact_) return SeenInContact(source_at_, part, true);
+  const DirectionPolygon seen = Seen(source_at_, part, true);
+  return source_crosses_horizon_ ? ClipToHorizon(source_at_, seen, source_->extent) : seen;
 }
 
 PointView::BlockerView PointView::ViewBlocker(std::span<const Vec3> polygon, const Patch& patch) const {

@@ -19,11 +19,15 @@ namespace penumbra {
 // outlive it.
 class PointView {
  public:
-  PointView(const Scene& scene, const ReceiverPoint& at,
-            const OcclusionMethod& method = FastestExactMethod());
+  // Sources are seen as if lifted by `source_push_off` along the receiver's normal [m] (thesis 6.4).
+  PointView(const Scene& scene, const ReceiverPoint& at, const OcclusionMethod& method = FastestExactMethod(),
+            double source_push_off = 0);
   ~PointView();
   PointView(const PointView&) = delete;
   PointView& operator=(const PointView&) = delete;
+
+  // From where sources are seen: the point, unless they are lifted.
+  const Vec3& SourceEye() const { return source_at_.position; }
 
   // Turns to a source. False if none of its front is above the receiver's horizon and to be seen from the
   // point.
@@ -35,6 +39,9 @@ class PointView {
   // Whether the source at hand lies above the horizon as a whole and does not touch the point, so that its
   // parts are seen as they are.
   bool SourceIsPlain() const { return !source_in_contact_ && !source_crosses_horizon_; }
+
+  // Whether the point lies in the source's plane: what is seen of it is a limit.
+  bool SourceInContact() const { return source_in_contact_; }
 
   // Appends those candidates that may hide parts of `seen`, before the plane of the source at
   // hand; `own`, the receiver's patch, is left out. False if one candidate hides all of it: then nothing is
@@ -64,6 +71,7 @@ class PointView {
 
   const Scene& scene_;
   const ReceiverPoint& at_;
+  ReceiverPoint source_at_;
   const OcclusionMethod& method_;
   Buffers& buffers_;
   const Patch* source_ = nullptr;
