@@ -48,9 +48,28 @@ void Gathering::AddSource(PatchId source, std::span<const PatchId> candidates, P
   if (Face(source, &seen)) Gather(source, seen, candidates, own);
 }
 
-void Gathering::AddSource(PatchId source, const PatchHierarchy& patches) {
+// Whether the screens together hide all of what is seen of the source at hand.
+bool Gathering::HiddenBy(std::span<const Screen> screens, const DirectionPolygon& seen) {
+  if (screens.empty()) return false;
+  thread_local std::vector<PatchId> patches;
+  patches.clear();
+  for (const Screen& screen : screens) patches.push_back(screen.patch);
+  occluders_.clear();
+  if (!view_.FindBlockers(patches, kNoPatch, seen, occluders_)) return true;
+  if (occluders_.size() < 2) return false;
+  const Vec3 axis = ImageAxis(seen);
+  if (axis.isZero(0)) return false;
+  const ImageFrame frame(seen, axis);
+  const Clipper::Candidates all = clipper_.Begin(frame, seen, occluders_);
+  Clipper::Candidates own;
+  const Overlap overlap = clipper_.Narrow(seen, all, &own);
+  if (overlap == Overlap::kPart) clipper_.CutOut(seen, own, 0);
+  return overlap == Overlap::kAll || (overlap == Overlap::kPart && clipper_.Visible().Pieces() == 0);
+}
+
+void Gathering::AddSource(PatchId source, const PatchHierarchy& patches, std::span<const Screen> screens) {
   DirectionPolygon seen;
-  if (!Face(source, &seen)) return;
+  if (!Face(source, &seen) || HiddenBy(screens, seen)) return;
   // Between the point and the source's plane, within what is seen of the source.
   thread_local ConvexRegion region;
   thread_local std::vector<PatchId> candidates;
@@ -63,7 +82,7 @@ void Gathering::AddSource(PatchId source, const PatchHierarchy& patches) {
       const double length = m.norm();
       if (length > 0) region.push_back({m / length, m.dot(at_.position) / length});
     }
-  patches.Find(region, {}, candidates);
+  patches.Find(region, screens, candidates);
   Gather(source, seen, candidates, kNoPatch);
 }
 

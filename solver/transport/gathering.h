@@ -52,8 +52,8 @@ class Gathering {
   // Adds the light of a patch past those of the candidates that stand before it; `own`, the receiver's patch,
   // does not block.
   void AddSource(PatchId source, std::span<const PatchId> candidates, PatchId own);
-  // The same past whatever of the hierarchy stands before it.
-  void AddSource(PatchId source, const PatchHierarchy& patches);
+  // The same past whatever of the hierarchy stands before it. Some of what may hide much is known as screens.
+  void AddSource(PatchId source, const PatchHierarchy& patches, std::span<const Screen> screens);
 
   const Rgb& irradiance() const { return irradiance_; }
   bool one_sided() const { return view_.one_sided(); }
@@ -62,6 +62,7 @@ class Gathering {
   using Tree = std::span<const SourceSet::Node>;
 
   bool Face(PatchId source, DirectionPolygon* seen);
+  bool HiddenBy(std::span<const Screen> screens, const DirectionPolygon& seen);
   void Gather(PatchId source, const DirectionPolygon& seen, std::span<const PatchId> candidates, PatchId own);
   void GatherShadowed(Tree tree, std::size_t i);
   void GatherNode(Tree tree, std::size_t i, const DirectionPolygon& seen,

@@ -44,6 +44,7 @@ void PointIrradiance::BuildHierarchies() {
   for (const PatchId p : all)
     if (!sources_.Tree(p).empty()) bright.push_back(p);
   patches_ = PatchHierarchy(scene_, std::move(all));
+  screens_ = ScreenFinder(scene_);
   source_patches_ = PatchHierarchy(scene_, std::move(bright));
 }
 
@@ -74,17 +75,11 @@ PointIrradianceResult PointIrradiance::Anywhere(const ReceiverPoint& given, Irra
   const ReceiverPoint at = Nudged(given);
   Gathering gathering(scene_, sources_, at, options_, parts);
   thread_local std::vector<PatchId> found;
-  std::vector<ConvexRegion> shadows;
-  if (source_patches_.size() > kManySources) {
-    patches_.FindLargest(at.position, kLeastScreen, kMostScreens, found);
-    for (const PatchId screen : found) {
-      ConvexRegion shadow = ShadowRegion(at, scene_.patches[static_cast<std::size_t>(screen)]);
-      if (!shadow.empty()) shadows.push_back(std::move(shadow));
-    }
-  }
-  const ConvexRegion above_horizon = {{at.normal, at.normal.dot(at.position)}};
-  source_patches_.Find(above_horizon, shadows, found);
-  for (const PatchId source : found) gathering.AddSource(source, patches_);
+  thread_local std::vector<Screen> screens;
+  screens.clear();
+  if (source_patches_.size() > kManySources) screens_.Find(at, kLeastScreen, kMostScreens, screens);
+  source_patches_.Find({{at.normal, at.normal.dot(at.position)}}, screens, found);
+  for (const PatchId source : found) gathering.AddSource(source, patches_, screens);
   return {gathering.irradiance(), gathering.one_sided()};
 }
 

@@ -58,6 +58,7 @@ class PointIrradiance {
   PointIrradianceOptions options_;
   PatchHierarchy patches_;         // all of them
   PatchHierarchy source_patches_;  // those that send light
+  ScreenFinder screens_;
 };
 
 }  // namespace penumbra

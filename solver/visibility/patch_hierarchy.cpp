@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "solver/geometry/polygon.h"
@@ -10,6 +11,9 @@
 
 namespace penumbra {
 namespace {
+
+// No more patches than this, the largest of all, are looked at as screens.
+constexpr std::size_t kMostDiscs = 1024;
 
 // By how much the highest (sign 1) or lowest (sign -1) point of a box lies in the half-space.
 double Reach(const HalfSpace& space, const Vec3& centre, const Vec3& half, double sign) {
@@ -23,10 +27,6 @@ PatchHierarchy::PatchHierarchy(const Scene& scene, std::vector<PatchId> patches)
   if (order_.empty()) return;
   nodes_.reserve(2 * order_.size());
   Build(scene, 0, order_.size());
-  for (const PatchId p : order_) {
-    const Patch& patch = scene.patches[static_cast<std::size_t>(p)];
-    disc_.push_back({Centroid(patch.Vertices()), patch.area * patch.normal});
-  }
   margin_ = 4 * HeightRounding(MaxAbs(nodes_[0].centre) + MaxAbs(nodes_[0].half));
 }
 
@@ -54,7 +54,15 @@ void PatchHierarchy::Build(const Scene& scene, std::size_t first, std::size_t la
   nodes_[at].skip = static_cast<std::int32_t>(nodes_.size() - at);
 }
 
-void PatchHierarchy::Find(const ConvexRegion& region, std::span<const ConvexRegion> shadows,
+bool PatchHierarchy::Hidden(const Node& node, std::span<const Screen> screens) const {
+  return std::any_of(screens.begin(), screens.end(), [&](const Screen& screen) {
+    return std::all_of(screen.shadow.begin(), screen.shadow.end(), [&](const HalfSpace& space) {
+      return Reach(space, node.centre, node.half, -1) > margin_;
+    });
+  });
+}
+
+void PatchHierarchy::Find(const ConvexRegion& region, std::span<const Screen> screens,
                           std::vector<PatchId>& found) const {
   found.clear();
   for (std::size_t i = 0; i < nodes_.size();) {
@@ -62,11 +70,7 @@ void PatchHierarchy::Find(const ConvexRegion& region, std::span<const ConvexRegi
     bool out = false;
     for (std::size_t k = 0; k < region.size() && !out; ++k)
       out = Reach(region[k], node.centre, node.half, 1) < -margin_;
-    for (std::size_t s = 0; s < shadows.size() && !out; ++s)
-      out = std::all_of(shadows[s].begin(), shadows[s].end(), [&](const HalfSpace& space) {
-        return Reach(space, node.centre, node.half, -1) > margin_;
-      });
-    if (out) {
+    if (out || Hidden(node, screens)) {
       i += static_cast<std::size_t>(node.skip);
       continue;
     }
@@ -76,29 +80,53 @@ void PatchHierarchy::Find(const ConvexRegion& region, std::span<const ConvexRegi
   std::sort(found.begin(), found.end());
 }
 
-void PatchHierarchy::FindLargest(const Vec3& eye, double least, std::size_t count,
-                                 std::vector<PatchId>& found) const {
-  std::vector<std::pair<double, PatchId>> large;
-  for (std::size_t i = 0; i < nodes_.size();) {
-    const Node& node = nodes_[i];
-    const double radius = node.half.norm();
-    const double distance = std::max(0.0, (node.centre - eye).norm() - radius);
-    if (std::numbers::pi * radius * radius < least * distance * distance) {
-      i += static_cast<std::size_t>(node.skip);
-      continue;
-    }
-    if (node.count == 1) {
-      const auto p = static_cast<std::size_t>(node.first);
-      const Vec3 sight = disc_[p].centre - eye;
-      const double square = std::max(sight.squaredNorm(), disc_[p].area.norm() / (2 * std::numbers::pi));
-      const double angle = std::abs(disc_[p].area.dot(sight)) / (square * std::sqrt(square));
-      if (angle >= least) large.emplace_back(-angle, order_[p]);
-    }
-    ++i;
+ScreenFinder::ScreenFinder(const Scene& scene) : scene_(&scene) {
+  std::vector<PatchId> order(scene.patches.size());
+  std::iota(order.begin(), order.end(), 0);
+  const std::size_t count = std::min(order.size(), kMostDiscs);
+  const auto area = [&](PatchId p) { return scene.patches[static_cast<std::size_t>(p)].area; };
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+                    [&](PatchId a, PatchId b) { return area(a) != area(b) ? area(a) > area(b) : a < b; });
+  for (std::size_t i = 0; i < count; ++i) {
+    const Patch& patch = scene.patches[static_cast<std::size_t>(order[i])];
+    const Vec3 centre = Centroid(patch.Vertices());
+    patch_.push_back(order[i]);
+    for (int axis = 0; axis < 3; ++axis) centre_[axis].push_back(centre[axis]);
+    area_.push_back(patch.area);
   }
-  std::sort(large.begin(), large.end());
-  found.clear();
-  for (std::size_t i = 0; i < std::min(count, large.size()); ++i) found.push_back(large[i].second);
+}
+
+void ScreenFinder::Find(const ReceiverPoint& at, double least, std::size_t count,
+                        std::vector<Screen>& screens) const {
+  thread_local std::vector<double> angle;
+  const std::size_t size = patch_.size();
+  angle.resize(size);
+  // Not the cosine: a wall close by, seen at a flat angle from its middle, hides half of the world.
+  for (std::size_t i = 0; i < size; ++i) {
+    const double x = centre_[0][i] - at.position.x(), y = centre_[1][i] - at.position.y(),
+                 z = centre_[2][i] - at.position.z();
+    angle[i] = area_[i] / (x * x + y * y + z * z + area_[i] / (2 * std::numbers::pi));
+  }
+  thread_local std::vector<std::pair<double, std::size_t>> large;
+  large.clear();
+  for (std::size_t i = 0; i < size; ++i)
+    if (angle[i] >= least) large.emplace_back(-angle[i], i);
+  const std::size_t looked_at = std::min(4 * count, large.size());
+  std::partial_sort(large.begin(), large.begin() + static_cast<std::ptrdiff_t>(looked_at), large.end());
+  screens.clear();
+  for (std::size_t k = 0; k < looked_at && screens.size() < count; ++k) {
+    const PatchId id = patch_[large[k].second];
+    const Patch& patch = scene_->patches[static_cast<std::size_t>(id)];
+    const bool hidden = std::any_of(screens.begin(), screens.end(), [&](const Screen& screen) {
+      return std::all_of(screen.shadow.begin(), screen.shadow.end(), [&](const HalfSpace& space) {
+        return std::all_of(patch.Vertices().begin(), patch.Vertices().end(),
+                           [&](const Vec3& v) { return space.normal.dot(v) > space.offset; });
+      });
+    });
+    if (hidden) continue;
+    ConvexRegion shadow = ShadowRegion(at, patch);
+    if (!shadow.empty()) screens.push_back({id, std::move(shadow)});
+  }
 }
 
 ConvexRegion ShadowRegion(const ReceiverPoint& at, const Patch& patch) {

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,6 +23,12 @@ struct HalfSpace {
 // A convex region: what lies in all of its half-spaces.
 using ConvexRegion = std::vector<HalfSpace>;
 
+// A patch that hides all that lies in its shadow.
+struct Screen {
+  PatchId patch = kNoPatch;
+  ConvexRegion shadow;
+};
+
 class PatchHierarchy {
  public:
   PatchHierarchy() = default;
@@ -30,14 +37,10 @@ class PatchHierarchy {
 
   std::size_t size() const { return order_.size(); }
 
-  // Replaces `found` by the patches whose boxes reach into the region and do not lie in one of the shadows as
-  // a whole, ascending. Roundings count for the patches: some that just miss the region may be among them.
-  void Find(const ConvexRegion& region, std::span<const ConvexRegion> shadows,
-            std::vector<PatchId>& found) const;
-
-  // Replaces `found` by up to `count` patches that fill, by an estimate, the largest part of what is seen
-  // from `eye`, and at least `least` [sr] each.
-  void FindLargest(const Vec3& eye, double least, std::size_t count, std::vector<PatchId>& found) const;
+  // Replaces `found` by the patches whose boxes reach into the region and do not lie in the shadow of one of
+  // the screens as a whole, ascending. Roundings count for the patches: some that just miss the region may be
+  // among them.
+  void Find(const ConvexRegion& region, std::span<const Screen> screens, std::vector<PatchId>& found) const;
 
  private:
   // In depth-first order; children follow their parent. A leaf has one patch.
@@ -46,16 +49,29 @@ class PatchHierarchy {
     std::int32_t skip = 1;              // nodes in this subtree, this one counted
     std::int32_t first = 0, count = 0;  // its patches, in order_
   };
-  struct Disc {
-    Vec3 centre, area;  // area times normal [m^2]
-  };
-
+  bool Hidden(const Node& node, std::span<const Screen> screens) const;
   void Build(const Scene& scene, std::size_t first, std::size_t last);
 
   std::vector<PatchId> order_;
-  std::vector<Disc> disc_;  // of the patches, in the same order
   std::vector<Node> nodes_;
   double margin_ = 0;  // what roundings may move [m]
+};
+
+// Finds patches that hide much at once, among the largest of a scene.
+class ScreenFinder {
+ public:
+  ScreenFinder() = default;
+  explicit ScreenFinder(const Scene& scene);
+
+  // Replaces `screens` by up to `count` patches that fill a large part of what is seen from the point: by an
+  // estimate at least `least` [sr], the largest first.
+  void Find(const ReceiverPoint& at, double least, std::size_t count, std::vector<Screen>& screens) const;
+
+ private:
+  const Scene* scene_ = nullptr;
+  std::vector<PatchId> patch_;
+  std::array<std::vector<double>, 3> centre_;  // [m]
+  std::vector<double> area_;                   // [m^2]
 };
 
 // Where nothing is seen from the point because the patch stands before it; empty if its plane contains the
