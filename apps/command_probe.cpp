@@ -15,6 +15,7 @@
 #include "apps/scene_arguments.h"
 #include "apps/solve_run.h"
 #include "solver/transport/source_set.h"
+#include "solver/visibility/occlusion_method.h"
 #include "solver/visibility/patch_visibility.h"
 
 namespace penumbra {
@@ -24,8 +25,17 @@ struct ProbeArguments {
   SceneArguments scene;
   std::string points;
   std::optional<std::string> output;
+  std::string method = "auto";
   bool direct = false;
+  bool parts = false;
 };
+
+// What a probe may be told beside the options of a solve.
+nlohmann::ordered_json ProbeOptions(const ProbeArguments& arguments) {
+  return {{"method", arguments.method}, {"direct", arguments.direct}, {"parts", arguments.parts}};
+}
+
+constexpr const char* kFastest = "auto";
 
 std::vector<Measurement> Measure(const Prober& prober, const std::vector<ProbePoint>& points) {
   std::vector<Measurement> measurements;
@@ -35,16 +45,17 @@ std::vector<Measurement> Measure(const Prober& prober, const std::vector<ProbePo
 
 // Only what surfaces emit of themselves: nothing is solved.
 std::vector<Measurement> MeasureDirect(const ProbeArguments& arguments, const Scene& scene,
-                                       const std::vector<ProbePoint>& points) {
+                                       const std::vector<ProbePoint>& points,
+                                       const PointIrradianceOptions& how) {
   if (arguments.scene.verbose) {
     nlohmann::ordered_json options = OptionsUsed(arguments.scene, nullptr);
-    options["direct"] = true;
+    options.update(ProbeOptions(arguments));
     PrintOptionsUsed(options);
   }
   const PatchVisibility unused;  // which patch sees which matters on patches only; points may lie anywhere
   const SourceSet sources = SourceSet::Emitters(scene);
-  const PointIrradiance irradiance(scene, unused, sources);
-  return Measure(Prober(scene, irradiance, nullptr), points);
+  const PointIrradiance irradiance(scene, unused, sources, how);
+  return Measure(Prober(scene, irradiance, nullptr, arguments.parts), points);
 }
 
 void Probe(const ProbeArguments& arguments) {
@@ -53,20 +64,26 @@ void Probe(const ProbeArguments& arguments) {
   const LoadedScene loaded = LoadScene(arguments.scene);
   const std::vector<ProbePoint> points = ReadPointsCsv(arguments.points);
 
+  const std::unique_ptr<const OcclusionMethod> method =
+      arguments.method == kFastest ? nullptr : MakeOcclusionMethod(arguments.method);
+  PointIrradianceOptions how = arguments.scene.solving.point;
+  how.method = method.get();
+
   std::vector<Measurement> measurements;
   std::optional<SolveRun> run;
   if (arguments.direct) {
-    measurements = MeasureDirect(arguments, loaded.scene, points);
+    measurements = MeasureDirect(arguments, loaded.scene, points, how);
   } else {
-    run.emplace(arguments.scene, loaded);
+    run.emplace(arguments.scene, loaded, ProbeOptions(arguments));
     run->Run(MeshKind::kInterpolant, WantsReport(arguments.scene));
     const Pipeline& pipeline = run->pipeline();
-    measurements = Measure(Prober(loaded.scene, pipeline.irradiance(), &pipeline), points);
+    const PointIrradiance irradiance(pipeline.solution(), pipeline.visibility(), how);
+    measurements = Measure(Prober(loaded.scene, irradiance, &pipeline, arguments.parts), points);
   }
 
   const std::string warning = SurroundingsWarning(measurements);
   if (!warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
-  WriteResult(arguments.output, MeasurementsCsv(measurements));
+  WriteResult(arguments.output, MeasurementsCsv(measurements, arguments.parts));
   if (run) run->Tell();
 }
 
@@ -87,11 +104,25 @@ Command AddProbeCommand(CLI::App& program) {
   CLI::Option* direct =
       app->add_flag("--direct", arguments->direct,
                     "Only what surfaces emit of themselves; nothing is solved or interpolated");
+  app->add_flag(
+      "--parts", arguments->parts,
+      "Add the share of direct light and the gradient of the irradiance by the point's position, its "
+      "normal fixed [W/m^3]");
+  std::vector<std::string> methods = OcclusionMethodNames();
+  methods.insert(methods.begin(), kFastest);
+  app->add_option(
+         "--method", arguments->method,
+         "How occlusion is found: auto, the fastest exact one; clipping, backprojection (thesis 6.2) "
+         "and vertex-tracing (Stark and Riesenfeld 1999) are exact; sampled is what the thesis gave up")
+      ->check(CLI::IsMember(methods))
+      ->type_name("METHOD")
+      ->capture_default_str();
   AddSolveOptions(*app, &arguments->scene);
   AddReportOption(*app, &arguments->scene)->excludes(direct);
   app->footer(
       "Prints x,y,z,nx,ny,nz,patch,exact_r,exact_g,exact_b,interp_r,interp_g,interp_b, a row a point, in "
-      "order.\n"
+      "order,\n"
+      "and with --parts direct_r,direct_g,direct_b,grad_r_x,grad_r_y, ... grad_b_z.\n"
       "exact: irradiance from the whole scene [W/m^2]; interp: the interpolant's where the point lies on "
       "the\n"
       "front of a face (within 1e-6 of the scene's diagonal, normals within 1 degree), else nan; patch: the\n"

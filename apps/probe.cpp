@@ -19,6 +19,10 @@ constexpr std::size_t kBatch = 1024;    // points between two looks at the conte
 constexpr std::size_t kNamedRows = 10;  // rows that a warning names before it only counts
 constexpr double kDegree = std::numbers::pi / 180;
 
+constexpr std::string_view kPartColumns =
+    ",direct_r,direct_g,direct_b,grad_r_x,grad_r_y,grad_r_z,grad_g_x,grad_g_y,grad_g_z,grad_b_x,grad_b_y,"
+    "grad_b_z";
+
 // Unit, whatever the length; zero stays zero.
 Vec3 Normalised(const Vec3& v) {
   const double largest = MaxAbs(v);
@@ -66,10 +70,11 @@ std::string RowList(const std::vector<std::size_t>& rows) {
 
 }  // namespace
 
-Prober::Prober(const Scene& scene, const PointIrradiance& irradiance, const Pipeline* pipeline)
+Prober::Prober(const Scene& scene, const PointIrradiance& irradiance, const Pipeline* pipeline, bool parts)
     : scene_(scene),
       irradiance_(irradiance),
       pipeline_(pipeline),
+      parts_(parts),
       rays_(scene),
       reach_(kOnPatchDistance * scene.Diagonal()) {}
 
@@ -111,11 +116,16 @@ Measurement Prober::MeasureAt(const ProbePoint& point) const {
   measurement.interpolated = Rgb::Constant(kNan);
   const Vec3 normal = Normalised(point.normal);
   if (normal.isZero(0)) {
-    measurement.exact = Rgb::Constant(kNan);
+    measurement.exact = measurement.direct = Rgb::Constant(kNan);
+    measurement.gradient.setConstant(kNan);
     measurement.surroundings = Surroundings::kZeroNormal;
     return measurement;
   }
-  measurement.exact = irradiance_.Anywhere({point.position, normal, Vec3::Zero(), 0}).irradiance;
+  IrradianceParts parts;
+  measurement.exact =
+      irradiance_.Anywhere({point.position, normal, Vec3::Zero(), 0}, parts_ ? &parts : nullptr).irradiance;
+  measurement.direct = parts.direct;
+  measurement.gradient = parts.gradient;
   measurement.footing = FindFooting(point.position, normal);
   if (pipeline_ && measurement.footing.patch != kNoPatch)
     if (const std::optional<Rgb> value =
@@ -136,10 +146,11 @@ std::vector<Measurement> Prober::Measure(const std::vector<ProbePoint>& points,
   return measurements;
 }
 
-std::string MeasurementsCsv(const std::vector<Measurement>& measurements) {
+std::string MeasurementsCsv(const std::vector<Measurement>& measurements, bool parts) {
   fmt::memory_buffer csv;
   fmt::format_to(std::back_inserter(csv),
-                 "x,y,z,nx,ny,nz,patch,exact_r,exact_g,exact_b,interp_r,interp_g,interp_b\n");
+                 "x,y,z,nx,ny,nz,patch,exact_r,exact_g,exact_b,interp_r,interp_g,interp_b{}\n",
+                 parts ? kPartColumns : "");
   for (const Measurement& m : measurements) {
     fmt::format_to(std::back_inserter(csv), "{:.17g}", m.point.position.x());
     for (const double value : {m.point.position.y(), m.point.position.z(), m.point.normal.x(),
@@ -148,6 +159,11 @@ std::string MeasurementsCsv(const std::vector<Measurement>& measurements) {
     fmt::format_to(std::back_inserter(csv), ",{}", m.footing.face);
     for (const double value : m.exact) AppendNumber(value, &csv);
     for (const double value : m.interpolated) AppendNumber(value, &csv);
+    if (parts) {
+      for (const double value : m.direct) AppendNumber(value, &csv);
+      for (int channel = 0; channel < 3; ++channel)
+        for (int axis = 0; axis < 3; ++axis) AppendNumber(m.gradient(channel, axis), &csv);
+    }
     csv.push_back('\n');
   }
   return fmt::to_string(csv);

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,15 +37,18 @@ enum class Surroundings {
 struct Measurement {
   ProbePoint point;
   Footing footing;
-  Rgb exact = Rgb::Zero();         // [W/m^2]; nan where the normal is zero
+  Rgb exact = Rgb::Zero();   // [W/m^2]; nan where the normal is zero
+  Rgb direct = Rgb::Zero();  // the share in it of what surfaces emit of themselves, if asked for
+  IrradianceGradient gradient = IrradianceGradient::Zero();  // of `exact`, if asked for [W/m^3]
   Rgb interpolated = Rgb::Zero();  // [W/m^2]; nan off the fronts, and where nothing was solved
   Surroundings surroundings = Surroundings::kOpen;
 };
 
 class Prober {
  public:
-  // Without a pipeline nothing is interpolated. Everything referred to must outlive this object.
-  Prober(const Scene& scene, const PointIrradiance& irradiance, const Pipeline* pipeline);
+  // Without a pipeline nothing is interpolated. With `parts` direct light and gradients are measured, too.
+  // Everything referred to must outlive this object.
+  Prober(const Scene& scene, const PointIrradiance& irradiance, const Pipeline* pipeline, bool parts);
 
   // Measures at all points, in parallel; the same for any number of threads. What is left of the results
   // after a cancelled context is unspecified.
@@ -61,12 +65,13 @@ class Prober {
   const Scene& scene_;
   const PointIrradiance& irradiance_;
   const Pipeline* pipeline_;
+  bool parts_;
   RayCaster rays_;
   double reach_;  // [m]
 };
 
-// The measurements as CSV, a row each, all digits.
-std::string MeasurementsCsv(const std::vector<Measurement>& measurements);
+// The measurements as CSV, a row each, all digits; with `parts`, the direct light and the gradient as well.
+std::string MeasurementsCsv(const std::vector<Measurement>& measurements, bool parts);
 
 // One line that names the rows, counted from 1, where no light can be expected; empty if there are none.
 std::string SurroundingsWarning(const std::vector<Measurement>& measurements);

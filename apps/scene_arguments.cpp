@@ -87,6 +87,14 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
   AddInteger(app, "--iterations", &solving->max_iterations, 1, 1'000'000,
              "Most iterations of gathering and refining")
       ->group(group);
+  AddNumber(
+      app, "--nudge", &solving->point.nudge, kNonNegative,
+      "Move points that ask for a limit this far towards the inside of their triangle [m], as the thesis "
+      "does, instead of taking the limit; 0: limits")
+      ->group(group);
+  AddNumber(app, "--source-push-off", &solving->point.source_push_off, kNonNegative,
+            "Lift sources this far off each receiver [m], as the thesis does where they touch it; 0: not")
+      ->group(group);
   AddInteger(app, "--error-points", &solving->error_points, std::uint64_t{0}, kMaxErrorPoints,
              "Random points at which a report measures the error of the interpolants; 0 leaves that out")
       ->group(group);
@@ -117,6 +125,8 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["corrections"] = resolved->solver.max_corrections;
     options["relative_cutoff"] = resolved->solver.relative_cutoff;
     options["iterations"] = resolved->solver.max_iterations;
+    options["nudge"] = arguments.solving.point.nudge;
+    options["source_push_off"] = arguments.solving.point.source_push_off;
     options["error_points"] = arguments.solving.error_points;
   }
   return options;

@@ -101,7 +101,8 @@ void Pipeline::Solve(const ExecutionContext& context) {
         fmt::format("iterate: {} iterations left a residual of {:.2g}", impl_->report.iterations.size(),
                     impl_->report.iterations.empty() ? INFINITY : impl_->report.iterations.back().residual));
   impl_->solution = std::move(solver).TakeSolution();
-  impl_->irradiance = std::make_unique<PointIrradiance>(impl_->solution, impl_->visibility);
+  impl_->irradiance =
+      std::make_unique<PointIrradiance>(impl_->solution, impl_->visibility, impl_->options.point);
   impl_->AddPhase("iterate", iterating.Seconds());
 
   PipelineReport::Counts& counts = impl_->report.counts;

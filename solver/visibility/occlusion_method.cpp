@@ -7,8 +7,10 @@
 
 namespace penumbra {
 
+std::vector<std::string> OcclusionMethodNames() { return {"clipping"}; }
+
 std::unique_ptr<const OcclusionMethod> MakeOcclusionMethod(std::string_view name) {
-  if (name == "auto" || name == "clipping") return std::make_unique<Clipping>();
+  if (name == "clipping") return std::make_unique<Clipping>();
   throw InputError("no method is called '" + std::string(name) + "'");
 }
 

@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,10 +26,13 @@ class OcclusionMethod {
                                    const Vec3& normal) const = 0;
 };
 
-// By name: `auto`, `clipping`, `backprojection`, `vertex-tracing`, `sampled`. Throws InputError for others.
+// The names of all methods.
+std::vector<std::string> OcclusionMethodNames();
+
+// The method of that name. Throws InputError if there is none.
 std::unique_ptr<const OcclusionMethod> MakeOcclusionMethod(std::string_view name);
 
-// What `auto` stands for.
+// Clipping.
 const OcclusionMethod& FastestExactMethod();
 
 }  // namespace penumbra
