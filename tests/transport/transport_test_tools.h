@@ -6,6 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "solver/transport/hierarchical_solver.h"
 #include "solver/transport/point_irradiance.h"
 #include "solver/transport/source_set.h"
@@ -22,10 +26,25 @@ inline ReceiverPoint Receiver(const Vec3& position, const Vec3& normal, const Ve
 }
 
 // What the emitters send to a point, seen with all patches as candidates.
-inline PointIrradianceResult Direct(const Scene& scene, const ReceiverPoint& at) {
-  const SourceSet sources = SourceSet::Emitters(scene);
-  const PatchVisibility visibility;
-  return PointIrradiance(scene, visibility, sources).Anywhere(at);
+inline PointIrradianceResult Direct(const Scene& scene, const ReceiverPoint& at,
+                                    const OcclusionMethod* method = nullptr) {
+  const PatchVisibility unused;
+  PointIrradianceOptions options;
+  options.method = method;
+  return PointIrradiance(scene, unused, SourceSet::Emitters(scene), options).Anywhere(at);
+}
+
+// All exact ways to a visible form factor by name, and null: the default.
+struct NamedMethod {
+  std::string name;
+  std::unique_ptr<const OcclusionMethod> method;
+};
+inline std::vector<NamedMethod> ExactMethods() {
+  std::vector<NamedMethod> methods;
+  methods.push_back({"auto", nullptr});
+  for (const std::string& name : OcclusionMethodNames())
+    if (name != "sampled") methods.push_back({name, MakeOcclusionMethod(name)});
+  return methods;
 }
 
 inline RadiositySolution Solved(const Scene& scene, double eps, double min_area = 1e-5) {

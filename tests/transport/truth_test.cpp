@@ -6,10 +6,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "solver/scene/patch_builder.h"
 #include "solver/scene/surface_points.h"
+#include "solver/visibility/form_factor.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra {
@@ -35,158 +38,189 @@ Polygon3 ToPolygon(const json& j) {
   return polygon;
 }
 
-// Adds a convex polygon as patches: triangles and quadrilaterals as they are, others as a fan.
-void AddConvex(Scene& scene, const Polygon3& polygon, int material) {
-  if (polygon.size() <= 4) {
-    if (VectorArea(polygon).norm() > 0) scene.patches.push_back(MakePatch(polygon, material, 0, {}));
-    return;
-  }
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-    AddConvex(scene, {polygon[0], polygon[i - 1], polygon[i]}, material);
-}
-
 Polygon3 FacingTowards(Polygon3 polygon, const Vec3& point) {
   const Vec3 area = VectorArea(polygon);
   if (area.dot(point - polygon[0]) < 0) std::reverse(polygon.begin(), polygon.end());
   return polygon;
 }
 
-// True for polygons that a fan from the first vertex covers.
-bool IsConvex(const Polygon3& polygon) {
-  const Vec3 area = VectorArea(polygon);
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()],
-               &c = polygon[(i + 2) % polygon.size()];
-    if ((b - a).cross(c - b).dot(area) < 0) return false;
-  }
-  return true;
-}
-
-// Every case of occluded.json with convex polygons, to the tolerance that it states.
-TEST(Truth, OccludedLights) {
-  const json truth = Load("occluded.json");
-  if (truth.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
-  int tested = 0;
-  double worst = 0;
-  for (const json& c : truth["cases"]) {
-    Scene scene;
-    scene.materials.resize(1);
-    const Vec3 point = ToVec3(c["point"]);
-    bool convex = true;
-    for (const json& light : c["lights"]) {
-      const Polygon3 polygon = FacingTowards(ToPolygon(light["polygon"]), point);
-      convex = convex && IsConvex(polygon);
-      Material material;
-      material.emittance = Rgb::Constant(light["M"].get<double>());
-      scene.materials.push_back(material);
-      AddConvex(scene, polygon, static_cast<int>(scene.materials.size()) - 1);
-    }
-    for (const json& occluder : c["occluders"]) {
-      const Polygon3 polygon = ToPolygon(occluder);
-      convex = convex && IsConvex(polygon);
-      AddConvex(scene, polygon, 0);
-    }
-    if (!convex) continue;
-    const SourceSet sources = SourceSet::Emitters(scene);
-    const PatchVisibility visibility;
-    const PointIrradiance irradiance(scene, visibility, sources);
-    ReceiverPoint at;
-    at.position = point;
-    at.normal = ToVec3(c["normal"]).normalized();
-    const double got = irradiance.Anywhere(at).irradiance[0], want = std::stod(c["E"].get<std::string>());
-    const double allowed = std::max(c.value("atol", 0.0), c["rtol"].get<double>() * std::abs(want));
-    EXPECT_LE(std::abs(got - want), allowed)
-        << c["id"] << ": got " << got << ", want " << want << " (" << c["description"] << ")";
-    worst = std::max(worst, std::abs(got - want) / std::max(allowed, 1e-300));
-    ++tested;
-  }
-  std::printf("%d cases, worst error / tolerance %.3g\n", tested, worst);
-  EXPECT_GT(tested, 50);
-}
-
-// Adds any polygon that shines towards the point, if it has an area.
-void AddSource(Scene& scene, const Polygon3& polygon, const Vec3& point, bool two_sided) {
+// Adds any polygon, concave too, as patches, if it has an area.
+void AddPolygon(Scene& scene, const Polygon3& polygon, std::int32_t material) {
   if (VectorArea(polygon).norm() == 0) return;
   Scene one;
   one.materials = scene.materials;
   one.objects.resize(1);
-  one.faces.push_back({two_sided ? FacingTowards(polygon, point) : polygon, 0, 0});
-  if (IsConvex(one.faces[0].vertices)) {
-    AddConvex(scene, one.faces[0].vertices, 0);
-    return;
-  }
+  one.faces.push_back({polygon, material, 0});
   BuildPatches(one);
   scene.patches.insert(scene.patches.end(), one.patches.begin(), one.patches.end());
 }
 
 double ToDouble(const json& j) { return std::stod(j.get<std::string>()); }
 
-// Every case of point_polygon.json, contact and concave ones too, to the tolerance that it states.
+// Every case of occluded.json, by every exact method, to the tolerance that it states.
+TEST(Truth, OccludedLights) {
+  const json truth = Load("occluded.json");
+  if (truth.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
+  for (const auto& [name, method] : scene_test::ExactMethods()) {
+    double worst = 0;
+    for (const json& c : truth["cases"]) {
+      Scene scene;
+      scene_test::AddMaterial(scene, 0, 0);
+      const Vec3 point = ToVec3(c["point"]);
+      for (const json& light : c["lights"])
+        AddPolygon(scene, FacingTowards(ToPolygon(light["polygon"]), point),
+                   scene_test::AddMaterial(scene, 0, light["M"].get<double>()));
+      for (const json& occluder : c["occluders"]) AddPolygon(scene, ToPolygon(occluder), 0);
+      const ReceiverPoint at = scene_test::Receiver(point, ToVec3(c["normal"]));
+      const double got = scene_test::Direct(scene, at, method.get()).irradiance[0], want = ToDouble(c["E"]);
+      const double allowed = std::max(c.value("atol", 0.0), c["rtol"].get<double>() * std::abs(want));
+      EXPECT_LE(std::abs(got - want), allowed) << name << ", " << c["id"] << ": got " << got << ", want "
+                                               << want << " (" << c["description"] << ")";
+      worst = std::max(worst, std::abs(got - want) / std::max(allowed, 1e-300));
+    }
+    std::printf("%s: %zu cases, worst error / tolerance %.3g\n", name.c_str(), truth["cases"].size(), worst);
+  }
+}
+
+// Every case of point_polygon.json, contact and concave ones too, by every exact method, to the tolerance
+// that it states.
 TEST(Truth, PointsAndPolygons) {
   const json truth = Load("point_polygon.json");
   if (truth.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
-  double worst = 0;
-  for (const json& c : truth["cases"]) {
-    Scene scene;
-    scene_test::AddMaterial(scene, 0, 1);
-    const Vec3 point = ToVec3(c["point"]);
-    AddSource(scene, ToPolygon(c["polygon"]), point, !c.contains("emitter"));
-    const ReceiverPoint at = scene_test::Receiver(point, ToVec3(c["normal"]));
-    const double got = scene_test::Direct(scene, at).irradiance[0], want = ToDouble(c["F"]);
-    const double allowed = std::max(c.value("atol", 0.0), c["rtol"].get<double>() * std::abs(want));
-    EXPECT_LE(std::abs(got - want), allowed)
-        << c["id"] << ": got " << got << ", want " << want << " (" << c["description"] << ")";
-    worst = std::max(worst, std::abs(got - want) / allowed);
-    if (!c.contains("limit_from_side")) continue;
-    for (const double side : {1.0, -1.0}) {
-      Scene towards;
-      scene_test::AddMaterial(towards, 0, 1);
-      AddSource(towards, ToPolygon(c["polygon"]), point + side * Vec3::UnitY(), true);
-      const ReceiverPoint from = scene_test::Receiver(point, ToVec3(c["normal"]), Vec3(0.25, side, 0));
-      EXPECT_NEAR(scene_test::Direct(towards, from).irradiance[0], ToDouble(c["limit_from_side"]), 1e-13)
-          << c["id"] << " from side " << side;
+  for (const auto& [name, method] : scene_test::ExactMethods()) {
+    double worst = 0;
+    for (const json& c : truth["cases"]) {
+      Scene scene;
+      const std::int32_t light = scene_test::AddMaterial(scene, 0, 1);
+      const Vec3 point = ToVec3(c["point"]);
+      const Polygon3 polygon = ToPolygon(c["polygon"]);
+      AddPolygon(scene, c.contains("emitter") ? polygon : FacingTowards(polygon, point), light);
+      const ReceiverPoint at = scene_test::Receiver(point, ToVec3(c["normal"]));
+      const double got = scene_test::Direct(scene, at, method.get()).irradiance[0], want = ToDouble(c["F"]);
+      const double allowed = std::max(c.value("atol", 0.0), c["rtol"].get<double>() * std::abs(want));
+      EXPECT_LE(std::abs(got - want), allowed) << name << ", " << c["id"] << ": got " << got << ", want "
+                                               << want << " (" << c["description"] << ")";
+      worst = std::max(worst, std::abs(got - want) / allowed);
+      if (!c.contains("limit_from_side")) continue;
+      for (const double side : {1.0, -1.0}) {
+        Scene towards;
+        scene_test::AddMaterial(towards, 0, 1);
+        AddPolygon(towards, FacingTowards(polygon, point + side * Vec3::UnitY()), 0);
+        const ReceiverPoint from = scene_test::Receiver(point, ToVec3(c["normal"]), Vec3(0.25, side, 0));
+        EXPECT_NEAR(scene_test::Direct(towards, from, method.get()).irradiance[0],
+                    ToDouble(c["limit_from_side"]), 1e-13)
+            << c["id"] << " from side " << side;
+      }
     }
+    std::printf("%s: %zu cases, worst error / tolerance %.3g\n", name.c_str(), truth["cases"].size(), worst);
   }
-  std::printf("%zu cases, worst error / tolerance %.3g\n", truth["cases"].size(), worst);
 }
 
-// The cases of lighting_analytic.json that are lights, occluders (or windows and masks) and points.
+// What a point sees of the sky through a window past masks, whatever their depth: their shadows are cut out
+// of the window. No scene is like that, but the methods can be asked.
+double MaskedSky(const json& c, const ReceiverPoint& at, const OcclusionMethod& method) {
+  // The sky shines above the point's horizon, the ground below it does not.
+  const Polygon3 sky =
+      ClipToHalfSpace(FacingTowards(ToPolygon(c["window"]), at.position), Vec3::UnitZ(), at.position);
+  if (sky.empty()) return 0;
+  std::vector<Cone> cones;
+  for (const json& mask : c["masks"]) {
+    const Polygon3 polygon = FacingTowards(ToPolygon(mask), at.position);
+    cones.push_back(MakeCone(at, Seen(at, polygon, true), 24));
+  }
+  const std::vector<Occluder> occluders(cones.begin(), cones.end());
+  return method.VisibleFormFactor(ClipToHorizon(at, Seen(at, sky, true), 24), occluders, at.normal);
+}
+
+// All points of lighting_analytic.json, to the 1e-12 that it states.
 TEST(Truth, LightingAnalytic) {
   const json truth = Load("lighting_analytic.json");
   if (truth.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
-  int tested = 0;
-  double worst = 0;
-  for (const json& c : truth["cases"]) {
-    // Masks beyond their window count whatever their depth: no scene of ours is like that.
-    const bool window = c.contains("window") && c["masks"].empty();
-    if (!c.contains("points") || (!c.contains("lights") && !window)) continue;
-    for (const json& p : c["points"]) {
-      Scene scene;
-      scene_test::AddMaterial(scene, 0, 0);
-      const Vec3 point = ToVec3(p["point"]);
-      const auto add_light = [&](const Polygon3& polygon, double m) {
-        AddConvex(scene, FacingTowards(polygon, point), scene_test::AddMaterial(scene, 0, m));
-      };
-      if (window) {
-        // The sky shines above the point's horizon, the ground below it does not.
-        const Polygon3 sky = ClipToHalfSpace(ToPolygon(c["window"]), Vec3::UnitZ(), point);
-        if (!sky.empty()) add_light(sky, 1);
-      } else {
-        for (const json& light : c["lights"])
-          add_light(ToPolygon(light["polygon"]), light["M"].get<double>());
-        for (const json& occluder : c["occluders"]) AddConvex(scene, ToPolygon(occluder), 0);
+  for (const auto& [name, method] : scene_test::ExactMethods()) {
+    int tested = 0;
+    double worst = 0;
+    for (const json& c : truth["cases"]) {
+      if (!c.contains("points")) continue;
+      for (const json& p : c["points"]) {
+        const Vec3 point = ToVec3(p["point"]);
+        const ReceiverPoint at = scene_test::Receiver(point, ToVec3(p["normal"]));
+        double got = 0;
+        if (c.contains("window")) {
+          got = MaskedSky(c, at, method ? *method : FastestExactMethod());
+        } else {
+          Scene scene;
+          scene_test::AddMaterial(scene, 0, 0);
+          for (const json& light : c["lights"])
+            AddPolygon(scene, FacingTowards(ToPolygon(light["polygon"]), point),
+                       scene_test::AddMaterial(scene, 0, light["M"].get<double>()));
+          for (const json& occluder : c["occluders"]) AddPolygon(scene, ToPolygon(occluder), 0);
+          got = scene_test::Direct(scene, at, method.get()).irradiance[0];
+        }
+        const double want = ToDouble(p["E"]), allowed = c["rtol"].get<double>() * std::abs(want);
+        EXPECT_LE(std::abs(got - want), allowed)
+            << name << ", " << c["id"] << " " << p["name"] << ": got " << got << ", want " << want;
+        worst = std::max(worst, std::abs(got - want) / std::max(allowed, 1e-300));
+        ++tested;
       }
-      const double got =
-          scene_test::Direct(scene, scene_test::Receiver(point, ToVec3(p["normal"]))).irradiance[0];
-      const double want = ToDouble(p["E"]), allowed = c["rtol"].get<double>() * std::abs(want);
-      EXPECT_LE(std::abs(got - want), allowed)
-          << c["id"] << " " << p["name"] << ": got " << got << ", want " << want;
-      worst = std::max(worst, std::abs(got - want) / std::max(allowed, 1e-300));
-      ++tested;
     }
+    std::printf("%s: %d points, worst error / tolerance %.3g\n", name.c_str(), tested, worst);
+    EXPECT_GT(tested, 100);
   }
-  std::printf("%d points, worst error / tolerance %.3g\n", tested, worst);
-  EXPECT_GT(tested, 50);
+}
+
+// Nodes and weights of Gauss and Legendre's rule on [0, 1], by Newton's method.
+std::vector<std::pair<double, double>> GaussRule(int n) {
+  std::vector<std::pair<double, double>> rule;
+  for (int i = 0; i < n; ++i) {
+    double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 1;
+    for (int step = 0; step < 20; ++step) {
+      double p = 1, before = 0;
+      for (int k = 1; k <= n; ++k) {
+        const double next = ((2 * k - 1) * x * p - (k - 1) * before) / k;
+        before = p;
+        p = next;
+      }
+      slope = n * (x * p - before) / (x * x - 1);
+      x -= p / slope;
+    }
+    rule.emplace_back(0.5 * (1 + x), 1 / ((1 - x * x) * slope * slope));
+  }
+  return rule;
+}
+
+// The flux that a light in the ceiling of a room 4 x 4 x 3 sends to the floor and to each wall: the mean over
+// the light of the points' form factors, in closed form, and 1 in all.
+void ExpectFlux(const json& expected, double x0, double x1, double y0, double y1) {
+  const std::map<std::string, Polygon3> targets = {{"floor", {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}},
+                                                   {"wall_x0", {{0, 0, 0}, {0, 4, 0}, {0, 4, 3}, {0, 0, 3}}},
+                                                   {"wall_x4", {{4, 0, 0}, {4, 0, 3}, {4, 4, 3}, {4, 4, 0}}},
+                                                   {"wall_y0", {{0, 0, 0}, {0, 0, 3}, {4, 0, 3}, {4, 0, 0}}},
+                                                   {"wall_y4", {{0, 4, 0}, {4, 4, 0}, {4, 4, 3}, {0, 4, 3}}}};
+  double sum = 0;
+  for (const auto& [name, polygon] : targets) {
+    double flux = 0;
+    for (const auto& [s, ws] : GaussRule(32))
+      for (const auto& [t, wt] : GaussRule(32)) {
+        const ReceiverPoint at =
+            scene_test::Receiver({x0 + s * (x1 - x0), y0 + t * (y1 - y0), 3}, {0, 0, -1});
+        flux += ws * wt * FormFactor(ClipToHorizon(at, Seen(at, polygon, true), 4), at.normal);
+      }
+    const double want = ToDouble(expected.contains(name) ? expected[name] : expected["each_wall"]);
+    EXPECT_NEAR(flux, want, 1e-12) << name;
+    sum += flux;
+  }
+  EXPECT_NEAR(sum, 1, 1e-12);
+}
+
+TEST(Truth, FluxIsConserved) {
+  const json truth = Load("lighting_analytic.json");
+  if (truth.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
+  int tested = 0;
+  for (const json& c : truth["cases"]) {
+    if (c["id"] == "flux_conservation") ++tested, ExpectFlux(c["expected"], 1.5, 2.5, 1.5, 2.5);
+    if (c["id"] == "flux_conservation_offcentre") ++tested, ExpectFlux(c["expected"], 1, 1.5, 0.5, 2);
+  }
+  EXPECT_EQ(tested, 2);
 }
 
 // The solver is asked for links that err by at most 10 % of the radiosity over an element of 1/256 of the
