@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "solver/base/vector_dispatch.h"
 #include "solver/visibility/form_factor.h"
 
 namespace penumbra {
@@ -174,7 +175,7 @@ Clipper::Clipper() : impl_(std::make_unique<Impl>()) {}
 Clipper::~Clipper() = default;
 
 // Whether some edge of the piece has the whole cone on its outer side.
-bool Clipper::Impl::Beside(const ImageCone& cone, const Piece& piece) const {
+[[gnu::always_inline]] inline bool Clipper::Impl::Beside(const ImageCone& cone, const Piece& piece) const {
   for (int i = 0; i < piece.size; ++i) {
     const int j = i + 1 == piece.size ? 0 : i + 1;
     const double dx = piece.x[j] - piece.x[i], dy = piece.y[j] - piece.y[i];
@@ -191,7 +192,8 @@ bool Clipper::Impl::Beside(const ImageCone& cone, const Piece& piece) const {
 }
 
 // How the candidate covers the piece; for kPart its lines are those that cut the piece.
-Overlap Clipper::Impl::Classify(Candidate& candidate, const Piece& piece, const Bounds& bounds) const {
+[[gnu::always_inline]] inline Overlap Clipper::Impl::Classify(Candidate& candidate, const Piece& piece,
+                                                              const Bounds& bounds) const {
   const ImageCone& cone = cones[candidate.cone];
   if (cone.bounds.low_x >= bounds.high_x - snap || cone.bounds.high_x <= bounds.low_x + snap ||
       cone.bounds.low_y >= bounds.high_y - snap || cone.bounds.high_y <= bounds.low_y + snap)
@@ -250,6 +252,7 @@ void Clipper::Impl::Split(const Piece& piece, const ImageLine& line, std::int32_
 }
 
 // How the candidates [first, last) cover the piece; those that cover a part are pushed.
+PENUMBRA_VECTOR_CLONES
 Overlap Clipper::Impl::Narrow(const Piece& piece, std::size_t first, std::size_t last) {
   const Bounds bounds = BoundsOf(piece);
   if (piece.size < 3 || (bounds.high_x - bounds.low_x <= dust && bounds.high_y - bounds.low_y <= dust))
