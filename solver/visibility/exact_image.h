@@ -477,18 +477,33 @@ void ExactImage<Kernel>::ForEachPart(const DirectionPolygon& source, std::span<c
   int across = 0;
   normal.cwiseAbs().minCoeff(&across);
   const Vec3 t = normal.cross(Vec3::Unit(across)).normalized(), u = normal.cross(t);
-  const auto keep = [](const Polygon& polygon, const Vec3& plane) {
-    const auto height = [&](const std::array<Number, 3>& d) {
-      return d[0] * plane.x() + d[1] * plane.y() + d[2] * plane.z();
-    };
+  // Where the cut runs over the zenith it may be half a great circle, and must have a vertex there.
+  const std::array<Number, 3> zenith = {Number(normal.x()), Number(normal.y()), Number(normal.z())};
+  const auto keep = [&](const Polygon& polygon, const Vec3& plane) {
+    std::vector<Number> height;
+    for (const auto& d : polygon) height.push_back(d[0] * plane.x() + d[1] * plane.y() + d[2] * plane.z());
     Polygon kept;
+    if (std::none_of(height.begin(), height.end(), [](const Number& h) { return h > 0; })) return kept;
+    std::vector<bool> in_plane;
+    const auto add = [&](const std::array<Number, 3>& d, bool cut) {
+      kept.push_back(d);
+      in_plane.push_back(cut);
+    };
     for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const std::array<Number, 3>&a = polygon[k], &b = polygon[k + 1 == polygon.size() ? 0 : k + 1];
-      const Number ha = height(a), hb = height(b);
-      if (ha >= 0) kept.push_back(a);
+      const std::size_t next = k + 1 == polygon.size() ? 0 : k + 1;
+      const auto &a = polygon[k], &b = polygon[next];
+      const Number &ha = height[k], &hb = height[next];
+      if (ha >= 0) add(a, ha == 0);
       if (!((ha > 0 && hb < 0) || (ha < 0 && hb > 0))) continue;
       const Number wa = abs(hb), wb = abs(ha);
-      kept.push_back({wa * a[0] + wb * b[0], wa * a[1] + wb * b[1], wa * a[2] + wb * b[2]});
+      add({wa * a[0] + wb * b[0], wa * a[1] + wb * b[1], wa * a[2] + wb * b[2]}, true);
+    }
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      const std::size_t next = k + 1 == kept.size() ? 0 : k + 1;
+      const auto &a = kept[k], &b = kept[next];
+      if (!in_plane[k] || !in_plane[next] || a[0] * b[0] + a[1] * b[1] + a[2] * b[2] >= 0) continue;
+      kept.insert(kept.begin() + static_cast<std::ptrdiff_t>(k) + 1, zenith);
+      break;
     }
     return kept;
   };
