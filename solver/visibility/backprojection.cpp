@@ -113,7 +113,7 @@ BackprojectedSource Backprojection::Project(const DirectionPolygon& source,
     for (std::size_t e = 0; e < image.edges().size(); ++e) {
       const std::int32_t occluder = image.edges()[e].outline;
       const std::vector<std::int32_t>& on = image.PlacesOn(static_cast<std::int32_t>(e));
-      for (std::size_t k = 1; occluder != kSourceOutline && k < on.size(); ++k)
+      for (std::size_t k = 1; occluder >= 0 && k < on.size(); ++k)
         result.blocker_edge.push_back({first + on[k - 1], first + on[k], occluder});
     }
   });

@@ -65,8 +65,9 @@ struct ImageBox {
   }
 };
 
-// Numbers for the edges of all outlines: those of the source come first.
+// What an edge belongs to, if not to the occluder with that number.
 inline constexpr std::int32_t kSourceOutline = -1;
+inline constexpr std::int32_t kDiagonal = -2;  // between two parts of one occluder
 
 template <class Kernel>
 class ExactImage {
@@ -78,12 +79,13 @@ class ExactImage {
   // A direction as image point (x / w, y / w); behind the image plane w is negative.
   struct Homogeneous {
     Number x, y, w;
+    bool diagonal = false;  // of a corner: the edge that begins here is not the outline's own
   };
 
   // An edge of the source's or of an occluder's outline.
   struct Edge {
     Line line;                              // what the outline bounds lies on its positive side
-    std::int32_t outline = kSourceOutline;  // or the occluder's number
+    std::int32_t outline = kSourceOutline;  // or kDiagonal or the occluder's number
     bool seen = false;                      // a part of it lies in the source
     Point from, to;                         // that part
   };
@@ -204,6 +206,7 @@ class ExactImage {
   // inside.
   bool ImageSource(std::span<const std::array<Number, 3>> source);
   void ImageOccluder(const Cone& cone, std::int32_t number, double min_segment);
+  void AddOccluder(std::span<const Homogeneous> outline, std::int32_t number);
   void CollapseShort(double length, std::vector<Homogeneous>& outline) const;
   void ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge) const;
 
@@ -321,7 +324,28 @@ void ExactImage<Kernel>::ImageOccluder(const Cone& cone, std::int32_t number, do
             longest, plane_.Lift({ToDouble(p.x() - q.x(), 1e-16), ToDouble(p.y() - q.y(), 1e-16)}).norm());
     CollapseShort(min_segment * longest, outline);
   }
-  if (outline.size() < 3) return;
+  AddOccluder(outline, number);
+}
+
+template <class Kernel>
+void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::int32_t number) {
+  const std::size_t n = outline.size();
+  if (n < 3 || (n == 3 && Dot(Cross(outline[0], outline[1]), outline[2]) <= 0)) return;
+  // Three directions of nearly a half circle, one of them turned inwards by roundings: two convex halves.
+  for (std::size_t k = 0; k < n && n > 3; ++k) {
+    const std::size_t before = (k + n - 1) % n, after = (k + 1) % n;
+    if (Dot(Cross(outline[before], outline[k]), outline[after]) >= 0) continue;
+    std::vector<Homogeneous> half;
+    const std::size_t across = n / 2;
+    for (std::size_t m = 0; m <= across; ++m) half.push_back(outline[(k + m) % n]);
+    half.back().diagonal = true;
+    AddOccluder(half, number);
+    half.clear();
+    for (std::size_t m = across; m <= n; ++m) half.push_back(outline[(k + m) % n]);
+    half.back().diagonal = true;
+    AddOccluder(half, number);
+    return;
+  }
 
   // Whether an edge of the source parts it from the occluder.
   for (std::int32_t s = source_.first; s < source_.last; ++s) {
@@ -337,7 +361,7 @@ void ExactImage<Kernel>::ImageOccluder(const Cone& cone, std::int32_t number, do
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const Homogeneous &a = outline[k], &b = outline[k + 1 == outline.size() ? 0 : k + 1];
     Edge edge;
-    edge.outline = number;
+    edge.outline = a.diagonal ? kDiagonal : number;
     edge.line = LineThrough(a, b);
     if (!edge.line.is_degenerate()) {
       ClipToSource(a, b, edge);
