@@ -144,10 +144,10 @@ class ExactImage {
     return on_edge_[static_cast<std::size_t>(edge)];
   }
 
-  // A number to the nearest double, nearly: what is wrong is less than `accuracy` or than its last digits.
+  // A number in doubles: off by less than `accuracy` or than its last digits.
   static double ToDouble(const Number& number, double accuracy) {
     auto [low, high] = to_interval(number);
-    if (high - low > std::max(accuracy, kLastDigits * std::abs(low + high))) {
+    if (high - low > std::max(2 * accuracy, kLastDigits * std::abs(low + high))) {
       number.exact();
       std::tie(low, high) = to_interval(number);
     }
@@ -157,8 +157,9 @@ class ExactImage {
  private:
   static constexpr double kLastDigits = 2 * std::numeric_limits<double>::epsilon();
 
-  // Offsets of places are off by less than this, relative to the diameter of the source.
-  static constexpr double kOffsetAccuracy = 1e-15;
+  // Offsets of places are off by less than this, relative to the diameter of the source. Their intervals
+  // usually are as narrow; where not, exact numbers are called for.
+  static constexpr double kOffsetAccuracy = 1e-14;
 
   // Below this diameter of the source, in the image, intervals about the lines are narrowed first: crossings
   // computed from them then keep their digits without exact numbers.
@@ -235,9 +236,9 @@ bool ExactImage<Kernel>::ImageSource(std::span<const std::array<Number, 3>> sour
   const auto image = [&](const std::array<Number, 3>& d) {
     return ToImage(coordinate(d, plane_.i), coordinate(d, plane_.j), coordinate(d, plane_.k));
   };
-  // The origin is the first vertex, in doubles, so that a tiny far source keeps its digits.
+  // The origin is the first vertex, nearly, so that a tiny far source keeps its digits.
   const Homogeneous first = image(source[0]);
-  plane_.origin = {ToDouble(first.x / first.w, 1e-16), ToDouble(first.y / first.w, 1e-16)};
+  plane_.origin = {ToDouble(first.x / first.w, 1), ToDouble(first.y / first.w, 1)};
 
   std::vector<Point> points;
   for (const std::array<Number, 3>& d : source) {

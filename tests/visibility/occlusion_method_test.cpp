@@ -232,7 +232,7 @@ Summary CompareAll(const char* name, Generator make, std::uint64_t seed, std::si
   return s;
 }
 
-TEST(OcclusionMethod, RandomSizes) { CompareAll("random sizes", RandomSizes, 601, 30000); }
+TEST(OcclusionMethod, RandomSizes) { CompareAll("random sizes", RandomSizes, 601, 3000); }
 TEST(OcclusionMethod, OnGrid) { CompareAll("grid", OnGrid, 602, 2000); }
 TEST(OcclusionMethod, Room) { CompareAll("room", Room, 603, 500); }
 TEST(OcclusionMethod, TurnedRoom) { CompareAll("turned room", TurnedRoom, 604, 500); }
