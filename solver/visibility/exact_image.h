@@ -87,7 +87,7 @@ class ExactImage {
     Line line;                              // what the outline bounds lies on its positive side
     std::int32_t outline = kSourceOutline;  // or kDiagonal or the occluder's number
     bool seen = false;                      // a part of it lies in the source
-    Point from, to;                         // that part
+    std::size_t from = 0, to = 0;           // that part, as points of this image
   };
 
   // A convex region bounded by the lines of edges[first ... last - 1].
@@ -144,6 +144,14 @@ class ExactImage {
     return on_edge_[static_cast<std::size_t>(edge)];
   }
 
+  // On which side of an edge's line a place lies: 1 on that of its outline, 0 on it.
+  int SideOf(std::int32_t edge, std::int32_t place) const {
+    const std::vector<std::int32_t>& on = PlacesOn(edge);
+    if (std::binary_search(on.begin(), on.end(), place)) return 0;
+    return edges_[static_cast<std::size_t>(edge)].line.oriented_side(
+        places_[static_cast<std::size_t>(place)].point);
+  }
+
   // A number in doubles: off by less than `accuracy` or than its last digits.
   static double ToDouble(const Number& number, double accuracy) {
     auto [low, high] = to_interval(number);
@@ -195,6 +203,12 @@ class ExactImage {
     return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
   }
 
+  std::size_t AddPoint(const Point& point) {
+    if (diameter_ < kSmallSource) point.exact();
+    point_.push_back(point);
+    return point_.size() - 1;
+  }
+
   static Point Crossing(const Line& a, const Line& b) {
     const auto meeting = intersection(a, b);
     PENUMBRA_CHECK(meeting);
@@ -209,18 +223,20 @@ class ExactImage {
   void ImageOccluder(const Cone& cone, std::int32_t number, double min_segment);
   void AddOccluder(std::span<const Homogeneous> outline, std::int32_t number);
   void CollapseShort(double length, std::vector<Homogeneous>& outline) const;
-  void ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge) const;
+  void ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge);
 
-  struct Found {
-    Point point;
+  // That a point lies on an edge.
+  struct Incidence {
+    std::size_t point;
     std::int32_t edge;
   };
-  void Meet(std::int32_t a, std::int32_t b, std::vector<Found>& found) const;
+  void Meet(std::int32_t a, std::int32_t b);
   void FindPlaces();
 
   ImagePlane plane_;
   double diameter_ = 0;
-  std::vector<Point> corner_;
+  std::vector<Point> point_;  // ends and crossings of edges, some in the same place
+  std::vector<Incidence> incidence_;
   Outline source_;
   std::vector<Outline> occluders_;
   std::vector<Edge> edges_;
@@ -251,29 +267,28 @@ bool ExactImage<Kernel>::ImageSource(std::span<const std::array<Number, 3>> sour
     diameter_ = std::max({diameter_, std::abs(p.bbox().xmax()), std::abs(p.bbox().xmin()),
                           std::abs(p.bbox().ymax()), std::abs(p.bbox().ymin())});
   if (points.size() < 3) return false;
-  if (diameter_ < kSmallSource)
-    for (const Point& p : points) p.exact();
 
   // Lower hull, then upper hull.
+  std::vector<Point> hull;
   const auto extend = [&](const Point& p, std::size_t least) {
-    while (corner_.size() > least && !left_turn(corner_[corner_.size() - 2], corner_.back(), p))
-      corner_.pop_back();
-    corner_.push_back(p);
+    while (hull.size() > least && !left_turn(hull[hull.size() - 2], hull.back(), p)) hull.pop_back();
+    hull.push_back(p);
   };
   for (const Point& p : points) extend(p, 1);
-  const std::size_t lower = corner_.size();
+  const std::size_t lower = hull.size();
   for (std::size_t k = points.size() - 1; k-- > 0;) extend(points[k], lower);
-  corner_.pop_back();
-  if (corner_.size() < 3) return false;
+  hull.pop_back();
+  if (hull.size() < 3) return false;
 
-  for (std::size_t k = 0; k < corner_.size(); ++k) {
+  for (const Point& p : hull) AddPoint(p);
+  for (std::size_t k = 0; k < hull.size(); ++k) {
     Edge& edge = edges_.emplace_back();
-    edge.from = corner_[k];
-    edge.to = corner_[k + 1 == corner_.size() ? 0 : k + 1];
-    edge.line = Line(edge.from, edge.to);
+    edge.from = k;
+    edge.to = k + 1 == hull.size() ? 0 : k + 1;
+    edge.line = Line(hull[edge.from], hull[edge.to]);
     if (diameter_ < kSmallSource) edge.line.exact();
     edge.seen = true;
-    source_.box = Join(source_.box, BoxOf(edge.from));
+    source_.box = Join(source_.box, BoxOf(hull[k]));
   }
   source_.last = static_cast<std::int32_t>(edges_.size());
   return true;
@@ -319,8 +334,8 @@ void ExactImage<Kernel>::ImageOccluder(const Cone& cone, std::int32_t number, do
   }
   if (min_segment > 0) {
     double longest = 0;
-    for (const Point& p : corner_)
-      for (const Point& q : corner_)
+    for (const Point& p : point_)
+      for (const Point& q : point_)
         longest = std::max(
             longest, plane_.Lift({ToDouble(p.x() - q.x(), 1e-16), ToDouble(p.y() - q.y(), 1e-16)}).norm());
     CollapseShort(min_segment * longest, outline);
@@ -365,8 +380,8 @@ void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::
     edge.outline = a.diagonal ? kDiagonal : number;
     edge.line = LineThrough(a, b);
     if (!edge.line.is_degenerate()) {
-      ClipToSource(a, b, edge);
       edges_.push_back(edge);
+      ClipToSource(a, b, edges_.back());
     }
     before = before && a.w > 0;
     if (before) region.box = Join(region.box, BoxOf(Point(a.x / a.w, a.y / a.w)));
@@ -375,97 +390,129 @@ void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::
   if (!before) region.box = source_.box;
 }
 
-// The part of the edge from a to b that lies in the source.
+// The part of the last edge, which runs from a to b, that lies in the source.
 template <class Kernel>
-void ExactImage<Kernel>::ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge) const {
-  Homogeneous from = a, to = b;
-  std::int32_t from_cut = -1, to_cut = -1;
+void ExactImage<Kernel>::ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge) {
+  struct End {
+    Homogeneous at;
+    std::int32_t cut = -1;         // by this edge of the source
+    std::vector<std::int32_t> on;  // lies on these edges of the source
+  };
+  End from, to;
+  from.at = a;
+  to.at = b;
+  std::int32_t along = -1;
   for (std::int32_t s = source_.first; s < source_.last; ++s) {
     const Line& line = edges_[static_cast<std::size_t>(s)].line;
-    const Number hf = Height(line, from), ht = Height(line, to);
+    const Number hf = Height(line, from.at), ht = Height(line, to.at);
     if (hf <= 0 && ht <= 0) {
-      // It may still run along the edge of the source.
-      if (!(hf == 0 && ht == 0)) return;
+      if (hf < 0 || ht < 0) return;
+      along = s;
       continue;
     }
+    if (hf == 0) from.on.push_back(s);
+    if (ht == 0) to.on.push_back(s);
     if (hf >= 0 && ht >= 0) continue;
     const Number wf = hf < 0 ? ht : -ht, wt = hf < 0 ? -hf : hf;
-    const Homogeneous cut = {wf * from.x + wt * to.x, wf * from.y + wt * to.y, wf * from.w + wt * to.w};
-    (hf < 0 ? from : to) = cut;
-    (hf < 0 ? from_cut : to_cut) = s;
+    End& cut = hf < 0 ? from : to;
+    cut.at = {wf * from.at.x + wt * to.at.x, wf * from.at.y + wt * to.at.y, wf * from.at.w + wt * to.at.w};
+    cut.cut = s;
+    cut.on.assign(1, s);
   }
-  const auto end = [&](const Homogeneous& h, std::int32_t cut) {
-    return cut < 0 ? Point(h.x / h.w, h.y / h.w)
-                   : Crossing(edge.line, edges_[static_cast<std::size_t>(cut)].line);
+  const auto number = static_cast<std::int32_t>(edges_.size()) - 1;
+  const auto add = [&](const End& end) {
+    const std::size_t point =
+        AddPoint(end.cut < 0 ? Point(end.at.x / end.at.w, end.at.y / end.at.w)
+                             : Crossing(edge.line, edges_[static_cast<std::size_t>(end.cut)].line));
+    for (const std::int32_t s : end.on) incidence_.push_back({point, s});
+    return point;
   };
-  edge.from = end(from, from_cut);
-  edge.to = end(to, to_cut);
-  if (diameter_ < kSmallSource) edge.from.exact(), edge.to.exact();
-  edge.seen = edge.from != edge.to;
+  edge.from = add(from);
+  edge.to = add(to);
+  // Only a corner of the source may be touched at both ends.
+  edge.seen = from.on.empty() || to.on.empty() || point_[edge.from] != point_[edge.to];
+  if (along >= 0) Meet(number, along);
 }
 
-// The points that what is seen of two edges has in common, but for ends of both.
+// Finds the points that what is seen of two edges has in common, but for ends of both.
 template <class Kernel>
-void ExactImage<Kernel>::Meet(std::int32_t ia, std::int32_t ib, std::vector<Found>& found) const {
+void ExactImage<Kernel>::Meet(std::int32_t ia, std::int32_t ib) {
   const Edge &a = edges_[static_cast<std::size_t>(ia)], &b = edges_[static_cast<std::size_t>(ib)];
-  const auto sa = a.line.oriented_side(b.from), ta = a.line.oriented_side(b.to);
+  const auto side = [&](const Edge& e, std::size_t p) { return e.line.oriented_side(point_[p]); };
+  const auto sa = side(a, b.from), ta = side(a, b.to);
   if (sa == ta && sa != 0) return;
-  const auto sb = b.line.oriented_side(a.from), tb = b.line.oriented_side(a.to);
+  const auto sb = side(b, a.from), tb = side(b, a.to);
   if (sb == tb && sb != 0) return;
-  const auto between = [](const Edge& e, const Point& p) {
-    return (e.from < p && p < e.to) || (e.to < p && p < e.from);
+  const auto add_between = [&](std::size_t p, const Edge& e, std::int32_t edge) {
+    const Point &at = point_[p], &from = point_[e.from], &to = point_[e.to];
+    if ((from < at && at < to) || (to < at && at < from)) incidence_.push_back({p, edge});
   };
-  if (sa == 0 && between(a, b.from)) found.push_back({b.from, ia});
-  if (ta == 0 && between(a, b.to)) found.push_back({b.to, ia});
-  if (sb == 0 && between(b, a.from)) found.push_back({a.from, ib});
-  if (tb == 0 && between(b, a.to)) found.push_back({a.to, ib});
+  if (sa == 0) add_between(b.from, a, ia);
+  if (ta == 0) add_between(b.to, a, ia);
+  if (sb == 0) add_between(a.from, b, ib);
+  if (tb == 0) add_between(a.to, b, ib);
   if (sa == 0 || ta == 0 || sb == 0 || tb == 0) return;
-  const Point crossing = Crossing(a.line, b.line);
-  found.push_back({crossing, ia});
-  found.push_back({crossing, ib});
+  point_.push_back(Crossing(a.line, b.line));
+  incidence_.push_back({point_.size() - 1, ia});
+  incidence_.push_back({point_.size() - 1, ib});
 }
 
 template <class Kernel>
 void ExactImage<Kernel>::FindPlaces() {
-  const auto count = static_cast<std::int32_t>(edges_.size());
-  std::vector<Found> found;
   struct Box {
     ImageBox box;
-    std::int32_t edge;
+    std::int32_t edge, outline;
   };
   std::vector<Box> boxes;
-  for (std::int32_t e = 0; e < count; ++e) {
-    const Edge& edge = edges_[static_cast<std::size_t>(e)];
-    if (!edge.seen) continue;
-    found.push_back({edge.from, e});
-    found.push_back({edge.to, e});
-    boxes.push_back({Join(BoxOf(edge.from), BoxOf(edge.to)), e});
+  for (std::int32_t e = 0; e < source_.last; ++e) {
+    incidence_.push_back({edges_[static_cast<std::size_t>(e)].from, e});
+    incidence_.push_back({edges_[static_cast<std::size_t>(e)].to, e});
   }
-  // Candidates by a sweep over the boxes, which are rounded outwards.
+  for (std::size_t o = 0; o < occluders_.size(); ++o)
+    for (std::int32_t e = occluders_[o].first; e < occluders_[o].last; ++e) {
+      const Edge& edge = edges_[static_cast<std::size_t>(e)];
+      if (!edge.seen) continue;
+      incidence_.push_back({edge.from, e});
+      incidence_.push_back({edge.to, e});
+      boxes.push_back(
+          {Join(BoxOf(point_[edge.from]), BoxOf(point_[edge.to])), e, static_cast<std::int32_t>(o)});
+    }
+  // Candidates by a sweep over the boxes, which are rounded outwards. An outline does not cross itself, and
+  // where it meets the source is known.
   std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) {
     return a.box.low.x() != b.box.low.x() ? a.box.low.x() < b.box.low.x() : a.edge < b.edge;
   });
   for (std::size_t k = 0; k < boxes.size(); ++k)
     for (std::size_t m = k + 1; m < boxes.size() && boxes[m].box.low.x() <= boxes[k].box.high.x(); ++m)
-      if (boxes[k].box.Meets(boxes[m].box)) Meet(boxes[k].edge, boxes[m].edge, found);
+      if (boxes[k].outline != boxes[m].outline && boxes[k].box.Meets(boxes[m].box))
+        Meet(boxes[k].edge, boxes[m].edge);
 
-  std::vector<std::size_t> order(found.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::vector<std::size_t> order;
+  std::vector<bool> used(point_.size(), false);
+  for (const Incidence& i : incidence_) {
+    if (!used[i.point]) order.push_back(i.point);
+    used[i.point] = true;
+  }
   std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return found[a].point < found[b].point; });
-  on_edge_.resize(edges_.size());
+            [&](std::size_t a, std::size_t b) { return a != b && point_[a] < point_[b]; });
+  std::vector<std::int32_t> place_of(point_.size(), -1);
   for (const std::size_t k : order) {
-    const Found& f = found[k];
-    if (places_.empty() || places_.back().point != f.point) {
+    const Point& point = point_[k];
+    if (places_.empty() || places_.back().point != point) {
       Place& place = places_.emplace_back();
-      place.point = f.point;
-      place.offset = {ToDouble(f.point.x(), kOffsetAccuracy * diameter_),
-                      ToDouble(f.point.y(), kOffsetAccuracy * diameter_)};
-      place.box = BoxOf(f.point);
+      place.point = point;
+      place.offset = {ToDouble(point.x(), kOffsetAccuracy * diameter_),
+                      ToDouble(point.y(), kOffsetAccuracy * diameter_)};
+      place.box = BoxOf(point);
     }
-    auto& on = on_edge_[static_cast<std::size_t>(f.edge)];
-    const auto number = static_cast<std::int32_t>(places_.size()) - 1;
-    if (on.empty() || on.back() != number) on.push_back(number);
+    place_of[k] = static_cast<std::int32_t>(places_.size()) - 1;
+  }
+  on_edge_.resize(edges_.size());
+  for (const Incidence& i : incidence_)
+    on_edge_[static_cast<std::size_t>(i.edge)].push_back(place_of[i.point]);
+  for (std::vector<std::int32_t>& on : on_edge_) {
+    std::sort(on.begin(), on.end());
+    on.erase(std::unique(on.begin(), on.end()), on.end());
   }
 }
 

@@ -89,13 +89,13 @@ class Tracer {
   }
 
   // What an outline covers of the directions about a place: a half circle at an edge, a sector at a corner.
-  Cover CoverAbout(const Image::Outline& outline, const Image::Place& place, Ray& begin, Ray& end) {
-    if (!outline.box.Meets(place.box)) return Cover::kNone;
+  Cover CoverAbout(const Image::Outline& outline, std::int32_t place, Ray& begin, Ray& end) {
+    if (!outline.box.Meets(image_.places()[static_cast<std::size_t>(place)].box)) return Cover::kNone;
     std::int32_t in = -1, out = -1;
     for (std::int32_t e = outline.first; e < outline.last; ++e) {
-      const auto side = image_.edges()[static_cast<std::size_t>(e)].line.oriented_side(place.point);
-      if (side == CGAL::NEGATIVE) return Cover::kNone;
-      if (side == CGAL::POSITIVE) continue;
+      const int side = image_.SideOf(e, place);
+      if (side < 0) return Cover::kNone;
+      if (side > 0) continue;
       if (in < 0) {
         in = out = e;
         continue;
@@ -109,15 +109,14 @@ class Tracer {
     return Cover::kSpan;
   }
 
-  void TracePlace(std::int32_t number, std::vector<Border>& borders);
+  void TracePlace(std::int32_t place, std::vector<Border>& borders);
 
   const Image& image_;
   std::vector<LineRays> lines_;
   std::vector<End> ends_;
 };
 
-void Tracer::TracePlace(std::int32_t number, std::vector<Border>& borders) {
-  const Image::Place& place = image_.places()[static_cast<std::size_t>(number)];
+void Tracer::TracePlace(std::int32_t place, std::vector<Border>& borders) {
   ends_.clear();
   Ray begin, end;
   const bool inside = CoverAbout(image_.source(), place, begin, end) == Cover::kAll;
@@ -156,7 +155,7 @@ void Tracer::TracePlace(std::int32_t number, std::vector<Border>& borders) {
       line = std::min(line, ends_[k].ray.edge);
     }
     const bool after = in_source > 0 && occluders == 0;
-    if (before != after) borders.push_back({line, number, Ascends(ray), after});
+    if (before != after) borders.push_back({line, place, Ascends(ray), after});
   }
 }
 
