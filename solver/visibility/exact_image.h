@@ -120,6 +120,8 @@ class ExactImage {
   static void ForEachPart(const DirectionPolygon& source, std::span<const Occluder> occluders,
                           const Vec3& normal, double min_segment, const Body& body);
 
+  static constexpr double kNormalError = 1e-15;
+
   bool empty() const { return source_.last == 0; }
   const ImagePlane& plane() const { return plane_; }
   // Source first, then the occluders that the source's edges do not part from it.
@@ -127,10 +129,11 @@ class ExactImage {
   const std::vector<Outline>& occluders() const { return occluders_; }
   const std::vector<Edge>& edges() const { return edges_; }
   // The normal of the plane through the viewpoint that is seen as the line; it points to the positive side.
+  // Off by kNormalError of its length at most.
   Vec3 NormalOf(const Line& line) const {
     const Number a = line.a(), b = line.b(), c = line.c() - a * plane_.origin.x() - b * plane_.origin.y();
     const double size = std::abs(ToDouble(a, 0)) + std::abs(ToDouble(b, 0)) + std::abs(ToDouble(c, 0));
-    const double accuracy = 1e-17 * size;
+    const double accuracy = kNormalError * size;
     Vec3 normal = ToDouble(c, accuracy) * plane_.axis;
     normal[plane_.i] = ToDouble(a + c * plane_.axis[plane_.i], accuracy);
     normal[plane_.j] = ToDouble(b + c * plane_.axis[plane_.j], accuracy);
@@ -143,6 +146,9 @@ class ExactImage {
   const std::vector<std::int32_t>& PlacesOn(std::int32_t edge) const {
     return on_edge_[static_cast<std::size_t>(edge)];
   }
+
+  // How far the offset of a place may be off, in each coordinate.
+  double offset_error() const { return kOffsetAccuracy * diameter_; }
 
   // On which side of an edge's line a place lies: 1 on that of its outline, 0 on it.
   int SideOf(std::int32_t edge, std::int32_t place) const {
@@ -165,9 +171,11 @@ class ExactImage {
  private:
   static constexpr double kLastDigits = 2 * std::numeric_limits<double>::epsilon();
 
+  static constexpr std::size_t kNoPoint = std::numeric_limits<std::size_t>::max();
+
   // Offsets of places are off by less than this, relative to the diameter of the source. Their intervals
   // usually are as narrow; where not, exact numbers are called for.
-  static constexpr double kOffsetAccuracy = 1e-14;
+  static constexpr double kOffsetAccuracy = 2e-15;
 
   // Below this diameter of the source, in the image, intervals about the lines are narrowed first: crossings
   // computed from them then keep their digits without exact numbers.
@@ -223,7 +231,8 @@ class ExactImage {
   void ImageOccluder(const Cone& cone, std::int32_t number, double min_segment);
   void AddOccluder(std::span<const Homogeneous> outline, std::int32_t number);
   void CollapseShort(double length, std::vector<Homogeneous>& outline) const;
-  void ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge);
+  void ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge, std::size_t& point_a,
+                    std::size_t& point_b);
 
   // That a point lies on an edge.
   struct Incidence {
@@ -373,6 +382,7 @@ void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::
 
   Outline& region = occluders_.emplace_back();
   region.first = static_cast<std::int32_t>(edges_.size());
+  std::vector<std::size_t> corner_point(n, kNoPoint);
   bool before = true;
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const Homogeneous &a = outline[k], &b = outline[k + 1 == outline.size() ? 0 : k + 1];
@@ -381,7 +391,7 @@ void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::
     edge.line = LineThrough(a, b);
     if (!edge.line.is_degenerate()) {
       edges_.push_back(edge);
-      ClipToSource(a, b, edges_.back());
+      ClipToSource(a, b, edges_.back(), corner_point[k], corner_point[k + 1 == n ? 0 : k + 1]);
     }
     before = before && a.w > 0;
     if (before) region.box = Join(region.box, BoxOf(Point(a.x / a.w, a.y / a.w)));
@@ -390,9 +400,11 @@ void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::
   if (!before) region.box = source_.box;
 }
 
-// The part of the last edge, which runs from a to b, that lies in the source.
+// The part of the last edge, which runs from a to b, that lies in the source. The corners' points, once
+// found, are shared by neighbouring edges.
 template <class Kernel>
-void ExactImage<Kernel>::ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge) {
+void ExactImage<Kernel>::ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge,
+                                      std::size_t& point_a, std::size_t& point_b) {
   struct End {
     Homogeneous at;
     std::int32_t cut = -1;         // by this edge of the source
@@ -420,15 +432,17 @@ void ExactImage<Kernel>::ClipToSource(const Homogeneous& a, const Homogeneous& b
     cut.on.assign(1, s);
   }
   const auto number = static_cast<std::int32_t>(edges_.size()) - 1;
-  const auto add = [&](const End& end) {
+  const auto add = [&](const End& end, std::size_t& corner) {
+    if (end.cut < 0 && corner != kNoPoint) return corner;
     const std::size_t point =
         AddPoint(end.cut < 0 ? Point(end.at.x / end.at.w, end.at.y / end.at.w)
                              : Crossing(edge.line, edges_[static_cast<std::size_t>(end.cut)].line));
+    if (end.cut < 0) corner = point;
     for (const std::int32_t s : end.on) incidence_.push_back({point, s});
     return point;
   };
-  edge.from = add(from);
-  edge.to = add(to);
+  edge.from = add(from, point_a);
+  edge.to = add(to, point_b);
   // Only a corner of the source may be touched at both ends.
   edge.seen = from.on.empty() || to.on.empty() || point_[edge.from] != point_[edge.to];
   if (along >= 0) Meet(number, along);
@@ -501,8 +515,7 @@ void ExactImage<Kernel>::FindPlaces() {
     if (places_.empty() || places_.back().point != point) {
       Place& place = places_.emplace_back();
       place.point = point;
-      place.offset = {ToDouble(point.x(), kOffsetAccuracy * diameter_),
-                      ToDouble(point.y(), kOffsetAccuracy * diameter_)};
+      place.offset = {ToDouble(point.x(), offset_error()), ToDouble(point.y(), offset_error())};
       place.box = BoxOf(point);
     }
     place_of[k] = static_cast<std::int32_t>(places_.size()) - 1;

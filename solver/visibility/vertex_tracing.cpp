@@ -174,7 +174,7 @@ void Tracer::TracePlace(std::int32_t place, std::vector<Border>& borders) {
 bool AddByFormula(const Image& image, const std::vector<Border>& borders, const Vec3& normal, double error,
                   double& sum) {
   constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
-  constexpr double kVertexError = 2e-15;  // of a vertex's offset, against the unit distance of the image
+  if (error < kUnit) return false;  // out of reach
   const Vec3 base = image.plane().Base();
   std::int32_t line = -1;
   Vec3 axis = Vec3::Zero(), rise = Vec3::Zero();
@@ -194,7 +194,8 @@ bool AddByFormula(const Image& image, const std::vector<Border>& borders, const 
         base + image.plane().Lift(image.places()[static_cast<std::size_t>(border.place)].offset);
     const double angle = std::atan2(vertex.dot(rise), vertex.dot(normal));
     total += border.left ? -cosine * angle : cosine * angle;
-    bound += kUnit * 4 * std::abs(angle) + std::abs(cosine) / sine * (5 * kUnit + kVertexError);
+    bound += (4 * kUnit + Image::kNormalError) * std::abs(angle) +
+             std::abs(cosine) / sine * (5 * kUnit + 2 * image.offset_error());
     if (!(bound * 0.5 * std::numbers::inv_pi <= error)) return false;
   }
   sum += total * 0.5 * std::numbers::inv_pi;
