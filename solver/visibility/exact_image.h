@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -120,7 +121,7 @@ class ExactImage {
   static void ForEachPart(const DirectionPolygon& source, std::span<const Occluder> occluders,
                           const Vec3& normal, double min_segment, const Body& body);
 
-  static constexpr double kNormalError = 1e-15;
+  static constexpr double kNormalError = 5e-16;
 
   bool empty() const { return source_.last == 0; }
   const ImagePlane& plane() const { return plane_; }
@@ -129,11 +130,12 @@ class ExactImage {
   const std::vector<Outline>& occluders() const { return occluders_; }
   const std::vector<Edge>& edges() const { return edges_; }
   // The normal of the plane through the viewpoint that is seen as the line; it points to the positive side.
-  // Off by kNormalError of its length at most.
+  // Each coordinate is off by kNormalError at most, relative to the sum of those of the line.
   Vec3 NormalOf(const Line& line) const {
     const Number a = line.a(), b = line.b(), c = line.c() - a * plane_.origin.x() - b * plane_.origin.y();
-    const double size = std::abs(ToDouble(a, 0)) + std::abs(ToDouble(b, 0)) + std::abs(ToDouble(c, 0));
-    const double accuracy = kNormalError * size;
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    const double accuracy = kNormalError * (std::abs(ToDouble(a, kAny)) + std::abs(ToDouble(b, kAny)) +
+                                            std::abs(ToDouble(c, kAny)));
     Vec3 normal = ToDouble(c, accuracy) * plane_.axis;
     normal[plane_.i] = ToDouble(a + c * plane_.axis[plane_.i], accuracy);
     normal[plane_.j] = ToDouble(b + c * plane_.axis[plane_.j], accuracy);

@@ -194,7 +194,7 @@ bool AddByFormula(const Image& image, const std::vector<Border>& borders, const 
         base + image.plane().Lift(image.places()[static_cast<std::size_t>(border.place)].offset);
     const double angle = std::atan2(vertex.dot(rise), vertex.dot(normal));
     total += border.left ? -cosine * angle : cosine * angle;
-    bound += (4 * kUnit + Image::kNormalError) * std::abs(angle) +
+    bound += (4 * kUnit + 2 * Image::kNormalError) * std::abs(angle) +
              std::abs(cosine) / sine * (5 * kUnit + 2 * image.offset_error());
     if (!(bound * 0.5 * std::numbers::inv_pi <= error)) return false;
   }
