@@ -16,14 +16,15 @@ namespace {
 
 // A vertex this near to a line, relative to the source's image, lies on it. Lines coincide all the time, and
 // slivers cut off by rounding would go on to be cut. Moves what is visible by as much of the source.
-constexpr double kSnap = 32 * std::numeric_limits<double>::epsilon();
+constexpr double kSnap = 8 * std::numeric_limits<double>::epsilon();
 
 // A piece no larger than this, relative to the source's image, is where lines that should meet in a point
 // cross in three.
-constexpr double kDust = 1e4 * kSnap;
+constexpr double kDust = 4e4 * kSnap;
 
-// In a smaller image the roundings of a line's distance count for more than kSnap.
-constexpr double kFineImage = 0.1;
+// In a smaller image the roundings of a line's distance count for more than kSnap, and are taken with more
+// digits.
+constexpr double kFineImage = 0.25, kFinestImage = 1e-4;
 
 // With more occluders than this a piece is halved rather than cut along one of them: each half is left with
 // fewer.
@@ -112,7 +113,7 @@ struct Work {
   int halvings;  // that may still be done because of a crowd
 };
 
-ImageCone MakeImageCone(const ImageFrame& frame, const Occluder& occluder, std::size_t index, bool fine) {
+ImageCone MakeImageCone(const ImageFrame& frame, const Occluder& occluder, std::size_t index, Digits digits) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   // Nearer to the horizon of the image than this, coordinates are left alone.
   constexpr double kLeastHeight = 1e-9;
@@ -124,9 +125,9 @@ ImageCone MakeImageCone(const ImageFrame& frame, const Occluder& occluder, std::
   image.bounds = {kInfinity, -kInfinity, kInfinity, -kInfinity};
   bool behind = false;
   for (int k = 0; k < image.padded; ++k) {
-    // Everything lies within lines that are known not to cut, and within none at all.
-    const bool cuts = k < cone.size && (occluder.planes >> k & 1U) != 0;
-    const ImageLine line = cuts ? frame.Line(cone, k, fine) : ImageLine{0, 0, kInfinity};
+    // Everything lies within what fills up a group.
+    const bool is_line = k < cone.size;
+    const ImageLine line = is_line ? frame.Line(cone, k, digits) : ImageLine{0, 0, kInfinity};
     image.a[k] = line.a;
     image.b[k] = line.b;
     image.h[k] = line.h;
@@ -361,9 +362,12 @@ Clipper::Candidates Clipper::Begin(const ImageFrame& frame, const DirectionPolyg
   impl.visible.Clear();
   impl.cones.clear();
   impl.candidates.clear();
+  const Digits digits = reach < kFinestImage ? Digits::kQuadruple
+                        : reach < kFineImage ? Digits::kExtended
+                                             : Digits::kDouble;
   for (std::size_t i = 0; i < occluders.size(); ++i) {
-    impl.cones.push_back(MakeImageCone(frame, occluders[i], i, reach < kFineImage));
-    impl.candidates.push_back({static_cast<std::int32_t>(i), occluders[i].planes, 0});
+    impl.cones.push_back(MakeImageCone(frame, occluders[i], i, digits));
+    impl.candidates.push_back({static_cast<std::int32_t>(i), 0, 0});
   }
   return {0, occluders.size()};
 }

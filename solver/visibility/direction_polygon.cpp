@@ -1,7 +1,6 @@
 #include "solver/visibility/direction_polygon.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -175,15 +174,13 @@ Cone MakeCone(const ReceiverPoint& at, const DirectionPolygon& blocker, double e
   return cone;
 }
 
-Overlap Classify(Occluder& occluder, const DirectionPolygon& polygon) {
-  const Cone& cone = *occluder.cone;
+Overlap Classify(const Cone& cone, const DirectionPolygon& polygon) {
   if (cone.size == 0) return Overlap::kNone;
   Heights rounding;
   for (int i = 0; i < polygon.size(); ++i)
     rounding[static_cast<std::size_t>(i)] = HeightRoundingOf(cone, polygon[i]);
-  std::uint32_t cutting = 0;
+  int cutting = 0;
   for (int k = 0; k < cone.size; ++k) {
-    if ((occluder.planes >> k & 1U) == 0) continue;
     const Vec3& m = cone.normal[static_cast<std::size_t>(k)];
     bool any_inside = false, any_outside = false;
     for (int i = 0; i < polygon.size() && !(any_inside && any_outside); ++i) {
@@ -192,12 +189,11 @@ Overlap Classify(Occluder& occluder, const DirectionPolygon& polygon) {
       any_outside = any_outside || h < -zero;
     }
     if (!any_inside) return Overlap::kNone;
-    if (any_outside) cutting |= 1U << k;
+    cutting += any_outside ? 1 : 0;
   }
-  occluder.planes = cutting;
   if (cutting == 0) return Overlap::kAll;
   // Across one plane and inside of all others: there is no way to lie beside the cone.
-  if (std::has_single_bit(cutting)) return Overlap::kPart;
+  if (cutting == 1) return Overlap::kPart;
   for (int i = 0; i < polygon.size(); ++i) {
     const Vec3 m = EdgeNormal(polygon[i], polygon.Next(i));
     if (IsArcShorter(polygon[i], polygon.Next(i), m, kShortArc)) continue;

@@ -98,20 +98,16 @@ Cone MakeCone(const ReceiverPoint& at, const DirectionPolygon& blocker, double e
 
 enum class Overlap { kNone, kPart, kAll };
 
-// A cone that may hide a part of what lies within some region, and those of its planes that cut the region:
-// what lies in it is inside of all the others. Bit k stands for plane k.
+// A cone that may hide a part of a source; it must stay where it is.
 struct Occluder {
   const Cone* cone = nullptr;
-  std::uint32_t planes = 0;
 
   Occluder() = default;
-  // Of everything: a cone can stand where an occluder is asked for.
-  Occluder(const Cone& whole) : cone(&whole), planes((1U << whole.size) - 1) {}
+  Occluder(const Cone& whole) : cone(&whole) {}
 };
 
-// How the occluder covers the polygon, which lies in the occluder's region; for kPart its planes are those
-// that cut the polygon. kPart may be returned for a cone just beside it.
-Overlap Classify(Occluder& occluder, const DirectionPolygon& polygon);
+// How the cone covers the polygon, but for rounding. kPart may be returned for a cone just beside it.
+Overlap Classify(const Cone& cone, const DirectionPolygon& polygon);
 
 // The part of the polygon where plane . direction >= 0.
 DirectionPolygon Above(const DirectionPolygon& polygon, const Vec3& plane);

@@ -20,7 +20,15 @@ std::int32_t EdgeAlong(const DirectionPolygon& polygon, const Vec3& a, const Vec
   return kInnerEdge;
 }
 
-using LongVec3 = Eigen::Matrix<long double, 3, 1>;
+__extension__ typedef __float128 Quadruple;
+
+// (a x b) . c, with a x b from a x (b - a).
+template <class Real>
+double TripleProduct(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const std::array<Real, 3> p = {a.x(), a.y(), a.z()}, q = {b.x() - p[0], b.y() - p[1], b.z() - p[2]};
+  return static_cast<double>((p[1] * q[2] - p[2] * q[1]) * c.x() + (p[2] * q[0] - p[0] * q[2]) * c.y() +
+                             (p[0] * q[1] - p[1] * q[0]) * c.z());
+}
 
 }  // namespace
 
@@ -32,14 +40,14 @@ ImageFrame::ImageFrame(const DirectionPolygon& polygon, const Vec3& axis) : axis
   shift_ = Vec2(e1_.dot(origin_), e2_.dot(origin_));
 }
 
-ImageLine ImageFrame::Line(const Cone& cone, int k, bool fine) const {
+ImageLine ImageFrame::Line(const Cone& cone, int k, Digits digits) const {
   const Vec3& normal = cone.normal[static_cast<std::size_t>(k)];
   ImageLine line{normal.dot(e1_), normal.dot(e2_), normal.dot(origin_)};
-  if (fine) {
-    const LongVec3 a = cone.direction[static_cast<std::size_t>(k)].cast<long double>(),
-                   b = cone.end[static_cast<std::size_t>(k)].cast<long double>();
-    const LongVec3 m = a.cross(b - a);
-    line.h = static_cast<double>(m.dot(first_.cast<long double>()) / m.norm()) / axis_.dot(first_);
+  if (digits != Digits::kDouble) {
+    const Vec3 &a = cone.direction[static_cast<std::size_t>(k)], &b = cone.end[static_cast<std::size_t>(k)];
+    const double product = digits == Digits::kExtended ? TripleProduct<long double>(a, b, first_)
+                                                       : TripleProduct<Quadruple>(a, b, first_);
+    line.h = product / EdgeNormal(a, b).norm() / axis_.dot(first_);
   }
   const double length = std::sqrt(line.a * line.a + line.b * line.b);
   // The plane of directions beside the axis has no line in the image.

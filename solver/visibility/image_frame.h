@@ -19,6 +19,8 @@ struct ImageLine {
   double a = 0, b = 0, h = 0;
 };
 
+enum class Digits { kDouble, kExtended, kQuadruple };
+
 // The central projection of directions onto a plane one unit from the point, with its origin at the first
 // vertex of a polygon: what is small and far keeps its digits, since coordinates are differences.
 class ImageFrame {
@@ -46,9 +48,9 @@ class ImageFrame {
     return {e1_.dot(direction) - w * shift_.x(), e2_.dot(direction) - w * shift_.y(), w};
   }
 
-  // Plane k of a cone. With `fine`, the distance of the line from the origin is computed to more digits than
-  // a double's product has.
-  ImageLine Line(const Cone& cone, int k, bool fine) const;
+  // Plane k of a cone. The line's distance from the origin, small against the terms that it is the sum of
+  // where the image is small, is worked out in so many digits.
+  ImageLine Line(const Cone& cone, int k, Digits digits) const;
 
  private:
   Vec3 axis_, e1_, e2_;

@@ -1,16 +1,22 @@
 #include "solver/visibility/occlusion_method.h"
 
-#include <string>
-
 #include "solver/base/check.h"
+#include "solver/visibility/backprojection.h"
 #include "solver/visibility/clipping.h"
+#include "solver/visibility/sampled_visibility.h"
+#include "solver/visibility/vertex_tracing.h"
 
 namespace penumbra {
 
-std::vector<std::string> OcclusionMethodNames() { return {"clipping"}; }
+std::vector<std::string> OcclusionMethodNames() {
+  return {"clipping", "backprojection", "vertex-tracing", "sampled"};
+}
 
 std::unique_ptr<const OcclusionMethod> MakeOcclusionMethod(std::string_view name) {
   if (name == "clipping") return std::make_unique<Clipping>();
+  if (name == "backprojection") return std::make_unique<Backprojection>();
+  if (name == "vertex-tracing") return std::make_unique<VertexTracing>();
+  if (name == "sampled") return std::make_unique<SampledVisibility>();
   throw InputError("no method is called '" + std::string(name) + "'");
 }
 

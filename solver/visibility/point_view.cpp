@@ -110,15 +110,14 @@ bool PointView::FindBlockers(std::span<const PatchId> candidates, PatchId own, c
     if (blocker == own || &scene_.patches[blocker] == source_) continue;
     const BlockerView* view = FindBlocker(blocker);
     if (!view || view->cone.size == 0) continue;
-    Occluder occluder(view->cone);
-    const Overlap overlap = Classify(occluder, seen);
+    const Overlap overlap = Classify(view->cone, seen);
     if (overlap == Overlap::kNone) continue;
     one_sided_ = one_sided_ || view->in_limit;
     if (overlap == Overlap::kAll) {
       occluders.resize(before);
       return false;
     }
-    occluders.push_back(occluder);
+    occluders.push_back(view->cone);
   }
   return true;
 }

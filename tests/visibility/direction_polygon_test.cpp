@@ -11,11 +11,6 @@
 namespace penumbra::scene_test {
 namespace {
 
-Overlap ClassifyWhole(const Cone& cone, const DirectionPolygon& polygon) {
-  Occluder occluder(cone);
-  return Classify(occluder, polygon);
-}
-
 // A convex polygon at height 1 over the origin, as seen from it, from angles about the centre (x, y).
 DirectionPolygon Round(double x, double y, double radius, std::span<const double> angles) {
   DirectionPolygon polygon;
@@ -71,9 +66,9 @@ TEST(DirectionPolygon, RepeatedVerticesDoNotHideOverlap) {
       if (random.Index(2) == 0) repeated.Add(plain[k] + shift * RandomDirection(random));
     }
     const Cone larger = MakeCone({}, Round(0, 0, 2, EvenAngles(4)), 1);
-    EXPECT_EQ(ClassifyWhole(larger, repeated), Overlap::kAll);
+    EXPECT_EQ(Classify(larger, repeated), Overlap::kAll);
     const Cone inner = MakeCone({}, Round(0, 0, 0.5, EvenAngles(3)), 1);
-    EXPECT_EQ(ClassifyWhole(inner, repeated), Overlap::kPart);
+    EXPECT_EQ(Classify(inner, repeated), Overlap::kPart);
     EXPECT_NEAR(Left(repeated, inner), Left(plain, inner), 1e-15);
     // And as a blocker.
     const DirectionPolygon whole = Round(0, 0, 2, EvenAngles(4));
@@ -108,9 +103,9 @@ TEST(DirectionPolygon, CoincidentPlanesCutNothing) {
     DirectionPolygon one, two;
     for (const Vec3& v : {a, b, c, d}) one.Add(v);
     for (const Vec3& v : {e, f, b, a}) two.Add(v);
-    EXPECT_EQ(ClassifyWhole(MakeCone({}, one, 3), two), Overlap::kNone);
-    EXPECT_EQ(ClassifyWhole(MakeCone({}, two, 3), one), Overlap::kNone);
-    EXPECT_EQ(ClassifyWhole(MakeCone({}, one, 3), one), Overlap::kAll);
+    EXPECT_EQ(Classify(MakeCone({}, one, 3), two), Overlap::kNone);
+    EXPECT_EQ(Classify(MakeCone({}, two, 3), one), Overlap::kNone);
+    EXPECT_EQ(Classify(MakeCone({}, one, 3), one), Overlap::kAll);
   }
 }
 
