@@ -195,7 +195,7 @@ void Gathering::AddVisiblePieces(const ImageFrame& frame, double factor_before) 
   if (method_) return;
   const ImageEdges::Sum sum = visible.FormFactorSum(frame, at_.normal);
   const double together = std::abs(sum.value) + 2 * std::numbers::pi * (factor_ - factor_before);
-  const bool cancels = sum.magnitude > kFormFactorCancellation * together;
+  const bool cancels = sum.angles > kFormFactorCancellation * together;
   for (std::size_t p = 0; p < visible.Pieces(); ++p) {
     const double factor = cancels ? visible.PieceByQuadrature(frame, at_.normal, p)
                                   : 0.5 * std::numbers::inv_pi * visible.PieceSum(p);

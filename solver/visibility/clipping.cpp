@@ -424,7 +424,7 @@ double Clipping::VisibleFormFactor(const DirectionPolygon& source, std::span<con
     clipper.CutOut(part.polygon, own, 0, part.label);
     ImageEdges& visible = clipper.Visible();
     const ImageEdges::Sum sum = visible.FormFactorSum(frame, normal);
-    if (sum.magnitude <= kFormFactorCancellation * std::abs(sum.value)) {
+    if (sum.angles <= kFormFactorCancellation * std::abs(sum.value)) {
       factor += std::max(0.0, sum.value * (0.5 * std::numbers::inv_pi));
       continue;
     }

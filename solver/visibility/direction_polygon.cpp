@@ -26,6 +26,10 @@ bool IsArcShorter(const Vec3& a, const Vec3& b, const Vec3& normal, double angle
   return normal.squaredNorm() <= angle * angle * a.squaredNorm() * b.squaredNorm();
 }
 
+// Ends of an edge are nearly opposite to each other if the sine of the angle between them is below the root
+// of this.
+constexpr double kOpposite = 0.01;
+
 using Heights = std::array<double, DirectionPolygon::kCapacity>;
 
 // The part of the polygon above a plane, from the heights of its vertices. `crossing` makes the direction
@@ -58,6 +62,17 @@ const auto kBetween = [](const Vec3& a, const Vec3& b, double ha, double hb) -> 
 double HeightRoundingOf(const Cone& cone, const Vec3& v) {
   return cone.rounding + kHeightError * v.cwiseAbs().sum();
 }
+
+// The direction in which the edge from a to b meets a plane through the point: what is interpolated keeps few
+// digits where the edge passes close by.
+struct CrossingOf {
+  const Vec3& plane;
+
+  Vec3 operator()(const Vec3& a, const Vec3& b, double ha, double hb) const {
+    const Vec3 c = plane.cross(EdgeNormal(a, b)) / (ha + hb);
+    return c.dot(hb * a + ha * b) < 0 ? Vec3(-c) : c;
+  }
+};
 
 // Whether x lies on the segment from a to b (seen from x), within `tolerance`.
 bool OnEdge(const Vec3& a, const Vec3& b, double tolerance) {
@@ -93,7 +108,10 @@ Vec3 EdgeNormal(const Vec3& a, const Vec3& b) {
   const double aa = a.squaredNorm(), bb = b.squaredNorm();
   const bool a_first =
       aa < bb || (aa == bb && std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3));
-  return a_first ? Vec3(a.cross(b - a)) : Vec3(-b.cross(a - b));
+  const Vec3 m = a_first ? Vec3(a.cross(b - a)) : Vec3(-b.cross(a - b));
+  // The point is close to the edge's middle: the plane turns by some roundings over the angle that is left.
+  if (m.squaredNorm() >= kOpposite * aa * bb || a.dot(b) >= 0) return m;
+  return a.cast<long double>().cross(b.cast<long double>()).cast<double>();
 }
 
 double HeightRounding(double extent) { return kHeightError * extent; }
@@ -147,12 +165,8 @@ DirectionPolygon SeenInContact(const ReceiverPoint& at, std::span<const Vec3> po
 }
 
 DirectionPolygon ClipToHorizon(const ReceiverPoint& at, const DirectionPolygon& polygon, double extent) {
-  const auto crossing = [&](const Vec3& a, const Vec3& b, double ha, double hb) -> Vec3 {
-    const Vec3 c = at.normal.cross(EdgeNormal(a, b)) / (ha + hb);
-    return c.dot(hb * a + ha * b) < 0 ? Vec3(-c) : c;
-  };
   const Levelled seen = Level(polygon, at.normal, Rounding(at, extent));
-  return PartAbove(seen.polygon, seen.height, crossing);
+  return PartAbove(seen.polygon, seen.height, CrossingOf{at.normal});
 }
 
 Cone MakeCone(const ReceiverPoint& at, const DirectionPolygon& blocker, double extent) {
@@ -208,7 +222,7 @@ Overlap Classify(const Cone& cone, const DirectionPolygon& polygon) {
 DirectionPolygon Above(const DirectionPolygon& polygon, const Vec3& plane) {
   Heights height;
   for (int i = 0; i < polygon.size(); ++i) height[static_cast<std::size_t>(i)] = plane.dot(polygon[i]);
-  return PartAbove(polygon, height, kBetween);
+  return PartAbove(polygon, height, CrossingOf{plane});
 }
 
 }  // namespace penumbra

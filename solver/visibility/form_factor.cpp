@@ -5,15 +5,26 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/visibility/image_frame.h"
+
 namespace penumbra {
 namespace {
 
-// Both ends of an edge as seen, and the edge itself, with all its digits.
-double EdgeTerm(const Vec3& a, const Vec3& edge, const Vec3& normal) {
-  const Vec3 m = a.cross(edge);
-  const double length = m.norm();
-  return length > 0 ? normal.dot(m) / length * std::atan2(length, a.dot(a + edge)) : 0;
-}
+// The sum over the edges, and the sum of their angles: roundings turn each edge's normal by some 1e-16, and
+// what that does to its term grows with the angle, however small the term is.
+struct EdgeSum {
+  double value = 0, angles = 0;
+
+  void Add(const Vec3& m, double cosine, const Vec3& normal) {
+    const double length = m.norm();
+    if (length == 0) return;
+    const double angle = std::atan2(length, cosine);
+    value += normal.dot(m) / length * angle;
+    angles += angle;
+  }
+  bool Cancels() const { return angles > kFormFactorCancellation * std::abs(value); }
+  double FormFactor() const { return std::max(0.0, value * (0.5 * std::numbers::inv_pi)); }
+};
 
 // Gauss and Legendre's rules on [0, 1].
 template <std::size_t N>
@@ -23,6 +34,10 @@ struct GaussRule {
 constexpr GaussRule<4> kFour = {
     {0.069431844202973712, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629},
     {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693}};
+constexpr GaussRule<6> kSix = {{0.033765242898423975, 0.16939530676686776, 0.38069040695840156,
+                                0.61930959304159849, 0.83060469323313224, 0.96623475710157603},
+                               {0.085662246189585178, 0.18038078652406930, 0.23395696728634552,
+                                0.23395696728634552, 0.18038078652406930, 0.085662246189585178}};
 constexpr GaussRule<8> kEight = {
     {0.019855071751231884, 0.10166676129318664, 0.23723379504183550, 0.40828267875217510, 0.59171732124782490,
      0.76276620495816450, 0.89833323870681336, 0.98014492824876812},
@@ -31,7 +46,7 @@ constexpr GaussRule<8> kEight = {
 
 // On a part of diameter h at distance r, seen end-on, four nodes err by up to 3.7e-3 (h / r)^8 and eight by
 // 3.4e-7 (h / r)^16 at their nearest: Gauss's remainder for 1 / r^4. That is some 1e-15 here.
-constexpr double kFarForFour = 0.03, kFarForEight = 0.4;
+constexpr double kFarForFour = 0.03, kFarForSix = 0.15, kFarForEight = 0.4;
 constexpr int kMostHalvings = 120;
 
 // A convex quadrilateral as the image of the unit square: p(s, t) = corner + s u + t v + s t w. Two vertices
@@ -39,13 +54,14 @@ constexpr int kMostHalvings = 120;
 struct Bilinear {
   Vec3 corner, u, v, w;
   double h0, hu, hv, hw;  // height of p above the horizon: h0 + s hu + t hv + s t hw
-  double c0, c1, c2;      // Jacobian times distance to the plane: c0 + s c1 + t c2
+  double c0, c1, c2, c3;  // p . (dp/ds x dp/dt): c0 + s c1 + t c2 + s t c3
 
   Bilinear(const Vec3& base, const Vec3& o0, const Vec3& o1, const Vec3& o2, const Vec3& o3,
            const Vec3& normal)
       : corner(base + o0), u(o1 - o0), v(o3 - o0), w((o2 - o1) - (o3 - o0)) {
     h0 = normal.dot(corner), hu = normal.dot(u), hv = normal.dot(v), hw = normal.dot(w);
     c0 = corner.dot(u.cross(v)), c1 = corner.dot(u.cross(w)), c2 = corner.dot(w.cross(v));
+    c3 = -u.dot(v.cross(w));  // zero but for rounding if the vertices lie in a plane
   }
   Vec3 At(double s, double t) const { return corner + s * u + t * (v + s * w); }
 };
@@ -63,7 +79,8 @@ double Integrate(const Bilinear& q, const Box& box, const GaussRule<N>& rule) {
       const double s = box.s + box.width * rule.node[i], t = box.t + box.height * rule.node[j];
       const double rise = std::max(0.0, q.h0 + s * q.hu + t * (q.hv + s * q.hw));
       const double square = q.At(s, t).squaredNorm();
-      sum += rule.weight[i] * rule.weight[j] * rise * (q.c0 + s * q.c1 + t * q.c2) / (square * square);
+      sum += rule.weight[i] * rule.weight[j] * rise * (q.c0 + s * q.c1 + t * (q.c2 + s * q.c3)) /
+             (square * square);
     }
   return sum * box.width * box.height;
 }
@@ -78,6 +95,7 @@ double Integrate(const Bilinear& q, const Box& box, int halvings) {
   const double along_t = std::max((p[3] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm());
   const double longest = std::sqrt(std::max(along_s, along_t));
   if (longest <= kFarForFour * nearest) return Integrate(q, box, kFour);
+  if (longest <= kFarForSix * nearest) return Integrate(q, box, kSix);
   if (longest <= kFarForEight * nearest || halvings == kMostHalvings) return Integrate(q, box, kEight);
   Box first = box, second = box;
   if (along_s >= along_t) {
@@ -102,31 +120,20 @@ double FormFactorByQuadrature(const Vec3& base, std::span<const Vec3> offset, co
 }
 
 double FormFactor(const Vec3& base, std::span<const Vec3> offset, const Vec3& normal) {
-  double sum = 0, magnitude = 0;
+  EdgeSum sum;
   for (std::size_t i = 0; i < offset.size(); ++i) {
-    const Vec3& next = offset[i + 1 == offset.size() ? 0 : i + 1];
-    const double term = EdgeTerm(base + offset[i], next - offset[i], normal);
-    sum += term;
-    magnitude += std::abs(term);
+    const Vec3 a = base + offset[i], edge = offset[i + 1 == offset.size() ? 0 : i + 1] - offset[i];
+    sum.Add(a.cross(edge), a.dot(a + edge), normal);
   }
-  if (magnitude > kFormFactorCancellation * std::abs(sum))
-    return FormFactorByQuadrature(base, offset, normal);
-  return std::max(0.0, sum * (0.5 * std::numbers::inv_pi));
+  return sum.Cancels() ? FormFactorByQuadrature(base, offset, normal) : sum.FormFactor();
 }
 
 double FormFactor(const DirectionPolygon& polygon, const Vec3& normal) {
-  double sum = 0, magnitude = 0;
-  for (int i = 0; i < polygon.size(); ++i) {
-    const Vec3 &a = polygon[i], &b = polygon.Next(i);
-    const Vec3 m = EdgeNormal(a, b);
-    const double length = m.norm();
-    if (length == 0) continue;
-    const double term = normal.dot(m) / length * std::atan2(length, a.dot(b));
-    sum += term;
-    magnitude += std::abs(term);
-  }
-  if (magnitude <= kFormFactorCancellation * std::abs(sum))
-    return std::max(0.0, sum * (0.5 * std::numbers::inv_pi));
+  EdgeSum sum;
+  for (int i = 0; i < polygon.size(); ++i)
+    sum.Add(EdgeNormal(polygon[i], polygon.Next(i)), polygon[i].dot(polygon.Next(i)), normal);
+  // What is seen all round, in a limit at a contact, is no small part of the hemisphere.
+  if (!sum.Cancels() || ImageAxis(polygon).isZero(0)) return sum.FormFactor();
   std::array<Vec3, DirectionPolygon::kCapacity> offset;
   for (int i = 0; i < polygon.size(); ++i) offset[static_cast<std::size_t>(i)] = polygon[i] - polygon[0];
   return FormFactorByQuadrature(polygon[0], {offset.data(), static_cast<std::size_t>(polygon.size())},

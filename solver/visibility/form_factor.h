@@ -12,12 +12,13 @@
 
 namespace penumbra {
 
-// The sum over the edges is used unless its terms are together this many times its result. Beyond that the
-// integral is done by Gauss quadrature, which adds up positive terms only.
+// The sum over the edges is used unless their angles add up to more than this many times its value. Beyond
+// that the integral is done by Gauss quadrature, which adds up positive terms only.
 inline constexpr double kFormFactorCancellation = 200;
 
 // Largest error of a form factor, relative to its value, for exactly the vertices, point and normal given: a
-// term of the sum is off by some 2 roundings of 1.1e-16, and 200 such terms; 8 x 8 Gauss nodes by less.
+// term of the sum is off by some 2 roundings of 1.1e-16 of its angle, and the angles are 200 times the sum; 8
+// x 8 Gauss nodes are off by less.
 inline constexpr double kFormFactorError = 1e-13;
 
 // (1 / 2 pi) sum gamma n . m / |m| over the edges a -> b of the polygon, m = a x b, gamma the angle between a

@@ -12,11 +12,11 @@
 namespace penumbra {
 namespace {
 
-// One edge's share of 2 pi times the negated form factor. a is the edge's start, b its end, p the point, n
-// its normal.
+// One edge's share of 2 pi times the negated form factor; its angle is added to `angles`. a is the edge's
+// start, b its end, p the point, n its normal.
 [[gnu::always_inline]] inline double EdgeTerm(double ax, double ay, double az, double bx, double by,
                                               double bz, double px, double py, double pz, double nx,
-                                              double ny, double nz) {
+                                              double ny, double nz, double& angles) {
   // The edge from the original coordinates: what is close to it keeps its digits.
   const double ex = bx - ax, ey = by - ay, ez = bz - az;
   const double rx = ax - px, ry = ay - py, rz = az - pz;
@@ -24,10 +24,10 @@ namespace {
   const double length = std::sqrt(mx * mx + my * my + mz * mz);
   const double cosine = rx * (rx + ex) + ry * (ry + ey) + rz * (rz + ez);
   const double rise = nx * mx + ny * my + nz * mz;
-  return rise / (length > 0 ? length : 1.0) * internal::AngleOf(length, cosine);
+  const double angle = internal::AngleOf(length, cosine);
+  angles += angle;
+  return rise / (length > 0 ? length : 1.0) * angle;
 }
-
-[[gnu::always_inline]] inline double Magnitude(double x) { return x < 0 ? -x : x; }
 
 // out[i] is the sum over the edges of polygon i, to be done in another way where loss[i] > 0. c[3 k + axis]
 // points to the coordinates of the k-th vertices.
@@ -39,15 +39,15 @@ void Kernel(const std::array<const double*, 12>& c, std::size_t count, double px
   const double* __restrict x2 = c[6], * __restrict y2 = c[7], * __restrict z2 = c[8];
   const double* __restrict x3 = c[9], * __restrict y3 = c[10], * __restrict z3 = c[11];
   for (std::size_t i = 0; i < count; ++i) {
-    const double first = EdgeTerm(x0[i], y0[i], z0[i], x1[i], y1[i], z1[i], px, py, pz, nx, ny, nz);
-    const double second = EdgeTerm(x1[i], y1[i], z1[i], x2[i], y2[i], z2[i], px, py, pz, nx, ny, nz);
-    const double third = EdgeTerm(x2[i], y2[i], z2[i], x3[i], y3[i], z3[i], px, py, pz, nx, ny, nz);
-    const double fourth = EdgeTerm(x3[i], y3[i], z3[i], x0[i], y0[i], z0[i], px, py, pz, nx, ny, nz);
+    double angles = 0;
+    const double first = EdgeTerm(x0[i], y0[i], z0[i], x1[i], y1[i], z1[i], px, py, pz, nx, ny, nz, angles);
+    const double second = EdgeTerm(x1[i], y1[i], z1[i], x2[i], y2[i], z2[i], px, py, pz, nx, ny, nz, angles);
+    const double third = EdgeTerm(x2[i], y2[i], z2[i], x3[i], y3[i], z3[i], px, py, pz, nx, ny, nz, angles);
+    const double fourth = EdgeTerm(x3[i], y3[i], z3[i], x0[i], y0[i], z0[i], px, py, pz, nx, ny, nz, angles);
     // Counter-clockwise about a normal that points to the point: the sum is negative.
     const double sum = -((first + second) + (third + fourth));
-    const double magnitude = (Magnitude(first) + Magnitude(second)) + (Magnitude(third) + Magnitude(fourth));
     out[i] = (sum > 0 ? sum : 0) * (0.5 / std::numbers::pi);
-    loss[i] = magnitude - kFormFactorCancellation * Magnitude(sum);
+    loss[i] = angles - kFormFactorCancellation * (sum > 0 ? sum : -sum);
   }
 }
 

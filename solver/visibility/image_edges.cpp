@@ -13,14 +13,15 @@ namespace {
 PENUMBRA_VECTOR_CLONES
 void Terms(const double* __restrict x, const double* __restrict y, const double* __restrict dx,
            const double* __restrict dy, std::size_t count, double p, double q, double n1, double n2,
-           double n3, double* __restrict term) {
+           double n3, double* __restrict term, double* __restrict angle) {
   for (std::size_t i = 0; i < count; ++i) {
     const double ax = x[i] + p, ay = y[i] + q;
     const double turn = ax * dy[i] - ay * dx[i];  // a x e = (-dy, dx, turn)
     const double length = std::sqrt(dx[i] * dx[i] + dy[i] * dy[i] + turn * turn);
     const double cosine = ax * (ax + dx[i]) + ay * (ay + dy[i]) + 1;
     const double rise = n2 * dx[i] - n1 * dy[i] + n3 * turn;
-    term[i] = rise / (length > 0 ? length : 1.0) * internal::AngleOf(length, cosine);
+    angle[i] = internal::AngleOf(length, cosine);
+    term[i] = rise / (length > 0 ? length : 1.0) * angle[i];
   }
 }
 
@@ -53,13 +54,14 @@ void ImageEdges::AddPiece(const double* x, const double* y, const std::int32_t* 
 
 ImageEdges::Sum ImageEdges::FormFactorSum(const ImageFrame& frame, const Vec3& normal) {
   term_.resize(edge_[0].size());
+  angle_.resize(edge_[0].size());
   Terms(edge_[0].data(), edge_[1].data(), edge_[2].data(), edge_[3].data(), term_.size(), frame.Shift().x(),
         frame.Shift().y(), normal.dot(frame.E1()), normal.dot(frame.E2()), normal.dot(frame.Axis()),
-        term_.data());
+        term_.data(), angle_.data());
   Sum sum;
-  for (const double term : term_) {
-    sum.value += term;
-    sum.magnitude += std::abs(term);
+  for (std::size_t i = 0; i < term_.size(); ++i) {
+    sum.value += term_[i];
+    sum.angles += angle_[i];
   }
   return sum;
 }

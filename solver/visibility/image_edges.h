@@ -15,8 +15,8 @@ namespace penumbra {
 class ImageEdges {
  public:
   struct Sum {
-    double value = 0;      // 2 pi times the form factor
-    double magnitude = 0;  // of its terms
+    double value = 0;   // 2 pi times the form factor
+    double angles = 0;  // of all edges
   };
 
   void Clear();
@@ -44,7 +44,7 @@ class ImageEdges {
   std::vector<std::int32_t> label_;
   std::vector<std::size_t> start_;  // of each piece
   std::vector<std::int32_t> owner_;
-  std::vector<double> term_;
+  std::vector<double> term_, angle_;
 };
 
 }  // namespace penumbra

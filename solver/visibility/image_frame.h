@@ -30,8 +30,13 @@ class ImageFrame {
 
   // REQUIRES: the direction lies before the plane, as what the frame was made for does.
   Vec2 Image(const Vec3& direction) const {
+    const double w = axis_.dot(direction);
     const Vec3 offset = direction - first_;
-    return (Vec2(e1_.dot(offset), e2_.dot(offset)) - axis_.dot(offset) * shift_) / axis_.dot(direction);
+    // A difference keeps the digits of what is close to the first vertex, and loses those of a vertex that is
+    // close to the point.
+    if (offset.squaredNorm() > 0.01 * direction.squaredNorm())
+      return Vec2(e1_.dot(direction), e2_.dot(direction)) / w - shift_;
+    return (Vec2(e1_.dot(offset), e2_.dot(offset)) - axis_.dot(offset) * shift_) / w;
   }
   // The direction of an image point.
   Vec3 Direction(const Vec2& p) const { return origin_ + p.x() * e1_ + p.y() * e2_; }
