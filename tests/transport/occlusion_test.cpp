@@ -144,6 +144,21 @@ void ExpectInvariant(const Scene& scene, const ReceiverPoint& at, Random& random
   }
   expect_same(doubled, "doubled");
   expect_same(split, "split");
+  Scene light_split = scene;
+  light_split.patches.clear();
+  for (const Patch& patch : scene.patches) {
+    if (scene.materials[patch.material].emittance[0] <= 0) {
+      light_split.patches.push_back(patch);
+      continue;
+    }
+    const Vec3 on_edge = 0.3 * patch.vertex[1] + 0.7 * patch.vertex[2];
+    const std::size_t last = static_cast<std::size_t>(patch.size) - 1;
+    Add(light_split, {patch.vertex[0], patch.vertex[1], on_edge}, patch.material);
+    Polygon3 rest = {patch.vertex[0], on_edge, patch.vertex[2]};
+    if (last == 3) rest.push_back(patch.vertex[3]);
+    Add(light_split, rest, patch.material);
+  }
+  expect_same(light_split, "the light split");
 
   const auto light = std::find_if(scene.patches.begin(), scene.patches.end(), [&](const Patch& patch) {
     return scene.materials[patch.material].emittance[0] > 0;
@@ -165,16 +180,39 @@ void ExpectInvariant(const Scene& scene, const ReceiverPoint& at, Random& random
   EXPECT_LE(Direct(more, at).irradiance[0], plain + 1e-13) << "one blocker more";
 }
 
+// Turned, shifted and scaled, everything stays the same: 1e-12, since coordinates of some 5 m are rounded by
+// 1e-15, seen from no nearer than 1e-2 m.
+void ExpectSameAnywhere(const Scene& scene, const ReceiverPoint& at, Random& random, double& worst) {
+  const double plain = Direct(scene, at).irradiance[0];
+  const Motion motion = RandomMotion(random, 5);
+  const double scale = random.LogUniform(1e-6, 1e6);
+  const Scene moved = Mapped(scene, motion),
+              scaled = Mapped(scene, [&](const Vec3&p) { return Vec3(scale * p); });
+  const double got_moved =
+      Direct(moved, Receiver(motion(at.position), motion.turn * at.normal)).irradiance[0];
+  const double got_scaled = Direct(scaled, Receiver(scale * at.position, at.normal)).irradiance[0];
+  EXPECT_NEAR(got_moved, plain, 1e-12);
+  EXPECT_NEAR(got_scaled, plain, 1e-12) << "scaled by " << scale;
+  worst = std::max({worst, std::abs(got_moved - plain), std::abs(got_scaled - plain)});
+}
+
+#if !defined(NDEBUG) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kScenes = 400;
+#else
+constexpr int kScenes = 12000;  // ten variants of each: some 10^5 configurations
+#endif
+
 TEST(Occlusion, InvariantsOfRandomScenes) {
   Random random(303);
-  double worst = 0;
-  for (int i = 0; i < 400; ++i) {
+  double worst = 0, worst_moved = 0;
+  for (int i = 0; i < kScenes; ++i) {
     SCOPED_TRACE("scene " + std::to_string(i));
     const Scene scene = RandomScene(random, 1 + static_cast<int>(random.Index(10)));
-    ExpectInvariant(scene, Receiver({random.Uniform(-1, 1), random.Uniform(-1, 1), 0}, Vec3::UnitZ()), random,
-                    worst);
+    const ReceiverPoint at = Receiver({random.Uniform(-1, 1), random.Uniform(-1, 1), 0}, Vec3::UnitZ());
+    ExpectInvariant(scene, at, random, worst);
+    ExpectSameAnywhere(scene, at, random, worst_moved);
   }
-  std::printf("seed 303, largest change %.2g\n", worst);
+  std::printf("seed 303, largest change %.2g, moved or scaled %.2g\n", worst, worst_moved);
 }
 
 // The same in furnished rooms, in place and turned, at points that the blockers' edges and planes go through.
