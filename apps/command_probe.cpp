@@ -9,6 +9,7 @@
 
 #include "apps/commands.h"
 #include "apps/interruptible.h"
+#include "apps/option_values.h"
 #include "apps/output.h"
 #include "apps/points_csv.h"
 #include "apps/probe.h"
@@ -26,13 +27,17 @@ struct ProbeArguments {
   std::string points;
   std::optional<std::string> output;
   std::string method = "auto";
+  OcclusionOptions occlusion;
   bool direct = false;
   bool parts = false;
 };
 
 // What a probe may be told beside the options of a solve.
 nlohmann::ordered_json ProbeOptions(const ProbeArguments& arguments) {
-  return {{"method", arguments.method}, {"direct", arguments.direct}, {"parts", arguments.parts}};
+  return {{"method", arguments.method},
+          {"min_backprojection_segment", arguments.occlusion.min_backprojection_segment},
+          {"direct", arguments.direct},
+          {"parts", arguments.parts}};
 }
 
 constexpr const char* kFastest = "auto";
@@ -65,7 +70,7 @@ void Probe(const ProbeArguments& arguments) {
   const std::vector<ProbePoint> points = ReadPointsCsv(arguments.points);
 
   const std::unique_ptr<const OcclusionMethod> method =
-      arguments.method == kFastest ? nullptr : MakeOcclusionMethod(arguments.method);
+      arguments.method == kFastest ? nullptr : MakeOcclusionMethod(arguments.method, arguments.occlusion);
   PointIrradianceOptions how = arguments.scene.solving.point;
   how.method = method.get();
 
@@ -117,6 +122,10 @@ Command AddProbeCommand(CLI::App& program) {
       ->check(CLI::IsMember(methods))
       ->type_name("METHOD")
       ->capture_default_str();
+  AddNumber(
+      *app, "--min-backprojection-segment", &arguments->occlusion.min_backprojection_segment, kNonNegative,
+      "Shortest segment of a blocker's outline in a backprojection, relative to the source's diameter as "
+      "seen; shorter ones are collapsed, as in the thesis; 0: none");
   AddSolveOptions(*app, &arguments->scene);
   AddReportOption(*app, &arguments->scene)->excludes(direct);
   app->footer(

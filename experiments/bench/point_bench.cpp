@@ -17,6 +17,7 @@
 #include "solver/scene/surface_points.h"
 #include "solver/transport/point_irradiance.h"
 #include "solver/transport/source_set.h"
+#include "solver/visibility/backprojection.h"
 #include "solver/visibility/form_factor.h"
 #include "solver/visibility/form_factor_batch.h"
 #include "solver/visibility/occlusion_method.h"
@@ -35,6 +36,20 @@ std::vector<Material> GreyAndLight() {
   std::vector<Material> materials(2);
   materials[1].emittance = Rgb::Ones();
   return materials;
+}
+
+void AddBox(Scene& scene, const Vec3& low, const Vec3& high, bool inwards) {
+  const auto at = [&](int i) {
+    return Vec3(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z());
+  };
+  constexpr std::array<std::array<int, 4>, 6> kFaces = {
+      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+  for (const std::array<int, 4>& face : kFaces) {
+    Polygon3 polygon;
+    for (const int i : face) polygon.push_back(at(i));
+    if (inwards) std::reverse(polygon.begin(), polygon.end());
+    AddPatch(scene, polygon, 0);
+  }
 }
 
 ReceiverPoint OnFloor(double x, double y) { return {Vec3(x, y, 0), Vec3::UnitZ(), Vec3::Zero(), 0}; }
@@ -113,8 +128,8 @@ double VisibleFactor(const Scene& scene, std::span<const PatchId> boards, const 
   return view.FindBlockers(boards, kNoPatch, seen, occluders) ? view.VisibleFormFactor(seen, occluders) : 0;
 }
 
-// One source behind boards. `error`: the largest difference from the exact backprojection, relative to the
-// light without boards.
+// One source behind boards, all of which cover some of it. `error`: the largest difference from the exact
+// backprojection, relative to the light without boards.
 void PointBlockers(benchmark::State& state, const std::string& name) {
   const auto n = static_cast<int>(state.range(0));
   const Scene scene = LightAndBoards(n);
@@ -128,15 +143,69 @@ void PointBlockers(benchmark::State& state, const std::string& name) {
     for (const ReceiverPoint& at : points) sum += VisibleFactor(scene, boards, at, *method);
     benchmark::DoNotOptimize(sum);
   }
+  double worst = 0;
+  const Backprojection reference;
+  for (const ReceiverPoint& at : points)
+    worst = std::max(worst, std::abs(VisibleFactor(scene, boards, at, *method) -
+                                     VisibleFactor(scene, boards, at, reference)) /
+                                VisibleFactor(scene, {}, at, reference));
+  state.counters["error"] = worst;
   state.SetItemsProcessed(state.iterations() * kPoints);
 }
-BENCHMARK_CAPTURE(PointBlockers, clipping, "clipping")
+void Blockers(benchmark::internal::Benchmark* benchmark) {
+  for (const int n : {1, 5, 20, 100, 300, 1000}) benchmark->Arg(n);
+}
+BENCHMARK_CAPTURE(PointBlockers, clipping, "clipping")->Apply(Blockers);
+BENCHMARK_CAPTURE(PointBlockers, backprojection, "backprojection")->Apply(Blockers);
+BENCHMARK_CAPTURE(PointBlockers, vertex_tracing, "vertex-tracing")->Apply(Blockers);
+BENCHMARK_CAPTURE(PointBlockers, sampled, "sampled")->Apply(Blockers);
+
+// `n` by `n` lights under the ceiling of a hall and 100 boxes below them: every light a source of its own, as
+// the leaves of a solution are. By the default way, and by methods that are asked about each light.
+void PointSources(benchmark::State& state, const std::string& name) {
+  const auto n = static_cast<int>(state.range(0));
+  Scene scene;
+  scene.materials = GreyAndLight();
+  const double cell = 10.0 / n;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const double x = cell * i, y = cell * j, s = 0.9 * cell;
+      AddPatch(scene, {{x, y, 4}, {x, y + s, 4}, {x + s, y + s, 4}, {x + s, y, 4}}, 1);
+    }
+  Random random(6);
+  for (int k = 0; k < 100; ++k) {
+    const Vec3 low(random.Uniform(0, 9), random.Uniform(0, 9), random.Uniform(0.2, 2));
+    AddBox(scene, low, low + Vec3(random.Uniform(0.1, 1), random.Uniform(0.1, 1), random.Uniform(0.1, 1)),
+           false);
+  }
+  const std::unique_ptr<const OcclusionMethod> method = name == "auto" ? nullptr : MakeOcclusionMethod(name);
+  const PatchVisibility unused;
+  PointIrradianceOptions options;
+  options.method = method.get();
+  const PointIrradiance irradiance(scene, unused, SourceSet::Emitters(scene), options);
+  const PointIrradiance reference(scene, unused, SourceSet::Emitters(scene));
+  std::vector<ReceiverPoint> points;
+  for (int k = 0; k < kPoints; ++k) points.push_back(OnFloor(random.Uniform(0, 10), random.Uniform(0, 10)));
+  for (auto _ : state) {
+    Rgb sum = Rgb::Zero();
+    for (const ReceiverPoint& at : points) sum += irradiance.Anywhere(at).irradiance;
+    benchmark::DoNotOptimize(sum);
+  }
+  double worst = 0;
+  for (const ReceiverPoint& at : points)
+    worst = std::max(
+        worst, (irradiance.Anywhere(at).irradiance - reference.Anywhere(at).irradiance).abs().maxCoeff());
+  state.counters["difference_from_auto"] = worst;
+  state.SetItemsProcessed(state.iterations() * kPoints);
+}
+BENCHMARK_CAPTURE(PointSources, auto, "auto") -> Arg(1) -> Arg(3) -> Arg(10) -> Arg(30)
+    -> Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(PointSources, sampled, "sampled")->Arg(1)->Arg(3)->Arg(10)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(PointSources, vertex_tracing, "vertex-tracing")
     ->Arg(1)
-    ->Arg(5)
-    ->Arg(20)
-    ->Arg(100)
-    ->Arg(300)
-    ->Arg(1000);
+    ->Arg(3)
+    ->Arg(10)
+    ->Unit(benchmark::kMicrosecond);
 
 // Direct light at points all over the fronts that look up, every emitter and every blocker looked at: 10 us.
 void PointOffice(benchmark::State& state) {
@@ -156,20 +225,6 @@ void PointOffice(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size()));
 }
 BENCHMARK(PointOffice)->Unit(benchmark::kMicrosecond);
-
-void AddBox(Scene& scene, const Vec3& low, const Vec3& high, bool inwards) {
-  const auto at = [&](int i) {
-    return Vec3(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z());
-  };
-  constexpr std::array<std::array<int, 4>, 6> kFaces = {
-      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
-  for (const std::array<int, 4>& face : kFaces) {
-    Polygon3 polygon;
-    for (const int i : face) polygon.push_back(at(i));
-    if (inwards) std::reverse(polygon.begin(), polygon.end());
-    AddPatch(scene, polygon, 0);
-  }
-}
 
 // n by n closed rooms side by side, each with two lights and ten boxes: from inside one, the others are
 // hidden.

@@ -12,9 +12,10 @@ std::vector<std::string> OcclusionMethodNames() {
   return {"clipping", "backprojection", "vertex-tracing", "sampled"};
 }
 
-std::unique_ptr<const OcclusionMethod> MakeOcclusionMethod(std::string_view name) {
+std::unique_ptr<const OcclusionMethod> MakeOcclusionMethod(std::string_view name,
+                                                           const OcclusionOptions& options) {
   if (name == "clipping") return std::make_unique<Clipping>();
-  if (name == "backprojection") return std::make_unique<Backprojection>();
+  if (name == "backprojection") return std::make_unique<Backprojection>(options.min_backprojection_segment);
   if (name == "vertex-tracing") return std::make_unique<VertexTracing>();
   if (name == "sampled") return std::make_unique<SampledVisibility>();
   throw InputError("no method is called '" + std::string(name) + "'");

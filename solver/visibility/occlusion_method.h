@@ -29,8 +29,15 @@ class OcclusionMethod {
 // The names of all methods.
 std::vector<std::string> OcclusionMethodNames();
 
+struct OcclusionOptions {
+  // Backprojection: edges of blockers' outlines shorter than this, relative to the source's diameter, are
+  // left out (thesis, Appendix A, 6). 0: none.
+  double min_backprojection_segment = 0;
+};
+
 // The method of that name. Throws InputError if there is none.
-std::unique_ptr<const OcclusionMethod> MakeOcclusionMethod(std::string_view name);
+std::unique_ptr<const OcclusionMethod> MakeOcclusionMethod(std::string_view name,
+                                                           const OcclusionOptions& options = {});
 
 // Clipping.
 const OcclusionMethod& FastestExactMethod();
