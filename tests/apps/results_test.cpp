@@ -102,6 +102,62 @@ TEST(Probe, DirectLightOfParallelSquares) {
   EXPECT_THAT(probe.err, HasSubstr("zero normal: row 2"));
 }
 
+// The parts of the light: direct light is all of it where nothing is solved, and the gradient on the axis of
+// a square light is steepest towards it; a zero normal has none.
+TEST(Probe, PartsOfParallelSquares) {
+  const Sandbox sandbox;
+  sandbox.Write("squares.obj", kParallelSquares);
+  sandbox.Write("squares.mtl", kSquaresMaterials);
+  sandbox.Write("points.csv", "x,y,z,nx,ny,nz\n0.5,0.5,0,0,0,1\n0.5,0.5,0,0,0,0\n");
+  const Outcome probe =
+      sandbox.Run({"probe", "squares.obj", "--points", "points.csv", "--direct", "--parts"});
+  ASSERT_EQ(probe.status, 0) << probe.err;
+  const std::vector<std::string> lines = Lines(probe.out);
+  ASSERT_THAT(lines, SizeIs(3));
+  EXPECT_EQ(lines[0], std::string(kProbeHeader) +
+                          ",direct_r,direct_g,direct_b,grad_r_x,grad_r_y,grad_r_z,grad_g_x,grad_g_y,grad_g_z,"
+                          "grad_b_x,grad_b_y,grad_b_z");
+  const std::vector<double> row = Numbers(lines[1]);
+  ASSERT_THAT(row, SizeIs(25));
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(row[13 + c], row[7 + c], 1e-15);
+  // F = 2 a / (pi c) atan(a / c) x 2, c^2 = h^2 + a^2, rises as h falls: the derivative by h, negated.
+  const double c = std::sqrt(1.25), a = 0.5;
+  const double rise = 4 * a / std::numbers::pi * (std::atan(a / c) / (c * c) + a / (c * (c * c + a * a))) / c;
+  EXPECT_NEAR(row[16], 0, 1e-15);
+  EXPECT_NEAR(row[17], 0, 1e-15);
+  EXPECT_NEAR(row[18], std::numbers::pi * rise, 1e-14);
+  EXPECT_NEAR(row[21], rise, 1e-14);
+  EXPECT_THAT(lines[2], HasSubstr(",nan,nan,nan,nan,nan,nan,nan,nan,nan,nan,nan,nan"));
+}
+
+// All exact methods print the same light to 12 digits in a furnished room, and samples nearly so.
+TEST(Probe, MethodsAgree) {
+  const Sandbox sandbox;
+  std::string points = "x,y,z,nx,ny,nz\n";
+  for (int i = 0; i < 40; ++i) points += std::to_string(0.3 + 0.07 * i) + ",1.1,0.02,0.1,0.2,1\n";
+  sandbox.Write("points.csv", points);
+  const auto values = [&](const char* method) {
+    const Outcome probe =
+        sandbox.Run({"probe", "office", "--points", "points.csv", "--direct", "--method", method});
+    EXPECT_EQ(probe.status, 0) << probe.err;
+    std::vector<double> red;
+    for (const std::string& line : Lines(probe.out)) red.push_back(Numbers(line)[7]);
+    return red;
+  };
+  const std::vector<double> automatic = values("auto");
+  ASSERT_THAT(automatic, SizeIs(41));
+  for (const char* method : {"clipping", "backprojection", "vertex-tracing", "sampled"}) {
+    const std::vector<double> other = values(method);
+    const double allowed = method == std::string("sampled") ? 0.2 : 1e-12;
+    for (std::size_t i = 1; i < automatic.size(); ++i)
+      EXPECT_NEAR(other[i], automatic[i], allowed * automatic[i]) << method << ", row " << i;
+  }
+  const Outcome unknown =
+      sandbox.Run({"probe", "office", "--points", "points.csv", "--direct", "--method", "guess"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("--method"));
+}
+
 // A point inside furniture that stands without a bottom on an uncut floor is named, one beside it is not.
 TEST(Probe, NamesPointsInsideFurniture) {
   const Sandbox sandbox;
