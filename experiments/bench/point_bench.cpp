@@ -117,6 +117,16 @@ Scene LightAndBoards(int n) {
   return scene;
 }
 
+void TimeAnywhere(benchmark::State& state, const PointIrradiance& irradiance,
+                  const std::vector<ReceiverPoint>& points) {
+  for (auto _ : state) {
+    Rgb sum = Rgb::Zero();
+    for (const ReceiverPoint& at : points) sum += irradiance.Anywhere(at).irradiance;
+    benchmark::DoNotOptimize(sum);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size()));
+}
+
 constexpr int kPoints = 16;  // around the origin, so that no single arrangement counts
 
 double VisibleFactor(const Scene& scene, std::span<const PatchId> boards, const ReceiverPoint& at,
@@ -186,17 +196,12 @@ void PointSources(benchmark::State& state, const std::string& name) {
   const PointIrradiance reference(scene, unused, SourceSet::Emitters(scene));
   std::vector<ReceiverPoint> points;
   for (int k = 0; k < kPoints; ++k) points.push_back(OnFloor(random.Uniform(0, 10), random.Uniform(0, 10)));
-  for (auto _ : state) {
-    Rgb sum = Rgb::Zero();
-    for (const ReceiverPoint& at : points) sum += irradiance.Anywhere(at).irradiance;
-    benchmark::DoNotOptimize(sum);
-  }
+  TimeAnywhere(state, irradiance, points);
   double worst = 0;
   for (const ReceiverPoint& at : points)
     worst = std::max(
         worst, (irradiance.Anywhere(at).irradiance - reference.Anywhere(at).irradiance).abs().maxCoeff());
   state.counters["difference_from_auto"] = worst;
-  state.SetItemsProcessed(state.iterations() * kPoints);
 }
 BENCHMARK_CAPTURE(PointSources, auto, "auto") -> Arg(1) -> Arg(3) -> Arg(10) -> Arg(30)
     -> Unit(benchmark::kMicrosecond);
@@ -216,13 +221,8 @@ void PointOffice(benchmark::State& state) {
   for (const SurfacePoint& p : SpreadPoints(scene, 2000, 1))
     if (scene.patches[p.patch].normal.z() > 0.99 && p.position.z() < 0.01)
       points.push_back({p.position, Vec3::UnitZ(), Vec3::Zero(), 0});
-  for (auto _ : state) {
-    Rgb sum = Rgb::Zero();
-    for (const ReceiverPoint& at : points) sum += irradiance.Anywhere(at).irradiance;
-    benchmark::DoNotOptimize(sum);
-  }
+  TimeAnywhere(state, irradiance, points);
   state.counters["patches"] = static_cast<double>(scene.patches.size());
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size()));
 }
 BENCHMARK(PointOffice)->Unit(benchmark::kMicrosecond);
 
@@ -263,13 +263,8 @@ void PointRooms(benchmark::State& state) {
   for (int i = 0; i < 256; ++i)
     points.push_back({Vec3(origin + random.Uniform(0.01, 3.99), origin + random.Uniform(0.01, 3.99), 0),
                       Vec3::UnitZ(), Vec3::Zero(), 0});
-  for (auto _ : state) {
-    Rgb sum = Rgb::Zero();
-    for (const ReceiverPoint& at : points) sum += irradiance.Anywhere(at).irradiance;
-    benchmark::DoNotOptimize(sum);
-  }
+  TimeAnywhere(state, irradiance, points);
   state.counters["patches"] = static_cast<double>(scene.patches.size());
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size()));
 }
 BENCHMARK(PointRooms)->Arg(1)->Arg(3)->Arg(10)->Unit(benchmark::kMicrosecond);
 

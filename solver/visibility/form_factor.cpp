@@ -111,11 +111,17 @@ double Integrate(const Bilinear& q, const Box& box, int halvings) {
 }  // namespace
 
 double FormFactorByQuadrature(const Vec3& base, std::span<const Vec3> offset, const Vec3& normal) {
+  // The distance of the plane has the most digits from the nearest vertex.
+  const std::size_t n = offset.size();
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < n; ++i)
+    if ((base + offset[i]).squaredNorm() < (base + offset[nearest]).squaredNorm()) nearest = i;
+  const auto from_nearest = [&](std::size_t i) { return offset[(nearest + std::min(i, n - 1)) % n]; };
   double sum = 0;
-  for (std::size_t i = 2; i < offset.size(); i += 2) {
-    const Vec3& last = offset[std::min(i + 1, offset.size() - 1)];
-    sum += Integrate(Bilinear(base, offset[0], offset[i - 1], offset[i], last, normal), {0, 0, 1, 1}, 0);
-  }
+  for (std::size_t i = 2; i < n; i += 2)
+    sum += Integrate(
+        Bilinear(base, from_nearest(0), from_nearest(i - 1), from_nearest(i), from_nearest(i + 1), normal),
+        {0, 0, 1, 1}, 0);
   return std::max(0.0, sum * std::numbers::inv_pi);
 }
 

@@ -20,9 +20,13 @@ namespace {
   // The edge from the original coordinates: what is close to it keeps its digits.
   const double ex = bx - ax, ey = by - ay, ez = bz - az;
   const double rx = ax - px, ry = ay - py, rz = az - pz;
-  const double mx = ry * ez - rz * ey, my = rz * ex - rx * ez, mz = rx * ey - ry * ex;
+  const double qx = bx - px, qy = by - py, qz = bz - pz;
+  // a x b = a x e = b x e, with the most digits from the end that is nearer.
+  const bool near = rx * rx + ry * ry + rz * rz < qx * qx + qy * qy + qz * qz;
+  const double sx = near ? rx : qx, sy = near ? ry : qy, sz = near ? rz : qz;
+  const double mx = sy * ez - sz * ey, my = sz * ex - sx * ez, mz = sx * ey - sy * ex;
   const double length = std::sqrt(mx * mx + my * my + mz * mz);
-  const double cosine = rx * (rx + ex) + ry * (ry + ey) + rz * (rz + ez);
+  const double cosine = rx * qx + ry * qy + rz * qz;
   const double rise = nx * mx + ny * my + nz * mz;
   const double angle = internal::AngleOf(length, cosine);
   angles += angle;

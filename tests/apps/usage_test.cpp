@@ -98,7 +98,7 @@ TEST(Usage, BadUsageEndsWithTwo) {
       {"render", "furnace", "-o", "image.png", "--camera", "no-such-camera"},
       {"render", "furnace", "--benchmark", "0"},
       {"probe", "furnace"},
-      {"probe", "furnace", "--points", "p.csv", "--parts"},
+      {"probe", "furnace", "--points", "p.csv", "--method", "guess"},
       {"probe", "furnace", "--points", "p.csv", "--direct", "--report", "r.json"},
   };
   const Sandbox sandbox;
