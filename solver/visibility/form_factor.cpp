@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/visibility/arc_tangent.h"
 #include "solver/visibility/image_frame.h"
 
 namespace penumbra {
@@ -18,7 +19,7 @@ struct EdgeSum {
   void Add(const Vec3& m, double cosine, const Vec3& normal) {
     const double length = m.norm();
     if (length == 0) return;
-    const double angle = std::atan2(length, cosine);
+    const double angle = internal::AngleOf(length, cosine);
     value += normal.dot(m) / length * angle;
     angles += angle;
   }
