@@ -77,7 +77,7 @@ PointIrradianceResult PointIrradiance::Anywhere(const ReceiverPoint& given, Irra
   thread_local std::vector<PatchId> found;
   thread_local std::vector<Screen> screens;
   screens.clear();
-  if (source_patches_.size() > kManySources) screens_.Find(at, kLeastScreen, kMostScreens, screens);
+  if (source_patches_.size() > kManySources) screens_.Find({&at, 1}, kLeastScreen, kMostScreens, screens);
   source_patches_.Find({{at.normal, at.normal.dot(at.position)}}, screens, found);
   for (const PatchId source : found) gathering.AddSource(source, patches_, screens);
   return {gathering.irradiance(), gathering.one_sided()};

@@ -4,30 +4,14 @@
 
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "solver/scene/scene.h"
-#include "solver/visibility/receiver_point.h"
+#include "solver/visibility/screens.h"
 
 namespace penumbra {
-
-// All p with normal . p >= offset; the normal is unit.
-struct HalfSpace {
-  Vec3 normal = Vec3::Zero();
-  double offset = 0;  // [m]
-};
-
-// A convex region: what lies in all of its half-spaces.
-using ConvexRegion = std::vector<HalfSpace>;
-
-// A patch that hides all that lies in its shadow.
-struct Screen {
-  PatchId patch = kNoPatch;
-  ConvexRegion shadow;
-};
 
 class PatchHierarchy {
  public:
@@ -56,26 +40,5 @@ class PatchHierarchy {
   std::vector<Node> nodes_;
   double margin_ = 0;  // what roundings may move [m]
 };
-
-// Finds patches that hide much at once, among the largest of a scene.
-class ScreenFinder {
- public:
-  ScreenFinder() = default;
-  explicit ScreenFinder(const Scene& scene);
-
-  // Replaces `screens` by up to `count` patches that fill a large part of what is seen from the point: by an
-  // estimate at least `least` [sr], the largest first.
-  void Find(const ReceiverPoint& at, double least, std::size_t count, std::vector<Screen>& screens) const;
-
- private:
-  const Scene* scene_ = nullptr;
-  std::vector<PatchId> patch_;
-  std::array<std::vector<double>, 3> centre_;  // [m]
-  std::vector<double> area_;                   // [m^2]
-};
-
-// Where nothing is seen from the point because the patch stands before it; empty if its plane contains the
-// point.
-ConvexRegion ShadowRegion(const ReceiverPoint& at, const Patch& patch);
 
 }  // namespace penumbra

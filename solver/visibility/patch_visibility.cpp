@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "solver/base/parallel.h"
+#include "solver/visibility/patch_hierarchy.h"
 #include "solver/visibility/tube_blockers.h"
 
 namespace penumbra {
@@ -15,27 +16,54 @@ struct Found {
   std::vector<PatchId> blockers;
 };
 
-std::optional<Found> FindPair(const Scene& scene, std::span<const PatchId> all, PatchId i, PatchId j) {
-  const Patch &a = scene.patches[i], &b = scene.patches[j];
-  const std::optional<TubeEnds> ends = ClipToEachOther(a.Vertices(), a, b.Vertices(), b);
-  if (!ends) return std::nullopt;
-  Found found{j, {}};
-  if (!FindTubeBlockers(scene, *ends, i, j, all, found.blockers)) return std::nullopt;
-  return found;
-}
+// Of the patches that fill most of the view from a patch, so many serve as screens, if they are at least this
+// large [sr].
+constexpr std::size_t kMostScreens = 16;
+constexpr double kLeastScreen = 0.02;
+
+// Finds for one patch after the other what it sees.
+class PairFinder {
+ public:
+  explicit PairFinder(const Scene& scene) : scene_(scene), screens_(scene) {
+    std::vector<PatchId> all(scene.patches.size());
+    std::iota(all.begin(), all.end(), 0);
+    patches_ = PatchHierarchy(scene, std::move(all));
+  }
+
+  // The patches above i that see it, ascending, with their blockers.
+  std::vector<Found> Find(PatchId i) const {
+    const Patch& patch = scene_.patches[i];
+    std::vector<ReceiverPoint> corners;
+    for (const Vec3& v : patch.Vertices()) corners.push_back({v, patch.normal, Vec3::Zero(), 0});
+    std::vector<Screen> screens;
+    screens_.Find(corners, kLeastScreen, kMostScreens, screens);
+    std::vector<PatchId> in_sight;
+    patches_.Find({{patch.normal, patch.normal.dot(patch.vertex[0])}}, screens, in_sight);
+    std::vector<Found> found;
+    for (const PatchId j : in_sight) {
+      if (j <= i) continue;
+      const Patch& other = scene_.patches[j];
+      const std::optional<TubeEnds> ends = ClipToEachOther(patch.Vertices(), patch, other.Vertices(), other);
+      Found pair{j, {}};
+      if (ends && FindTubeBlockers(scene_, *ends, i, j, patches_, pair.blockers))
+        found.push_back(std::move(pair));
+    }
+    return found;
+  }
+
+ private:
+  const Scene& scene_;
+  ScreenFinder screens_;
+  PatchHierarchy patches_;
+};
 
 }  // namespace
 
 PatchVisibility::PatchVisibility(const Scene& scene) {
   const std::size_t count = scene.patches.size();
-  std::vector<PatchId> all(count);
-  std::iota(all.begin(), all.end(), 0);
+  const PairFinder finder(scene);
   std::vector<std::vector<Found>> found(count);  // pairs (i, j) with i < j, at i
-  ParallelFor(count, 1, [&](std::size_t i) {
-    for (std::size_t j = i + 1; j < count; ++j)
-      if (auto pair = FindPair(scene, all, static_cast<PatchId>(i), static_cast<PatchId>(j)))
-        found[i].push_back(std::move(*pair));
-  });
+  ParallelFor(count, 1, [&](std::size_t i) { found[i] = finder.Find(static_cast<PatchId>(i)); });
 
   std::vector<std::vector<PatchPair>> by_receiver(count);
   for (std::size_t i = 0; i < count; ++i)

@@ -52,6 +52,15 @@ void Tube::AddSupportingPlanes(std::span<const Vec3> from, std::span<const Vec3>
   if (area.squaredNorm() > 0) add_if_supporting(area.normalized(), from[0]);
 }
 
+ConvexRegion Tube::Region() const {
+  ConvexRegion region = planes_;
+  for (int axis = 0; axis < 3; ++axis) {
+    region.push_back({Vec3::Unit(axis), low_[axis]});
+    region.push_back({-Vec3::Unit(axis), -high_[axis]});
+  }
+  return region;
+}
+
 bool Tube::Misses(std::span<const Vec3> polygon, const Vec3& normal) const {
   Vec3 low = polygon[0], high = polygon[0];
   for (const Vec3& v : polygon) {
@@ -61,7 +70,7 @@ bool Tube::Misses(std::span<const Vec3> polygon, const Vec3& normal) const {
   if (((low - high_).array() > 0).any() || ((low_ - high).array() > 0).any()) return true;
 
   const double tolerance = rounding_ + HeightRounding(std::max(MaxAbs(low), MaxAbs(high)));
-  for (const Plane& plane : planes_) {
+  for (const HalfSpace& plane : planes_) {
     bool outside = true;
     for (const Vec3& v : polygon) outside = outside && plane.normal.dot(v) - plane.offset <= tolerance;
     if (outside) return true;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/geometry/vec.h"
+#include "solver/visibility/screens.h"
 
 namespace penumbra {
 
@@ -16,6 +17,9 @@ class Tube {
  public:
   // REQUIRES: a and b are convex and planar, and each lies on or before the other's plane.
   Tube(std::span<const Vec3> a, std::span<const Vec3> b);
+
+  // The tube's planes and its bounding box: no point of the tube lies outside.
+  ConvexRegion Region() const;
 
   // True if the convex polygon, whose plane has the unit normal `normal`, does not meet the tube's interior:
   // it then cannot block. Conservative: false may be returned for polygons just outside.
@@ -25,17 +29,12 @@ class Tube {
   bool HiddenBy(std::span<const Vec3> polygon, const Vec3& normal) const;
 
  private:
-  struct Plane {
-    Vec3 normal;  // unit, inwards
-    double offset;
-  };
-
   void AddSupportingPlanes(std::span<const Vec3> from, std::span<const Vec3> to);
 
   std::span<const Vec3> a_, b_;
   Vec3 low_, high_;      // bounding box
   double rounding_ = 0;  // how far a computed height above a plane may be off [m]
-  std::vector<Plane> planes_;
+  ConvexRegion planes_;
 };
 
 }  // namespace penumbra

@@ -26,6 +26,22 @@ Polygon3 PartBefore(std::span<const Vec3> polygon, const Patch& patch, bool* cli
   return ClipToHalfSpace(polygon, patch.normal, patch.vertex[0], kCoplanar * scale);
 }
 
+bool FilterByTube(const Scene& scene, const Tube& tube, PatchId receiver, PatchId source,
+                  std::span<const PatchId> candidates, std::vector<PatchId>& blockers) {
+  const std::size_t before = blockers.size();
+  for (const PatchId candidate : candidates) {
+    if (candidate == receiver || candidate == source) continue;
+    const Patch& patch = scene.patches[candidate];
+    if (tube.Misses(patch.Vertices(), patch.normal)) continue;
+    if (tube.HiddenBy(patch.Vertices(), patch.normal)) {
+      blockers.resize(before);
+      return false;
+    }
+    blockers.push_back(candidate);
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<TubeEnds> ClipToEachOther(std::span<const Vec3> receiver, const Patch& receiver_patch,
@@ -41,20 +57,16 @@ std::optional<TubeEnds> ClipToEachOther(std::span<const Vec3> receiver, const Pa
 
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       std::span<const PatchId> candidates, std::vector<PatchId>& blockers) {
-  if (candidates.empty()) return true;
-  const std::size_t before = blockers.size();
+  return candidates.empty() ||
+         FilterByTube(scene, Tube(ends.receiver, ends.source), receiver, source, candidates, blockers);
+}
+
+bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
+                      const PatchHierarchy& hierarchy, std::vector<PatchId>& blockers) {
   const Tube tube(ends.receiver, ends.source);
-  for (const PatchId candidate : candidates) {
-    if (candidate == receiver || candidate == source) continue;
-    const Patch& patch = scene.patches[candidate];
-    if (tube.Misses(patch.Vertices(), patch.normal)) continue;
-    if (tube.HiddenBy(patch.Vertices(), patch.normal)) {
-      blockers.resize(before);
-      return false;
-    }
-    blockers.push_back(candidate);
-  }
-  return true;
+  thread_local std::vector<PatchId> candidates;
+  hierarchy.Find(tube.Region(), {}, candidates);
+  return FilterByTube(scene, tube, receiver, source, candidates, blockers);
 }
 
 }  // namespace penumbra

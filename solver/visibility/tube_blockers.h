@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solver/scene/scene.h"
+#include "solver/visibility/patch_hierarchy.h"
 
 namespace penumbra {
 
@@ -29,5 +30,8 @@ std::optional<TubeEnds> ClipToEachOther(std::span<const Vec3> receiver, const Pa
 // wholly.
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       std::span<const PatchId> candidates, std::vector<PatchId>& blockers);
+// The same with all patches of the hierarchy as candidates; blockers ascend.
+bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
+                      const PatchHierarchy& hierarchy, std::vector<PatchId>& blockers);
 
 }  // namespace penumbra
