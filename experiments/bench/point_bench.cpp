@@ -11,7 +11,7 @@
 #include <numbers>
 #include <string>
 
-#include "solver/base/parallel.h"
+#include "experiments/bench/bench_scenes.h"
 #include "solver/base/random.h"
 #include "solver/scene/builtin_scenes.h"
 #include "solver/scene/surface_points.h"
@@ -25,32 +25,6 @@
 
 namespace penumbra {
 namespace {
-
-PatchId AddPatch(Scene& scene, const Polygon3& vertices, std::int32_t material) {
-  scene.patches.push_back(
-      MakePatch(vertices, material, 0, {static_cast<std::int32_t>(scene.patches.size())}));
-  return static_cast<PatchId>(scene.patches.size()) - 1;
-}
-
-std::vector<Material> GreyAndLight() {
-  std::vector<Material> materials(2);
-  materials[1].emittance = Rgb::Ones();
-  return materials;
-}
-
-void AddBox(Scene& scene, const Vec3& low, const Vec3& high, bool inwards) {
-  const auto at = [&](int i) {
-    return Vec3(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z());
-  };
-  constexpr std::array<std::array<int, 4>, 6> kFaces = {
-      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
-  for (const std::array<int, 4>& face : kFaces) {
-    Polygon3 polygon;
-    for (const int i : face) polygon.push_back(at(i));
-    if (inwards) std::reverse(polygon.begin(), polygon.end());
-    AddPatch(scene, polygon, 0);
-  }
-}
 
 ReceiverPoint OnFloor(double x, double y) { return {Vec3(x, y, 0), Vec3::UnitZ(), Vec3::Zero(), 0}; }
 
@@ -225,31 +199,6 @@ void PointOffice(benchmark::State& state) {
   state.counters["patches"] = static_cast<double>(scene.patches.size());
 }
 BENCHMARK(PointOffice)->Unit(benchmark::kMicrosecond);
-
-// n by n closed rooms side by side, each with two lights and ten boxes: from inside one, the others are
-// hidden.
-Scene Rooms(int n) {
-  Scene scene;
-  scene.materials = GreyAndLight();
-  Random random(4);
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      const Vec3 o(4.2 * i, 4.2 * j, 0);
-      AddBox(scene, o, o + Vec3(4, 4, 3), true);
-      for (const double x : {1.0, 2.5})
-        AddPatch(
-            scene,
-            {o + Vec3(x, 1, 2.9), o + Vec3(x, 3, 2.9), o + Vec3(x + 0.5, 3, 2.9), o + Vec3(x + 0.5, 1, 2.9)},
-            1);
-      for (int k = 0; k < 10; ++k) {
-        const Vec3 low(random.Uniform(0, 3), random.Uniform(0, 3), random.Uniform(0, 1));
-        AddBox(scene, o + low,
-               o + low + Vec3(random.Uniform(0.1, 0.8), random.Uniform(0.1, 0.8), random.Uniform(0.1, 1)),
-               false);
-      }
-    }
-  return scene;
-}
 
 // Direct light at points of one room of many: what cannot be seen should not cost.
 void PointRooms(benchmark::State& state) {
