@@ -84,6 +84,9 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
       app, "--corrections", &solving->max_corrections, 0, 100,
       "Passes that correct the converged solution by exact irradiance; 0: links alone, as in the thesis")
       ->group(group);
+  app.add_flag("!--no-acceleration", solving->accelerate,
+               "Plain Jacobi sweeps, as in the thesis, instead of guessing ahead (Anderson 1965)")
+      ->group(group);
   AddInteger(app, "--iterations", &solving->max_iterations, 1, 1'000'000,
              "Most iterations of gathering and refining")
       ->group(group);
@@ -123,6 +126,7 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["min_discontinuity_weight"] = resolved->min_discontinuity_weight;
     options["max_leaf_dsets"] = resolved->max_leaf_dsets;
     options["corrections"] = resolved->solver.max_corrections;
+    options["acceleration"] = resolved->solver.accelerate;
     options["relative_cutoff"] = resolved->solver.relative_cutoff;
     options["iterations"] = resolved->solver.max_iterations;
     options["nudge"] = arguments.solving.point.nudge;

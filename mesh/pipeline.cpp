@@ -56,6 +56,7 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   resolved.solver.relative_cutoff = options.relative_cutoff.value_or(kCutoffOfError * options.error);
   resolved.solver.max_iterations = options.max_iterations;
   resolved.solver.max_corrections = options.max_corrections;
+  resolved.solver.accelerate = options.accelerate;
   resolved.min_discontinuity_weight = options.min_discontinuity_weight.value_or(
       std::min(kLargestWeight, kWeightOfStrongest * options.error) * totals.strongest);
   resolved.max_leaf_dsets = options.max_leaf_dsets;

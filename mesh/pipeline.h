@@ -33,6 +33,7 @@ struct PipelineOptions {
   std::optional<double> relative_cutoff;           // Appendix A, 7
   int max_corrections = 2;                         // SolverOptions::max_corrections
   int max_iterations = 100;
+  bool accelerate = true;           // SolverOptions::accelerate
   PointIrradianceOptions point;     // Appendix A, 9 and 10
   std::size_t error_points = 1000;  // random points that measure the interpolants' error; 0 leaves it out
   std::uint64_t seed = 1;

@@ -5,6 +5,7 @@
 
 #include "solver/base/parallel.h"
 #include "solver/base/stopwatch.h"
+#include "solver/transport/anderson.h"
 #include "solver/transport/leaf_fragments.h"
 #include "solver/transport/leaf_irradiance.h"
 #include "solver/transport/link_former.h"
@@ -18,7 +19,8 @@ constexpr std::size_t kGatherGrain = 256;
 constexpr std::size_t kLinkGrain = 2;
 constexpr std::size_t kExactGrain = 8;
 
-// The most sweeps before an iteration refines all the same: rooms of reflectance 0.99 need some 1,400.
+// The most sweeps before an iteration refines all the same: without acceleration rooms of reflectance 0.99
+// need some 1,400.
 constexpr std::size_t kMaxSweeps = 5000;
 
 // The area of an element for which eps is meant: a 16 x 16 mesh of all fronts together.
@@ -119,17 +121,36 @@ void HierarchicalSolver::PushPull(ElementId id, const Rgb& from_above) {
   const Element& element = solution_.forest[id];
   const Rgb irradiance = from_above + gathered_[id];
   if (element.IsLeaf()) {
-    const Material& material = scene_.MaterialOf(element.patch);
-    solution_.irradiance[id] = (irradiance + correction_[id]).max(0.0);
-    solution_.radiosity[id] = material.emittance + material.reflectance * solution_.irradiance[id];
-    solution_.radiosity_spread[id] = 0;
-    solution_.spread_below[id] = 0;
+    Light(id, irradiance + correction_[id]);
     return;
   }
+  for (ElementId child = element.first_child; child < element.first_child + 4; ++child)
+    PushPull(child, irradiance);
+  Average(id);
+}
+
+// Averages of what is below.
+void HierarchicalSolver::Pull(ElementId id) {
+  const Element& element = solution_.forest[id];
+  if (element.IsLeaf()) return;
+  for (ElementId child = element.first_child; child < element.first_child + 4; ++child) Pull(child);
+  Average(id);
+}
+
+void HierarchicalSolver::Light(ElementId leaf, const Rgb& irradiance) {
+  const Material& material = scene_.MaterialOf(solution_.forest[leaf].patch);
+  solution_.irradiance[leaf] = irradiance.max(0.0);
+  solution_.radiosity[leaf] = material.emittance + material.reflectance * solution_.irradiance[leaf];
+  solution_.radiosity_spread[leaf] = 0;
+  solution_.spread_below[leaf] = 0;
+}
+
+// The area-weighted means of the children, and how much their leaves vary.
+void HierarchicalSolver::Average(ElementId id) {
+  const Element& element = solution_.forest[id];
   Rgb irradiance_sum = Rgb::Zero(), radiosity_sum = Rgb::Zero();
   double area = 0;
   for (ElementId child = element.first_child; child < element.first_child + 4; ++child) {
-    PushPull(child, irradiance);
     const double a = solution_.forest[child].area;
     irradiance_sum += a * solution_.irradiance[child];
     radiosity_sum += a * solution_.radiosity[child];
@@ -159,8 +180,8 @@ Rgb SourceRadiosity(const RadiositySolution& solution, const Link& link) {
   return radiosity;
 }
 
-// One Jacobi sweep. Returns the largest change of a leaf's radiosity, relative to the largest reflected
-// radiosity.
+// One sweep: gathers over all links from where the light is, as Jacobi. Returns the largest change of a
+// leaf's radiosity, relative to the largest reflected radiosity.
 double HierarchicalSolver::Sweep() {
   const RadiositySolution& s = solution_;
   ParallelFor(s.forest.size(), kGatherGrain, [&](std::size_t e) {
@@ -186,11 +207,29 @@ double HierarchicalSolver::Sweep() {
 // understates what is missing by 1 / (1 - rho).
 double HierarchicalSolver::SweepToCutoff(IterationReport& report, const ExecutionContext& context) {
   const double remaining = max_reflectance_ / (1 - max_reflectance_);
+  const std::vector<ElementId> leaves = solution_.forest.AllLeaves();
+  std::vector<double> area;
+  for (const ElementId leaf : leaves) area.push_back(solution_.forest[leaf].area);
+  AndersonAcceleration acceleration(std::move(area));
+  const auto light_of_leaves = [&] {
+    std::vector<Rgb> light;
+    for (const ElementId leaf : leaves) light.push_back(solution_.irradiance[leaf]);
+    return light;
+  };
   residual_ = 1;
-  for (std::size_t sweep = 0; sweep < kMaxSweeps && residual_ > options_.relative_cutoff; ++sweep) {
-    if (context.Cancelled()) break;
+  for (std::size_t sweep = 0; sweep < kMaxSweeps && !context.Cancelled(); ++sweep) {
+    const std::vector<Rgb> before = light_of_leaves();
     residual_ = Sweep() * remaining;
     ++report.sweeps;
+    // What a sweep leaves is bound by its change from wherever it began: a guess need not be good.
+    if (residual_ <= options_.relative_cutoff) break;
+    // The last word is a sweep's.
+    if (!options_.accelerate || context.Cancelled() || sweep + 1 == kMaxSweeps) continue;
+    std::vector<Rgb> guess = light_of_leaves();
+    acceleration.Improve(before, guess);
+    for (std::size_t i = 0; i < leaves.size(); ++i) Light(leaves[i], guess[i]);
+    for (std::size_t p = 0; p < scene_.patches.size(); ++p)
+      Pull(ElementForest::Root(static_cast<PatchId>(p)));
   }
   return residual_;
 }

@@ -28,7 +28,9 @@ struct SolverOptions {
   // Converged when no radiosity is farther off, relative to the largest reflected one (Appendix A, 7).
   double relative_cutoff = 1e-4;
   int max_iterations = 100;  // each gathers until it settles, then refines
-  int max_corrections = 2;   // passes of exact irradiance over the leaves; 0: links alone, as in the thesis
+  // Guess ahead from one sweep to the next (AndersonAcceleration); plain Jacobi sweeps otherwise.
+  bool accelerate = true;
+  int max_corrections = 2;  // passes of exact irradiance over the leaves; 0: links alone, as in the thesis
 };
 
 struct IterationReport {
@@ -70,6 +72,9 @@ class HierarchicalSolver {
   void Install(std::vector<LinkSet> groups, const std::vector<char>& dropped);
   void ResizeLight();
   void PushPull(ElementId element, const Rgb& from_above);
+  void Light(ElementId leaf, const Rgb& irradiance);
+  void Average(ElementId element);
+  void Pull(ElementId element);
   void LightFragments();
 
   const Scene& scene_;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <thread>
 
@@ -293,6 +294,46 @@ TEST(HierarchicalSolver, EmptySingleAndDark) {
   const RadiositySolution night = Solved(dark, 0.1);
   for (const Rgb& b : night.radiosity) EXPECT_TRUE((b == 0).all());
   EXPECT_EQ(night.forest.size(), dark.patches.size());
+}
+
+// In bright rooms guessing ahead takes a fraction of the sweeps, and leads to the same light: both are within
+// the cut-off of the largest reflected radiosity.
+TEST(HierarchicalSolver, AccelerationSavesSweeps) {
+  Random random(411);
+  for (const double reflectance : {0.5, 0.9, 0.99}) {
+    Scene scene = FurnishedRoom(random, 2);
+    for (Material& material : scene.materials)
+      material.reflectance =
+          material.emittance[0] > 0 ? Rgb::Zero().eval() : Rgb(reflectance, 0.9 * reflectance, 0);
+    const PatchVisibility visibility(scene);
+    std::array<RadiositySolution, 2> solution;
+    std::array<std::size_t, 2> sweeps{};
+    SolverOptions options;
+    options.eps = 3;
+    options.relative_cutoff = 1e-6;
+    options.max_corrections = 0;
+    for (const std::size_t accelerated : {0U, 1U}) {
+      options.accelerate = accelerated == 1;
+      HierarchicalSolver solver(scene, visibility, options);
+      for (const IterationReport& report : solver.Solve(ExecutionContext()))
+        sweeps[accelerated] += report.sweeps;
+      EXPECT_TRUE(solver.Converged());
+      solution[accelerated] = std::move(solver).TakeSolution();
+    }
+    ASSERT_EQ(solution[0].radiosity.size(), solution[1].radiosity.size());
+    double worst = 0, largest = 0;
+    for (std::size_t e = 0; e < solution[0].radiosity.size(); ++e) {
+      worst = std::max(worst, (solution[0].radiosity[e] - solution[1].radiosity[e]).abs().maxCoeff());
+      largest = std::max(largest, solution[0].irradiance[e].maxCoeff());
+    }
+    std::printf("reflectance %.2f: %zu sweeps, accelerated %zu, difference %.2g of the largest\n",
+                reflectance, sweeps[0], sweeps[1], worst / largest);
+    EXPECT_LE(worst, 2 * options.relative_cutoff * largest);
+    EXPECT_LT(sweeps[1], sweeps[0]);
+    if (reflectance > 0.98) {
+      EXPECT_LT(5 * sweeps[1], sweeps[0]);
+    }
+  }
 }
 
 }  // namespace
