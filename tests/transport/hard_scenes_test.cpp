@@ -10,9 +10,6 @@
 namespace penumbra::scene_test {
 namespace {
 
-// 1e-12 of the light without blockers, which no scene here exceeds.
-constexpr double kAgreement = 1e-12;
-
 struct Agreement {
   double worst = 0;
   int points = 0;
@@ -27,7 +24,7 @@ struct Agreement {
     EXPECT_GE(plain, 0) << at.position.transpose();
     for (const auto& [name, method] : methods) {
       const double got = Direct(scene, at, method.get()).irradiance[0];
-      EXPECT_NEAR(got, plain, kAgreement) << name << " at " << at.position.transpose();
+      EXPECT_NEAR(got, plain, kOcclusionError) << name << " at " << at.position.transpose();
       worst = std::max(worst, std::abs(got - plain));
     }
     ++points;

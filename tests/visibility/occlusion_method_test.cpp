@@ -208,9 +208,6 @@ constexpr std::size_t kShare = 50;
 constexpr std::size_t kShare = 1;
 #endif
 
-// All agree to this, relative to the unoccluded source.
-constexpr double kAgreement = 1e-12;
-
 // Makes cases and compares the methods on them.
 void CompareAll(const char* name, Generator make, std::uint64_t seed, std::size_t cases) {
   const std::size_t count = cases / kShare;
@@ -233,11 +230,11 @@ void CompareAll(const char* name, Generator make, std::uint64_t seed, std::size_
       "%s, seed %llu: %zu compared; backprojection and vertex tracing differ by up to %.2g (sequence %zu), "
       "clipping by %.2g (sequence %zu), bound %.2g; paper's formula for %.0f%% of the borders\n",
       name, static_cast<unsigned long long>(seed), compared, exact.difference, exact.sequence,
-      clipping.difference, clipping.sequence, kAgreement,
+      clipping.difference, clipping.sequence, kOcclusionError,
       100.0 * static_cast<double>(formula) / std::max(1.0, static_cast<double>(borders)));
   EXPECT_GT(compared, 0U);
-  EXPECT_LE(exact.difference, kAgreement);
-  EXPECT_LE(clipping.difference, kAgreement);
+  EXPECT_LE(exact.difference, kOcclusionError);
+  EXPECT_LE(clipping.difference, kOcclusionError);
 }
 
 TEST(OcclusionMethod, AgreeForAnySizes) { CompareAll("any sizes", RandomSizes, 601, 10000); }
