@@ -63,9 +63,9 @@ constexpr double kLeastWidth = 1e-13;
 constexpr double kSameLine = 1e-10;
 
 // Lines that are cut along before any point is looked at, so that small lit parts are not missed.
-constexpr std::size_t kForcedLines = 48;
+constexpr std::size_t kForcedLines = 16;
 
-// The integrand changes over the height of an edge of the source above the area, which points that lie
+// The integrand changes over the height of an edge above the area, which points that lie
 // farther apart would not notice. Edges lower than this, relative to the area's diameter, get lines around
 // their feet, at distances that grow by this factor.
 constexpr double kLowEdge = 0.05, kGrading = 8;
@@ -103,14 +103,37 @@ Polygon2 ToPolygon(const Quad& quad) {
   return polygon;
 }
 
+// What makes an event: a vertex and an edge, or an edge and its end alone where a blocker is seen edge-on.
+struct Event {
+  PatchId a = kNoPatch, b = kNoPatch;  // whose vertex, whose edge; kNoPatch stands for the source
+  Vec3 vertex, from, to;               // in the receiver's frame [m]
+  bool edge_on = false;
+};
+
+double DistanceToSegment(const Vec3& x, const Vec3& p, const Vec3& q) {
+  const Vec3 along = q - p;
+  const double t = std::clamp((x - p).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (x - p - t * along).norm();
+}
+
+// How near to x, a point of the event's line, the nearer of vertex and edge is along the line of sight [m].
+double Nearness(const Event& event, const Vec3& x) {
+  if (event.edge_on) return DistanceToSegment(x, event.from, event.to);
+  const Vec3 sight = event.vertex - x, edge = event.to - event.from;
+  const Vec3 across = (event.from - event.vertex).cross(edge).cross(sight);
+  const double slope = edge.dot(across);
+  const double t = slope == 0 ? 0 : std::clamp((x - event.from).dot(across) / slope, 0.0, 1.0);
+  return std::min(sight.norm(), (event.from + t * edge - x).norm());
+}
+
 // A line on which what is seen may change in kind, and its stretch that matters.
 struct EventLine {
-  Vec2 normal = Vec2::UnitX();                      // unit
-  double offset = 0;                                // normal . p [m]
-  double low = 0, high = 0;                         // of the stretch, along Along() [m]
-  double weight = 1;                                // how many events coincide
-  bool grade = false;                               // or where the integrand changes fast
-  std::vector<std::pair<PatchId, PatchId>> makers;  // kNoPatch stands for the source
+  Vec2 normal = Vec2::UnitX();  // unit
+  double offset = 0;            // normal . p [m]
+  double low = 0, high = 0;     // of the stretch, along Along() [m]
+  double weight = 1;            // how many events coincide
+  bool grade = false;           // or where the integrand changes fast
+  std::vector<Event> events;    // none for grades
 
   Vec2 Along() const { return {-normal.y(), normal.x()}; }
 };
@@ -142,11 +165,13 @@ struct Cell {
   std::vector<std::int32_t> lines;  // that cross it
   double value = 0;                 // its part of the integral [m^2]
   double error_s = 0, error_t = 0;  // of the value, along the two parameters
+  double unseen = 0;                // what lines may hide that have all points on one side
+  std::int32_t unseen_line = -1;    // the worst of them
   bool shadowed = false;            // something may block
   bool settled = false;             // nothing is to be gained by splitting it
   std::size_t points = 0;
 
-  double Error() const { return error_s + error_t; }
+  double Error() const { return error_s + error_t + unseen; }
 };
 
 // The integral, over a convex part of one patch, of the form factor to a convex part of another.
@@ -160,7 +185,7 @@ class PairIntegral {
 
  private:
   void FindLines(std::span<const PatchId> blockers);
-  void FindGrades();
+  void FindGrades(std::span<const Vec3> polygon, PatchId owner);
   void AddWedges(std::span<const Vec3> vertices, std::span<const Vec3> edges, PatchId a, PatchId b);
   void AddWedge(const Vec3& v, const Vec3& p, const Vec3& q, PatchId a, PatchId b);
   void AddStretch(EventLine line, double low, double high);
@@ -172,6 +197,7 @@ class PairIntegral {
   bool Alive(const EventLine& line, std::span<const PatchId> blockers) const;
   void Cut(const Cell& cell, const EventLine& line, std::vector<Cell>& parts) const;
   void Split(const Cell& cell, std::vector<Cell>& parts) const;
+  void FindUnseen(Cell& cell, double largest) const;
   double Visible(const Vec2& p, std::span<const PatchId> blockers) const;
   template <std::size_t N>
   void Evaluate(Cell& cell, const KronrodRule<N>& rule) const;
@@ -182,8 +208,9 @@ class PairIntegral {
   Polygon3 source_part_;
   Frame frame_;  // of the receiver
   Polygon2 area_;
-  Polygon3 local_source_;  // in the frame
-  double diameter_ = 0;    // [m]
+  Polygon3 local_source_;      // in the frame
+  double diameter_ = 0;        // [m]
+  double source_breadth_ = 0;  // its smallest [m]
   AreaFormFactorOptions options_;
   std::vector<EventLine> lines_;
   std::vector<Cell> cells_;
@@ -202,7 +229,15 @@ PairIntegral::PairIntegral(const Scene& scene, const TubeEnds& ends, PatchId rec
   };
   for (const Vec3& v : source_part_) local_source_.push_back(local(v));
   diameter_ = Diameter(ends.receiver);
-  FindGrades();
+  source_breadth_ = Diameter(source_part_);
+  for (std::size_t i = 0; i < source_part_.size(); ++i) {
+    const Vec3 &p = source_part_[i], &q = source_part_[(i + 1) % source_part_.size()];
+    double breadth = 0;
+    for (const Vec3& v : source_part_)
+      breadth = std::max(breadth, (q - p).cross(v - p).norm() / (q - p).norm());
+    source_breadth_ = std::min(source_breadth_, breadth);
+  }
+  FindGrades(local_source_, kNoPatch);
   if (!blockers.empty()) FindLines(blockers);
   MergeLines();
 
@@ -230,20 +265,19 @@ PairIntegral::PairIntegral(const Scene& scene, const TubeEnds& ends, PatchId rec
   }
 }
 
-// Lines around the feet of edges of the source that hang low over the area.
-void PairIntegral::FindGrades() {
-  for (std::size_t i = 0; i < local_source_.size(); ++i) {
-    const Vec3 &p = local_source_[i], &q = local_source_[(i + 1) % local_source_.size()];
+// Lines around the feet of edges that hang low over the area.
+void PairIntegral::FindGrades(std::span<const Vec3> polygon, PatchId owner) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
     const double height = std::min(p.z(), q.z());
     const Vec2 along = (q - p).head<2>();
-    const double length = along.norm();
-    if (height > kLowEdge * diameter_ || length <= kSameLine * diameter_) continue;
+    const double length = along.norm(), least = kSameLine * diameter_;
+    if (height > kLowEdge * diameter_ || length <= least) continue;
     EventLine line;
     line.normal = Vec2(along.y(), -along.x()) / length;  // so that Along() runs from p to q
-    line.grade = true;
-    line.makers = {{kNoPatch, kNoPatch}};
+    line.grade = owner == kNoPatch;
+    line.events = {{kNoPatch, owner, p, p, q, true}};
     const double foot = line.normal.dot(p.head<2>()), from = line.Along().dot(p.head<2>());
-    const double least = kSameLine * diameter_;
     line.offset = foot;
     AddStretch(line, from, from + length);
     if (height <= least) continue;  // it touches: the integrand changes on every scale, and that shows
@@ -283,9 +317,11 @@ void PairIntegral::FindLines(std::span<const PatchId> blockers) {
       line.normal = normal.head<2>() / length;
       line.offset = normal.dot(local[0]) / length;
       line.weight = touches ? 8 : 1;
-      line.makers = {{kNoPatch, blocker}};
+      for (std::size_t i = 0; i < local.size(); ++i)
+        line.events.push_back({kNoPatch, blocker, local[i], local[i], local[(i + 1) % local.size()], true});
       AddStretch(line, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity());
     }
+    FindGrades(local, blocker);
     between.emplace_back(blocker, std::move(local));
   }
   for (const auto& [blocker, polygon] : between) {
@@ -308,6 +344,7 @@ void PairIntegral::AddWedges(std::span<const Vec3> vertices, std::span<const Vec
 // the edge.
 void PairIntegral::AddWedge(const Vec3& v, const Vec3& p, const Vec3& q, PatchId a, PatchId b) {
   const double rounding = kSameLine * diameter_;
+  const std::size_t before = lines_.size();
   if (v.z() <= rounding) return;
   const Vec3 normal = (p - v).cross(q - v);
   const double length = normal.head<2>().norm();
@@ -315,7 +352,7 @@ void PairIntegral::AddWedge(const Vec3& v, const Vec3& p, const Vec3& q, PatchId
   EventLine line;
   line.normal = normal.head<2>() / length;
   line.offset = normal.dot(v) / length;
-  line.makers = {{a, b}};
+  line.events = {{a, b, v, p, q, false}};
   // The images of the edge's ends, from v onto the plane z = 0. An end below v has its image on this side.
   const Vec2 along = line.Along();
   const double infinity = std::numeric_limits<double>::infinity();
@@ -339,10 +376,9 @@ void PairIntegral::AddWedge(const Vec3& v, const Vec3& p, const Vec3& q, PatchId
     AddStretch(line, -infinity, low);
     AddStretch(line, high, infinity);
   }
-  if (a == kNoPatch || lines_.empty()) return;
+  if (a == kNoPatch || lines_.size() == before) return;
   // Two blockers matter where the source is behind them.
-  EventLine& last = lines_.back();
-  if (last.makers != line.makers || last.offset != line.offset) return;
+  const EventLine& last = lines_.back();
   bool matters = false;
   for (const double s : {0.02, 0.25, 0.5, 0.75, 0.98})
     matters =
@@ -403,7 +439,7 @@ void PairIntegral::MergeLines() {
       same.high = std::max(same.high, line.high);
       same.weight += line.weight;
       same.grade = same.grade || line.grade;
-      same.makers.insert(same.makers.end(), line.makers.begin(), line.makers.end());
+      same.events.insert(same.events.end(), line.events.begin(), line.events.end());
     } else {
       merged.push_back(std::move(line));
     }
@@ -419,8 +455,8 @@ bool PairIntegral::Alive(const EventLine& line, std::span<const PatchId> blocker
   const auto blocks = [&](PatchId p) {
     return p == kNoPatch || std::binary_search(blockers.begin(), blockers.end(), p);
   };
-  return std::any_of(line.makers.begin(), line.makers.end(),
-                     [&](const auto& pair) { return blocks(pair.first) && blocks(pair.second); });
+  return std::any_of(line.events.begin(), line.events.end(),
+                     [&](const Event& event) { return blocks(event.a) && blocks(event.b); });
 }
 
 // Whether a stretch of the line runs through the cell, away from its border.
@@ -476,6 +512,8 @@ void PairIntegral::Cut(const Cell& cell, const EventLine& line, std::vector<Cell
 
 // Along the line with the largest share, or where none is left across the direction of the larger error.
 void PairIntegral::Split(const Cell& cell, std::vector<Cell>& parts) const {
+  if (cell.unseen > std::max(cell.error_s, cell.error_t))
+    return Cut(cell, lines_[static_cast<std::size_t>(cell.unseen_line)], parts);
   const EventLine* best = nullptr;
   double largest = 0;
   const Polygon2 polygon = ToPolygon(cell.quad);
@@ -523,11 +561,13 @@ double PairIntegral::Visible(const Vec2& p, std::span<const PatchId> blockers) c
 
 template <std::size_t N>
 void PairIntegral::Evaluate(Cell& cell, const KronrodRule<N>& rule) const {
-  double both = 0, gauss_s = 0, gauss_t = 0;
+  double both = 0, gauss_s = 0, gauss_t = 0, largest = 0;
   for (std::size_t i = 0; i < N; ++i)
     for (std::size_t j = 0; j < N; ++j) {
       const double s = rule.node[i], t = rule.node[j];
-      const double value = Jacobian(cell.quad, s, t) * Visible(At(cell.quad, s, t), cell.blockers);
+      const double visible = Visible(At(cell.quad, s, t), cell.blockers);
+      const double value = Jacobian(cell.quad, s, t) * visible;
+      largest = std::max(largest, visible);
       both += rule.kronrod[i] * rule.kronrod[j] * value;
       gauss_s += rule.gauss[i] * rule.kronrod[j] * value;
       gauss_t += rule.kronrod[i] * rule.gauss[j] * value;
@@ -536,6 +576,40 @@ void PairIntegral::Evaluate(Cell& cell, const KronrodRule<N>& rule) const {
   cell.error_s = std::abs(both - gauss_s);
   cell.error_t = std::abs(both - gauss_t);
   cell.points = N * N;
+  if (cell.shadowed && !cell.lines.empty()) FindUnseen(cell, largest);
+}
+
+// Adds up what lines may hide that cross the cell with all its points on one side. Away from contacts the
+// integrand changes over the distance of what makes the event, or over the breadth of the source's image.
+void PairIntegral::FindUnseen(Cell& cell, double largest) const {
+  constexpr KronrodRule<7> rule = kSeven;
+  std::array<Vec2, 49> points;
+  for (std::size_t i = 0; i < 49; ++i) points[i] = At(cell.quad, rule.node[i / 7], rule.node[i % 7]);
+  const Polygon2 polygon = ToPolygon(cell.quad);
+  largest = std::max(largest, Visible(points[24], {}));
+  double worst = 0;
+  for (const std::int32_t l : cell.lines) {
+    const EventLine& line = lines_[static_cast<std::size_t>(l)];
+    bool any_above = false, any_below = false;
+    for (std::size_t i = 0; i < 49 && !(any_above && any_below); ++i)
+      (line.normal.dot(points[i]) > line.offset ? any_above : any_below) = true;
+    if ((any_above && any_below) || !Alive(line, cell.blockers)) continue;
+    const Stretch inside = Inside(line, polygon);
+    double depth = 0;
+    for (const Vec2& p : polygon)
+      depth = std::max(depth, (any_above ? -1 : 1) * (line.normal.dot(p) - line.offset));
+    double scale = source_breadth_;
+    const double low = std::max(line.low, inside.low), high = std::min(line.high, inside.high);
+    for (const double s : {0.0, 0.5, 1.0}) {
+      const Vec2 p = line.normal * line.offset + line.Along() * (low + s * (high - low));
+      for (const Event& event : line.events) scale = std::min(scale, Nearness(event, {p.x(), p.y(), 0}));
+    }
+    const double hidden = depth * (inside.high - inside.low) * largest * (depth < scale ? depth / scale : 1);
+    cell.unseen += hidden;
+    if (hidden <= worst) continue;
+    worst = hidden;
+    cell.unseen_line = l;
+  }
 }
 
 void PairIntegral::Evaluate(Cell& cell) const {
@@ -585,6 +659,7 @@ FormFactorEstimate PairIntegral::Integrate() {
     }
     const double asked = value * (shadowed ? options_.tolerance : options_.clear_tolerance);
     if (error <= asked || points >= options_.max_points) break;
+    if (options_.context && options_.context->Cancelled()) break;
     std::vector<std::size_t> order(cells_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::erase_if(order, [&](std::size_t i) { return cells_[i].settled || cells_[i].Error() == 0; });
@@ -624,8 +699,8 @@ FormFactorEstimate PairIntegral::Integrate() {
 double Area(const AreaPart& part) { return VectorArea(part.polygon).norm(); }
 
 // What may stand between two areas, ascending.
-void FindBetween(const Scene& scene, const PatchHierarchy& patches, const TubeEnds& ends,
-                 const Patch& receiver, const Patch& source, std::vector<PatchId>& found) {
+void FindBetween(const PatchHierarchy& patches, const TubeEnds& ends, const Patch& receiver,
+                 const Patch& source, std::vector<PatchId>& found) {
   Vec3 low = ends.receiver[0], high = low;
   for (const Polygon3* polygon : {&ends.receiver, &ends.source})
     for (const Vec3& v : *polygon) {
@@ -638,7 +713,6 @@ void FindBetween(const Scene& scene, const PatchHierarchy& patches, const TubeEn
     region.push_back({Vec3::Unit(axis), low[axis]});
     region.push_back({-Vec3::Unit(axis), -high[axis]});
   }
-  (void)scene;
   patches.Find(region, {}, found);
 }
 
@@ -678,7 +752,7 @@ FormFactorEstimate AreaFormFactor(const Scene& scene, const PatchHierarchy& patc
       ClipToEachOther(receiver.polygon, receiver_patch, source.polygon, source_patch);
   if (!ends) return {};
   std::vector<PatchId> found, blockers;
-  FindBetween(scene, patches, *ends, receiver_patch, source_patch, found);
+  FindBetween(patches, *ends, receiver_patch, source_patch, found);
   if (!FindTubeBlockers(scene, *ends, receiver.patch, source.patch, found, blockers)) return {};
   const FormFactorEstimate integral =
       PairIntegral(scene, *ends, receiver.patch, source.patch, std::move(blockers), options).Integrate();
@@ -692,6 +766,7 @@ FormFactorEstimate AreaFormFactor(const Scene& scene, std::span<const AreaPart> 
   const PatchHierarchy patches(scene, std::move(all));
   std::vector<FormFactorEstimate> pairs(from.size() * to.size());
   ParallelFor(pairs.size(), 1, [&](std::size_t k) {
+    if (options.context && options.context->Cancelled()) return;
     pairs[k] = AreaFormFactor(scene, patches, from[k / to.size()], to[k % to.size()], options);
   });
   double area = 0;

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/base/progress.h"
 #include "solver/geometry/polygon.h"
 #include "solver/scene/scene.h"
 #include "solver/visibility/patch_hierarchy.h"
@@ -39,6 +40,8 @@ struct AreaFormFactorOptions {
   std::size_t max_points = 10'000'000;
   // Takes the points on the first area whatever the sizes: for tests of reciprocity.
   bool points_on_first = false;
+  // Null, or what may cancel the work: the result is then of no use.
+  const ExecutionContext* context = nullptr;
 };
 
 // From one part to another, past all patches of the scene; `patches` holds all of them. The error is an
