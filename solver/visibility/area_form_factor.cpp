@@ -72,10 +72,13 @@ constexpr double kLowEdge = 0.05, kGrading = 8;
 
 // Lines between two blockers grow as the square of their number: beyond this, halving finds them.
 constexpr std::size_t kMostPairedBlockers = 12;
-constexpr std::size_t kMostLines = 1024;
+constexpr std::size_t kMostLines = 4096;
 
 // Of the error that is asked for, the share that may stay in cells that are not refined in a round.
 constexpr double kLeftAlone = 0.3;
+
+// Of many pairs, each is known this well before it is decided which deserve more.
+constexpr double kRoughTolerance = 1e-2;
 
 using Quad = std::array<Vec2, 4>;
 
@@ -133,10 +136,21 @@ struct EventLine {
   double low = 0, high = 0;     // of the stretch, along Along() [m]
   double weight = 1;            // how many events coincide
   bool grade = false;           // or where the integrand changes fast
+  double reach = 0;             // how near what makes it comes [m]
   std::vector<Event> events;    // none for grades
 
   Vec2 Along() const { return {-normal.y(), normal.x()}; }
 };
+
+// How near to the stretch of the line from low to high what makes it comes [m].
+double Reach(const EventLine& line, double low, double high) {
+  double reach = std::numeric_limits<double>::infinity();
+  for (const double s : {0.0, 0.5, 1.0}) {
+    const Vec2 p = line.normal * line.offset + line.Along() * (low + s * (high - low));
+    for (const Event& event : line.events) reach = std::min(reach, Nearness(event, {p.x(), p.y(), 0}));
+  }
+  return reach;
+}
 
 // Where a line runs in a convex polygon; high <= low: nowhere.
 struct Stretch {
@@ -447,6 +461,8 @@ void PairIntegral::MergeLines() {
   std::stable_sort(merged.begin(), merged.end(), [](const EventLine& a, const EventLine& b) {
     return a.weight * (a.high - a.low) > b.weight * (b.high - b.low);
   });
+  for (EventLine& line : merged)
+    line.reach = std::min(source_breadth_, 0.5 * Reach(line, line.low, line.high));
   if (merged.size() > kMostLines) merged.resize(kMostLines);
   lines_ = std::move(merged);
 }
@@ -579,10 +595,12 @@ void PairIntegral::Evaluate(Cell& cell, const KronrodRule<N>& rule) const {
   if (cell.shadowed && !cell.lines.empty()) FindUnseen(cell, largest);
 }
 
-// Adds up what lines may hide that cross the cell with all its points on one side. Away from contacts the
-// integrand changes over the distance of what makes the event, or over the breadth of the source's image.
+// Adds up what lines may hide that cross the cell with all its points on one side, or with none near enough
+// to see what changes fast. Away from contacts the integrand changes over the distance of what makes the
+// event, or over the breadth of the source's image.
 void PairIntegral::FindUnseen(Cell& cell, double largest) const {
   constexpr KronrodRule<7> rule = kSeven;
+  constexpr double kNone = std::numeric_limits<double>::infinity();
   std::array<Vec2, 49> points;
   for (std::size_t i = 0; i < 49; ++i) points[i] = At(cell.quad, rule.node[i / 7], rule.node[i % 7]);
   const Polygon2 polygon = ToPolygon(cell.quad);
@@ -590,21 +608,30 @@ void PairIntegral::FindUnseen(Cell& cell, double largest) const {
   double worst = 0;
   for (const std::int32_t l : cell.lines) {
     const EventLine& line = lines_[static_cast<std::size_t>(l)];
-    bool any_above = false, any_below = false;
-    for (std::size_t i = 0; i < 49 && !(any_above && any_below); ++i)
-      (line.normal.dot(points[i]) > line.offset ? any_above : any_below) = true;
-    if ((any_above && any_below) || !Alive(line, cell.blockers)) continue;
-    const Stretch inside = Inside(line, polygon);
-    double depth = 0;
-    for (const Vec2& p : polygon)
-      depth = std::max(depth, (any_above ? -1 : 1) * (line.normal.dot(p) - line.offset));
-    double scale = source_breadth_;
-    const double low = std::max(line.low, inside.low), high = std::min(line.high, inside.high);
-    for (const double s : {0.0, 0.5, 1.0}) {
-      const Vec2 p = line.normal * line.offset + line.Along() * (low + s * (high - low));
-      for (const Event& event : line.events) scale = std::min(scale, Nearness(event, {p.x(), p.y(), 0}));
+    double above = kNone, below = kNone;  // the distances of the nearest points
+    for (const Vec2& p : points) {
+      const double height = line.normal.dot(p) - line.offset;
+      double& nearest = height > 0 ? above : below;
+      nearest = std::min(nearest, std::abs(height));
     }
-    const double hidden = depth * (inside.high - inside.low) * largest * (depth < scale ? depth / scale : 1);
+    const bool one_side = above == kNone || below == kNone;
+    const double gap = std::max(above, below);
+    if ((!one_side && line.reach > 0.5 * gap) || !Alive(line, cell.blockers)) continue;
+    const Stretch inside = Inside(line, polygon);
+    const double scale = std::min(
+        source_breadth_, Reach(line, std::max(line.low, inside.low), std::min(line.high, inside.high)));
+    const double length = inside.high - inside.low;
+    double hidden = 0;
+    if (one_side) {
+      double depth = 0;
+      for (const Vec2& p : polygon)
+        depth = std::max(depth, (below == kNone ? -1 : 1) * (line.normal.dot(p) - line.offset));
+      hidden = depth * length * largest * (depth < scale ? depth / scale : 1);
+    } else if (scale < 0.5 * gap) {
+      hidden = scale * length * largest;
+    } else {
+      continue;
+    }
     cell.unseen += hidden;
     if (hidden <= worst) continue;
     worst = hidden;
@@ -657,7 +684,8 @@ FormFactorEstimate PairIntegral::Integrate() {
       error += cell.Error();
       shadowed = shadowed || cell.shadowed;
     }
-    const double asked = value * (shadowed ? options_.tolerance : options_.clear_tolerance);
+    const double asked =
+        std::max(options_.enough, value * (shadowed ? options_.tolerance : options_.clear_tolerance));
     if (error <= asked || points >= options_.max_points) break;
     if (options_.context && options_.context->Cancelled()) break;
     std::vector<std::size_t> order(cells_.size());
@@ -765,10 +793,38 @@ FormFactorEstimate AreaFormFactor(const Scene& scene, std::span<const AreaPart> 
   std::iota(all.begin(), all.end(), 0);
   const PatchHierarchy patches(scene, std::move(all));
   std::vector<FormFactorEstimate> pairs(from.size() * to.size());
-  ParallelFor(pairs.size(), 1, [&](std::size_t k) {
-    if (options.context && options.context->Cancelled()) return;
-    pairs[k] = AreaFormFactor(scene, patches, from[k / to.size()], to[k % to.size()], options);
-  });
+  const auto flux_error = [&](std::size_t k) { return Area(from[k / to.size()]) * pairs[k].error; };
+  const auto solve = [&](std::span<const std::size_t> which, const AreaFormFactorOptions& how) {
+    ParallelFor(which.size(), 1, [&](std::size_t i) {
+      if (how.context && how.context->Cancelled()) return;
+      const std::size_t k = which[i];
+      pairs[k] = AreaFormFactor(scene, patches, from[k / to.size()], to[k % to.size()], how);
+    });
+  };
+  std::vector<std::size_t> which(pairs.size());
+  std::iota(which.begin(), which.end(), std::size_t{0});
+  if (pairs.size() == 1) {
+    solve(which, options);
+  } else {
+    // First as well as is cheap, then those that matter as well as matters for the sum.
+    AreaFormFactorOptions rough = options;
+    rough.tolerance = std::max(options.tolerance, kRoughTolerance);
+    solve(which, rough);
+    double flux = 0, error = 0;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      flux += Area(from[k / to.size()]) * pairs[k].factor;
+      error += flux_error(k);
+    }
+    const double asked = options.tolerance * flux;
+    if (error > asked) {
+      const double share = 0.5 * asked / static_cast<double>(pairs.size());
+      std::erase_if(which, [&](std::size_t k) { return flux_error(k) <= share; });
+      AreaFormFactorOptions fine = options;
+      fine.tolerance = 0;
+      fine.enough = asked / static_cast<double>(2 * which.size());
+      solve(which, fine);
+    }
+  }
   double area = 0;
   FormFactorEstimate sum;
   for (std::size_t i = 0; i < from.size(); ++i) {

@@ -34,6 +34,9 @@ struct FormFactorEstimate {
 struct AreaFormFactorOptions {
   // Largest error relative to the factor that is asked for, where something stands between.
   double tolerance = 1e-7;
+  // An error that is small enough whatever the factor [m^2]: of the factor times the sender's area. A pair in
+  // a sum gets its share of what the whole may err.
+  double enough = 0;
   // Where nothing stands between, roundings set the limit.
   double clear_tolerance = 2e-13;
   // Points that one pair of parts may cost; then the error is what it is.
