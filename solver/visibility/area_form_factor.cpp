@@ -226,6 +226,7 @@ class PairIntegral {
   double diameter_ = 0;        // [m]
   double source_breadth_ = 0;  // its smallest [m]
   AreaFormFactorOptions options_;
+  bool all_lines_known_ = true;
   std::vector<EventLine> lines_;
   std::vector<Cell> cells_;
 };
@@ -463,6 +464,7 @@ void PairIntegral::MergeLines() {
   });
   for (EventLine& line : merged)
     line.reach = std::min(source_breadth_, 0.5 * Reach(line, line.low, line.high));
+  all_lines_known_ = merged.size() <= kMostLines;
   if (merged.size() > kMostLines) merged.resize(kMostLines);
   lines_ = std::move(merged);
 }
@@ -652,11 +654,20 @@ void PairIntegral::Evaluate(Cell& cell) const {
     cell.blockers = std::move(blockers);
   }
   cell.shadowed = !cell.blockers.empty();
+  // The integrand is analytic where nothing blocks, and past a single blocker between its events: curved
+  // events take edges of three polygons.
+  bool analytic = !cell.shadowed;
   if (cell.shadowed) {
     Evaluate(cell, kSeven);
+    analytic = cell.blockers.size() == 1 && all_lines_known_ &&
+               std::none_of(cell.lines.begin(), cell.lines.end(), [&](std::int32_t l) {
+                 return Alive(lines_[static_cast<std::size_t>(l)], cell.blockers);
+               });
   } else {
     cell.lines.clear();
     Evaluate(cell, kFifteen);
+  }
+  if (analytic) {
     const auto reduced = [&](double difference) {
       const double x = kAnalyticScale * difference / cell.value;
       return cell.value > 0 ? std::min(difference, cell.value * x * std::sqrt(x)) : difference;
