@@ -29,8 +29,15 @@ std::vector<AreaPart> Everything(const Scene& scene) {
   return parts;
 }
 
+// What the tests ask for: the stated error must hold at any tolerance, and the looser one leaves more to see.
+AreaFormFactorOptions Asked(double tolerance = 1e-5) {
+  AreaFormFactorOptions options;
+  options.tolerance = tolerance;
+  return options;
+}
+
 FormFactorEstimate Between(const Scene& scene, const AreaPart& from, const AreaPart& to,
-                           const AreaFormFactorOptions& options = {}) {
+                           const AreaFormFactorOptions& options = Asked()) {
   return AreaFormFactor(scene, std::span(&from, 1), std::span(&to, 1), options);
 }
 
@@ -108,6 +115,7 @@ Scene RandomPair(Random& random, int kind) {
   return Mapped(scene, RandomMotion(random, random.Index(2) == 0 ? 0.0 : 5.0));
 }
 
+// PENUMBRA_TEST_FACTOR=N looks at N times as many.
 int Count(int usual) {
   const char* factor = std::getenv("PENUMBRA_TEST_FACTOR");
   return factor ? usual * std::atoi(factor) : usual;
@@ -118,13 +126,12 @@ int Count(int usual) {
 TEST(AreaFormFactor, IsReciprocal) {
   Random random(4100);
   double worst = 0, largest = 0;
-  for (int i = 0; i < Count(60); ++i) {
+  for (int i = 0; i < Count(25); ++i) {
     const int kind = i % 5;
     const Scene scene = RandomPair(random, kind);
     const AreaPart one = Whole(scene, 0), two = Whole(scene, 1);
-    AreaFormFactorOptions options;
+    AreaFormFactorOptions options = Asked();
     options.points_on_first = true;
-    options.max_points = 3'000'000;
     const FormFactorEstimate there = Between(scene, one, two, options),
                              back = Between(scene, two, one, options);
     const double a = Area(one) * there.factor, b = Area(two) * back.factor,
@@ -132,13 +139,9 @@ TEST(AreaFormFactor, IsReciprocal) {
     EXPECT_LE(std::abs(a - b), stated) << "pair " << i << ", kind " << kind << ": " << a << " and " << b
                                        << ", " << scene.patches.size() - 2 << " blockers";
     if (stated > 0) worst = std::max(worst, std::abs(a - b) / stated);
-    if (a > 0) {
-      largest = std::max(largest, stated / a);
-      if (stated / a > 1e-6)
-        std::printf("pair %d, kind %d, %zu blockers: %.3g, stated %.2g\n", i, kind, scene.patches.size() - 2,
-                    a, stated / a);
-    }
+    if (a > 0) largest = std::max(largest, stated / a);
   }
+  EXPECT_LE(largest, 2.1e-5);
   std::printf("worst difference / stated error %.3g, largest relative error %.3g\n", worst, largest);
 }
 
@@ -147,7 +150,7 @@ TEST(AreaFormFactor, IsReciprocal) {
 TEST(AreaFormFactor, AllArrivesInAClosedScene) {
   Random random(4200);
   double worst = 0;
-  for (int i = 0; i < Count(6); ++i) {
+  for (int i = 0; i < Count(3); ++i) {
     Scene scene;
     AddMaterial(scene, 0.5, 0);
     AddBox(scene, Vec3::Zero(), Vec3(random.Uniform(1, 3), 2, 1), true, 0);
@@ -163,9 +166,9 @@ TEST(AreaFormFactor, AllArrivesInAClosedScene) {
     }
     const std::vector<AreaPart> all = Everything(scene);
     for (const AreaPart& from : all) {
-      const FormFactorEstimate sum = AreaFormFactor(scene, std::span(&from, 1), all);
+      const FormFactorEstimate sum = AreaFormFactor(scene, std::span(&from, 1), all, Asked());
       EXPECT_NEAR(sum.factor, 1, sum.error) << "scene " << i << ", patch " << from.patch;
-      EXPECT_LE(sum.error, 1e-6);
+      EXPECT_LE(sum.error, 1.1e-5);
       worst = std::max(worst, std::abs(sum.factor - 1) / sum.error);
     }
   }
@@ -175,7 +178,7 @@ TEST(AreaFormFactor, AllArrivesInAClosedScene) {
 // A further blocker never adds, and cutting either area changes nothing, beyond the stated errors.
 TEST(AreaFormFactor, BlockersTakeAwayAndCutsChangeNothing) {
   Random random(4300);
-  for (int i = 0; i < Count(30); ++i) {
+  for (int i = 0; i < Count(10); ++i) {
     Scene scene = RandomPair(random, i % 5);
     const AreaPart one = Whole(scene, 0), two = Whole(scene, 1);
     const FormFactorEstimate whole = Between(scene, one, two);
@@ -184,8 +187,8 @@ TEST(AreaFormFactor, BlockersTakeAwayAndCutsChangeNothing) {
       return std::vector<AreaPart>{{part.patch, ClipToHalfSpace(part.polygon, along, at)},
                                    {part.patch, ClipToHalfSpace(part.polygon, -along, at)}};
     };
-    const FormFactorEstimate cut_from = AreaFormFactor(scene, halves(one), std::span(&two, 1)),
-                             cut_to = AreaFormFactor(scene, std::span(&one, 1), halves(two));
+    const FormFactorEstimate cut_from = AreaFormFactor(scene, halves(one), std::span(&two, 1), Asked()),
+                             cut_to = AreaFormFactor(scene, std::span(&one, 1), halves(two), Asked());
     EXPECT_NEAR(cut_from.factor, whole.factor, whole.error + cut_from.error) << i;
     EXPECT_NEAR(cut_to.factor, whole.factor, whole.error + cut_to.error) << i;
     const Vec3 middle = 0.5 * (Centroid(one.polygon) + Centroid(two.polygon));
@@ -234,8 +237,7 @@ TEST(AreaFormFactor, IsTheSameForAnyNumberOfThreads) {
   const Scene scene = FurnishedRoom(random, 3);
   const std::vector<AreaPart> all = Everything(scene);
   const std::span<const AreaPart> room(all.data(), 3), boxes(all.data() + 6, 12);
-  AreaFormFactorOptions options;
-  options.tolerance = 1e-4;
+  const AreaFormFactorOptions options = Asked(1e-4);
   SetThreadCount(1);
   const FormFactorEstimate one = AreaFormFactor(scene, room, boxes, options);
   SetThreadCount(3);
