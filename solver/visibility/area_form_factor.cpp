@@ -71,7 +71,7 @@ constexpr std::size_t kForcedLines = 16;
 constexpr double kLowEdge = 0.05, kGrading = 8;
 
 // Lines between two blockers grow as the square of their number: beyond this, halving finds them.
-constexpr std::size_t kMostPairedBlockers = 12;
+constexpr std::size_t kMostPairedBlockers = 40;
 constexpr std::size_t kMostLines = 4096;
 
 // Of the error that is asked for, the share that may stay in cells that are not refined in a round.
