@@ -32,6 +32,7 @@ struct Command {
 Command AddSolveCommand(CLI::App& program);
 Command AddRenderCommand(CLI::App& program);
 Command AddProbeCommand(CLI::App& program);
+Command AddFormFactorCommand(CLI::App& program);
 Command AddInfoCommand(CLI::App& program);
 Command AddScenesCommand(CLI::App& program);
 

@@ -41,8 +41,8 @@ int Main(int argc, char** argv) {
   program.footer(kFooter);
   program.get_formatter()->column_width(34);
   const std::vector<Command> commands = {AddSolveCommand(program), AddRenderCommand(program),
-                                         AddProbeCommand(program), AddInfoCommand(program),
-                                         AddScenesCommand(program)};
+                                         AddProbeCommand(program), AddFormFactorCommand(program),
+                                         AddInfoCommand(program),  AddScenesCommand(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {

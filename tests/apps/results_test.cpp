@@ -348,5 +348,92 @@ TEST(Info, CountsAndMeasures) {
   EXPECT_EQ(two_sided.at("faces"), 4);
 }
 
+// F and its error, as form-factor prints them.
+std::pair<double, double> FormFactorOf(const Sandbox& sandbox, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "form-factor");
+  const Outcome outcome = sandbox.Run(arguments);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(Lines(outcome.out), SizeIs(1));
+  double factor = -1, error = -1;
+  EXPECT_EQ(std::sscanf(outcome.out.c_str(), "%lg %lg", &factor, &error), 2) << outcome.out;
+  return {factor, error};
+}
+
+// Opposite faces of a unit cube have the closed form's form factor, by name and by number, either way, and by
+// every method within what it says of itself.
+TEST(FormFactor, OfParallelSquares) {
+  const Sandbox sandbox;
+  sandbox.Write("squares.obj", kParallelSquares);
+  sandbox.Write("squares.mtl", kSquaresMaterials);
+  constexpr double kParallel = 0.19982489569838738;
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"floor", "light"}, {"light", "floor"}, {"0", "1"}, {"floor", "1"}}) {
+    const auto [factor, error] = FormFactorOf(sandbox, {"squares.obj", "--from", from, "--to", to});
+    EXPECT_NEAR(factor, kParallel, error);
+    EXPECT_LE(error, 1e-12);
+  }
+  const auto with = [&](const char* method) {
+    return FormFactorOf(sandbox, {"squares.obj", "--from", "0", "--to", "1", "--method", method});
+  };
+  const auto cubature = with("cubature"), random = with("monte-carlo"), disk = with("disk");
+  EXPECT_NEAR(cubature.first, kParallel, cubature.second);
+  EXPECT_NEAR(random.first, kParallel, 5 * random.second);
+  EXPECT_NEAR(disk.first, 1 / (std::numbers::pi + 1), 1e-12);  // of a disk of area 1, at distance 1
+}
+
+// What leaves a face of a closed scene arrives in it: the factors to all objects add up to 1; and the bytes
+// are the same for any number of threads.
+TEST(FormFactor, AllArrives) {
+  const Sandbox sandbox;
+  double sum = 0, errors = 0;
+  for (const char* to : {"0", "1", "2", "3", "4", "5"}) {
+    const auto [factor, error] = FormFactorOf(sandbox, {"furnace", "--from", "box", "--to", to});
+    sum += factor;
+    errors += error;
+  }
+  EXPECT_NEAR(sum, 1, errors);
+  const std::vector<std::string> pair = {"form-factor", "cornell",     "--from", "tall_block", "--to",
+                                         "left_wall",   "--tolerance", "1e-5",   "--threads"};
+  std::vector<std::string> one = pair, three = pair;
+  one.push_back("1");
+  three.push_back("3");
+  const Outcome alone = sandbox.Run(one);
+  EXPECT_EQ(alone.status, 0) << alone.err;
+  EXPECT_EQ(alone.out, sandbox.Run(three).out);
+}
+
+// A blocker half way takes away what it hides; a gap in the numbers that a concave face leaves does not show.
+TEST(FormFactor, PastABlocker) {
+  const Sandbox sandbox;
+  sandbox.Write("blocked.obj",
+                "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                "v .25 .25 .5\nv .75 .25 .5\nv .75 .75 .5\nv .25 .75 .5\n"
+                "o floor\nf 1 2 3\nf 1 3 4\no light\nf 8 7 6 5\ng blocker\nf 9 10 11 12\n");
+  constexpr double kBlocked = 0.09950629459898478629799709;
+  const auto [factor, error] = FormFactorOf(sandbox, {"blocked.obj", "--from", "floor", "--to", "light"});
+  EXPECT_NEAR(factor, kBlocked, error);
+  EXPECT_LE(error, 1e-6 * kBlocked);
+  const auto first = FormFactorOf(sandbox, {"blocked.obj", "--from", "0", "--to", "light"}),
+             second = FormFactorOf(sandbox, {"blocked.obj", "--from", "1", "--to", "2"});
+  EXPECT_NEAR(0.5 * (first.first + second.first), kBlocked, 0.5 * (first.second + second.second));
+}
+
+// Names and numbers that are not there are told in a line, with exit status 1.
+TEST(FormFactor, NamesWhatIsMissing) {
+  const Sandbox sandbox;
+  for (const auto& [name, told] :
+       std::vector<std::pair<std::string, std::string>>{{"sofa", "no object or group `sofa`"},
+                                                        {"6", "0 to 5"},
+                                                        {"-1", "`-1`"},
+                                                        {"1x", "`1x`"},
+                                                        {"99999999999999999999999", "0 to 5"}}) {
+    const Outcome outcome = sandbox.Run({"form-factor", "furnace", "--from=" + name, "--to", "0"});
+    EXPECT_EQ(outcome.status, 1) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_THAT(Lines(outcome.err), SizeIs(1));
+    EXPECT_THAT(outcome.err, HasSubstr(told));
+  }
+}
+
 }  // namespace
 }  // namespace penumbra

@@ -29,6 +29,11 @@ TEST(Help, ListsEveryOption) {
         "--benchmark", "--report"}},
       {"probe", {"--points", "--direct", "--output", "--report"}},
       {"info", {"--json"}}};
+  const Outcome form_factor = sandbox.Run({"form-factor", "--help"});
+  EXPECT_EQ(form_factor.status, 0);
+  for (const char* option :
+       {"--from", "--to", "--method", "--tolerance", "--rays", "--threads", "--two-sided"})
+    EXPECT_THAT(form_factor.out, HasSubstr(option));
   for (const auto& [command, options] : own) {
     const Outcome help = sandbox.Run({command, "--help"});
     EXPECT_EQ(help.status, 0);
@@ -37,7 +42,7 @@ TEST(Help, ListsEveryOption) {
   }
   const Outcome program = sandbox.Run({"--help"});
   EXPECT_EQ(program.status, 0);
-  for (const char* command : {"solve", "render", "probe", "info", "scenes"})
+  for (const char* command : {"solve", "render", "probe", "form-factor", "info", "scenes"})
     EXPECT_THAT(program.out, HasSubstr(command));
 }
 
@@ -99,6 +104,11 @@ TEST(Usage, BadUsageEndsWithTwo) {
       {"render", "furnace", "--benchmark", "0"},
       {"probe", "furnace"},
       {"probe", "furnace", "--points", "p.csv", "--method", "guess"},
+      {"form-factor", "furnace", "--from", "0"},
+      {"form-factor", "furnace", "--to", "0"},
+      {"form-factor", "furnace", "--from", "0", "--to", "1", "--method", "guess"},
+      {"form-factor", "furnace", "--from", "0", "--to", "1", "--tolerance", "0"},
+      {"form-factor", "furnace", "--from", "0", "--to", "1", "--rays", "0"},
       {"probe", "furnace", "--points", "p.csv", "--direct", "--report", "r.json"},
   };
   const Sandbox sandbox;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +13,7 @@
 
 #include "solver/scene/patch_builder.h"
 #include "solver/scene/surface_points.h"
+#include "solver/visibility/area_form_factor.h"
 #include "solver/visibility/form_factor.h"
 #include "tests/transport/transport_test_tools.h"
 
@@ -166,6 +168,50 @@ TEST(Truth, LightingAnalytic) {
     std::printf("%s: %d points, worst error / tolerance %.3g\n", name.c_str(), tested, worst);
     EXPECT_GT(tested, 100);
   }
+}
+
+// Every case of area_area.json, either way, to the tolerance that it states; and the error is what it says.
+TEST(Truth, AreasAndAreas) {
+  const json truth = Load("area_area.json");
+  if (truth.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
+  double worst = 0, worst_stated = 0, slowest = 0;
+  for (const json& c : truth["cases"]) {
+    Scene scene;
+    scene_test::AddMaterial(scene, 0, 0);
+    std::vector<std::size_t> ends = {0};
+    const Polygon3 first = ToPolygon(c["polygon1"]), second = ToPolygon(c["polygon2"]);
+    AddPolygon(scene, FacingTowards(first, Centroid(second)), 0);
+    ends.push_back(scene.patches.size());
+    AddPolygon(scene, FacingTowards(second, Centroid(first)), 0);
+    ends.push_back(scene.patches.size());
+    for (const json& occluder : c["occluders"]) AddPolygon(scene, ToPolygon(occluder), 0);
+    const auto parts = [&](std::size_t polygon) {
+      std::vector<AreaPart> of;
+      for (std::size_t p = ends[polygon]; p < ends[polygon + 1]; ++p)
+        of.push_back({static_cast<PatchId>(p),
+                      {scene.patches[p].Vertices().begin(), scene.patches[p].Vertices().end()}});
+      return of;
+    };
+    for (const bool there : {true, false}) {
+      const auto begin = std::chrono::steady_clock::now();
+      const FormFactorEstimate got = AreaFormFactor(scene, parts(there ? 0 : 1), parts(there ? 1 : 0));
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      const double want = ToDouble(c[there ? "F12" : "F21"]), off = std::abs(got.factor - want);
+      const double allowed = c["rtol"].get<double>() * want;
+      const std::string name = c["id"].get<std::string>() + (there ? " F12" : " F21");
+      EXPECT_LE(off, allowed) << name << ": got " << got.factor << ", want " << want;
+      EXPECT_LE(off, got.error) << name << ": stated " << got.error;
+      EXPECT_LE(got.error, std::max(allowed, 1e-12 * want)) << name << " states more than is allowed";
+      if (std::getenv("PENUMBRA_VERBOSE"))
+        std::printf("%s: off %.2g of %.2g allowed, stated %.2g, %.3f s\n", name.c_str(), off, allowed,
+                    got.error, seconds);
+      worst = std::max(worst, off / std::max(allowed, 1e-300));
+      worst_stated = std::max(worst_stated, off / std::max(got.error, 1e-300));
+      slowest = std::max(slowest, seconds);
+    }
+  }
+  std::printf("%zu cases, worst error / tolerance %.3g, worst error / stated error %.3g, slowest %.2f s\n",
+              truth["cases"].size(), worst, worst_stated, slowest);
 }
 
 // Nodes and weights of Gauss and Legendre's rule on [0, 1], by Newton's method.

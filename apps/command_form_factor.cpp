@@ -1,0 +1,148 @@
+// penumbra form-factor: the fraction of the flux from some faces that reaches others.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/commands.h"
+#include "apps/interruptible.h"
+#include "apps/option_values.h"
+#include "apps/output.h"
+#include "apps/scene_arguments.h"
+#include "solver/base/check.h"
+#include "solver/transport/approximate_form_factor.h"
+#include "solver/visibility/area_form_factor.h"
+
+namespace penumbra {
+namespace {
+
+constexpr const char* kExact = "exact";
+constexpr const char* kDisk = "disk";
+constexpr const char* kCubature = "cubature";
+constexpr const char* kMonteCarlo = "monte-carlo";
+
+struct FormFactorArguments {
+  SceneArguments scene;
+  std::string from, to;
+  std::string method = kExact;
+  double tolerance = AreaFormFactorOptions().tolerance;
+  std::uint64_t rays = 1'000'000;
+};
+
+// The faces of the objects and groups of that name; without one, the face with that number.
+std::vector<std::int32_t> FindFaces(const FormFactorArguments& arguments, const Scene& scene,
+                                    const std::string& name) {
+  const auto fail = [&](const std::string& what) {
+    throw InputError(fmt::format("{}:0: error: {}", arguments.scene.scene, what));
+  };
+  std::vector<std::int32_t> faces;
+  bool named = false;
+  for (const Object& object : scene.objects) {
+    if (object.name != name) continue;
+    named = true;
+    faces.insert(faces.end(), object.faces.begin(), object.faces.end());
+  }
+  if (!named) {
+    std::size_t index = 0;
+    const char *begin = name.data(), *end = begin + name.size();
+    const auto [stop, error] = std::from_chars(begin, end, index);
+    if (stop != end || name.empty() || error == std::errc::invalid_argument)
+      fail(fmt::format(
+          "there is no object or group `{}`; `penumbra info` lists them, and a face has the number "
+          "of its f line, from 0",
+          name));
+    if (error != std::errc() || index >= scene.faces.size())
+      fail(scene.faces.empty() ? fmt::format("there is no face {}; the scene has none", name)
+                               : fmt::format("there is no face {}; faces have the numbers 0 to {}", name,
+                                             scene.faces.size() - 1));
+    faces.push_back(static_cast<std::int32_t>(index));
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+std::vector<AreaPart> FindParts(const FormFactorArguments& arguments, const Scene& scene,
+                                const std::string& name) {
+  std::vector<AreaPart> parts;
+  for (const std::int32_t face : FindFaces(arguments, scene, name))
+    for (AreaPart& part : PartsOfFace(scene, face)) parts.push_back(std::move(part));
+  if (parts.empty())
+    throw InputError(
+        fmt::format("{}:0: error: nothing is left of `{}`: it has no faces, or they were dropped",
+                    arguments.scene.scene, name));
+  return parts;
+}
+
+void PrintFormFactor(const FormFactorArguments& arguments) {
+  const LoadedScene loaded = LoadScene(arguments.scene);
+  const Scene& scene = loaded.scene;
+  const std::vector<AreaPart> from = FindParts(arguments, scene, arguments.from),
+                              to = FindParts(arguments, scene, arguments.to);
+  if (arguments.scene.verbose) {
+    nlohmann::ordered_json options = OptionsUsed(arguments.scene, nullptr);
+    options["from"] = arguments.from;
+    options["to"] = arguments.to;
+    options["method"] = arguments.method;
+    if (arguments.method == kExact) options["tolerance"] = arguments.tolerance;
+    if (arguments.method == kMonteCarlo) options["rays"] = arguments.rays;
+    PrintOptionsUsed(options);
+  }
+  FormFactorEstimate estimate;
+  RunInterruptible([&](const ExecutionContext& context) {
+    if (arguments.method == kDisk) {
+      estimate = DiskFormFactor(scene, from, to, context);
+    } else if (arguments.method == kCubature) {
+      estimate = CubatureFormFactor(scene, from, to, context);
+    } else if (arguments.method == kMonteCarlo) {
+      estimate = MonteCarloFormFactor(scene, from, to, arguments.rays, arguments.scene.solving.seed, context);
+    } else {
+      AreaFormFactorOptions options;
+      options.tolerance = arguments.tolerance;
+      options.clear_tolerance = std::min(options.clear_tolerance, arguments.tolerance);
+      options.context = &context;
+      estimate = AreaFormFactor(scene, from, to, options);
+    }
+  });
+  WriteResult(std::nullopt, fmt::format("{:.17g} {:.17g}\n", estimate.factor, estimate.error));
+}
+
+}  // namespace
+
+Command AddFormFactorCommand(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("form-factor", "Print the form factor from some faces to others");
+  const auto arguments = std::make_shared<FormFactorArguments>();
+  AddSceneArguments(*app, &arguments->scene);
+  app->add_option("--from", arguments->from, "Where the flux leaves: an object, a group or a face's number")
+      ->required()
+      ->type_name("OBJECT");
+  app->add_option("--to", arguments->to, "Where it arrives: an object, a group or a face's number")
+      ->required()
+      ->type_name("OBJECT");
+  app->add_option(
+         "--method", arguments->method,
+         "exact: exact point factors past all blockers, integrated to the tolerance; cubature: their "
+         "mean over a fixed set of points (thesis 4.2); disk: a disk seen from a point, whole or not at "
+         "all (Wallace et al. 1989, Hanrahan et al. 1991); monte-carlo: random rays")
+      ->check(CLI::IsMember(std::vector<std::string>{kExact, kDisk, kCubature, kMonteCarlo}))
+      ->type_name("METHOD")
+      ->capture_default_str();
+  AddNumber(*app, "--tolerance", &arguments->tolerance, kPositive,
+            "exact: the relative error that is asked for, of each pair of faces with something in between");
+  AddInteger(*app, "--rays", &arguments->rays, std::uint64_t{1}, std::uint64_t{1} << 40,
+             "monte-carlo: the number of rays");
+  app->footer(
+      "Prints `F error`: the fraction of the diffuse flux that leaves the front of the one and reaches the\n"
+      "front of the other past the whole scene, and how far off that may be. Of several faces the flux is\n"
+      "summed: sum A_i F(i -> to) / sum A_i. The error of exact bounds it by an estimate; that of\n"
+      "monte-carlo is the standard error; those of disk and cubature are differences from a coarser or\n"
+      "finer division, which indicate and do not bound. A name goes before a number.");
+  return {app, [arguments] { PrintFormFactor(*arguments); }};
+}
+
+}  // namespace penumbra
