@@ -208,6 +208,7 @@ class PairIntegral {
 
   bool Crosses(std::int32_t line, const Cell& cell) const;
   void InheritLines(const Cell& parent, Cell& cell) const;
+  Cell PartOf(const Cell& parent, const Quad& quad) const;
   bool Alive(const EventLine& line, std::span<const PatchId> blockers) const;
   void Cut(const Cell& cell, const EventLine& line, std::vector<Cell>& parts) const;
   void Split(const Cell& cell, std::vector<Cell>& parts) const;
@@ -498,6 +499,14 @@ void PairIntegral::InheritLines(const Cell& parent, Cell& cell) const {
     if (Crosses(l, cell)) cell.lines.push_back(l);
 }
 
+Cell PairIntegral::PartOf(const Cell& parent, const Quad& quad) const {
+  Cell part;
+  part.quad = quad;
+  part.blockers = parent.blockers;
+  InheritLines(parent, part);
+  return part;
+}
+
 void PairIntegral::Cut(const Cell& cell, const EventLine& line, std::vector<Cell>& parts) const {
   const Polygon2 polygon = ToPolygon(cell.quad);
   Polygon2 above, below;
@@ -519,13 +528,7 @@ void PairIntegral::Cut(const Cell& cell, const EventLine& line, std::vector<Cell
   std::vector<Quad> quads;
   if (above.size() >= 3) AddQuads(above, quads);
   if (below.size() >= 3) AddQuads(below, quads);
-  for (const Quad& quad : quads) {
-    Cell part;
-    part.quad = quad;
-    part.blockers = cell.blockers;
-    InheritLines(cell, part);
-    parts.push_back(std::move(part));
-  }
+  for (const Quad& quad : quads) parts.push_back(PartOf(cell, quad));
 }
 
 // Along the line with the largest share, or where none is left across the direction of the larger error.
@@ -555,13 +558,7 @@ void PairIntegral::Split(const Cell& cell, std::vector<Cell>& parts) const {
     const Vec2 low = q[3] == q[0] ? q[0] : Vec2(0.5 * (q[0] + q[3])), high = 0.5 * (q[1] + q[2]);
     halves = {Quad{q[0], q[1], high, low}, Quad{low, high, q[2], q[3]}};
   }
-  for (const Quad& half : halves) {
-    Cell part;
-    part.quad = half;
-    part.blockers = cell.blockers;
-    InheritLines(cell, part);
-    parts.push_back(std::move(part));
-  }
+  for (const Quad& half : halves) parts.push_back(PartOf(cell, half));
 }
 
 double PairIntegral::Visible(const Vec2& p, std::span<const PatchId> blockers) const {
