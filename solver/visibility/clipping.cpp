@@ -91,7 +91,6 @@ bool IsSliver(const Piece& piece, double width) {
 // An occluder in the image. Lines and vertices stand in groups of kLanes, so that a group is worked on at
 // once; what fills up the last group changes nothing.
 struct ImageCone {
-  int size = 0;
   int padded = 0;  // a multiple of kLanes
   std::size_t occluder = 0;
   Bounds bounds;                             // of its vertices; infinite if some lie behind the point
@@ -119,7 +118,6 @@ ImageCone MakeImageCone(const ImageFrame& frame, const Occluder& occluder, std::
   constexpr double kLeastHeight = 1e-9;
   const Cone& cone = *occluder.cone;
   ImageCone image;
-  image.size = cone.size;
   image.padded = (cone.size + kLanes - 1) / kLanes * kLanes;
   image.occluder = index;
   image.bounds = {kInfinity, -kInfinity, kInfinity, -kInfinity};
