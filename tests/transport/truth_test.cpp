@@ -15,6 +15,7 @@
 #include "solver/scene/surface_points.h"
 #include "solver/visibility/area_form_factor.h"
 #include "solver/visibility/form_factor.h"
+#include "test_paths.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra {
