@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
 #include <limits>
 
 #include "apps/option_values.h"
-#include "solver/base/check.h"
 #include "solver/base/parallel.h"
-#include "solver/scene/builtin_scenes.h"
-#include "solver/scene/obj_reader.h"
+#include "solver/scene/named_scene.h"
 
 namespace penumbra {
 namespace {
@@ -20,16 +17,6 @@ namespace {
 constexpr int kMaxThreads = 1024;
 constexpr std::uint64_t kMaxErrorPoints = 100'000'000;
 constexpr NumberRule kBelowOne{[](double x) { return x >= 0 && x < 1; }, "a number in [0, 1)"};
-
-Scene ReadScene(const std::string& name, const SceneOptions& options) {
-  std::error_code ignored;
-  if (std::filesystem::exists(name, ignored) && !std::filesystem::is_directory(name, ignored))
-    return ReadObj(name, options);
-  if (std::optional<Scene> scene = LoadBuiltinScene(name, options)) return std::move(*scene);
-  throw InputError(fmt::format(
-      "{}:0: error: there is no such file and no built-in scene of that name; `penumbra scenes` lists those",
-      name));
-}
 
 }  // namespace
 
@@ -149,7 +136,7 @@ void PrintOptionsUsed(const nlohmann::ordered_json& options) {
 LoadedScene LoadScene(const SceneArguments& arguments) {
   SetThreadCount(arguments.threads);
   const auto begin = std::chrono::steady_clock::now();
-  LoadedScene loaded{ReadScene(arguments.scene, arguments.reading), 0};
+  LoadedScene loaded{ReadNamedScene(arguments.scene, arguments.reading), 0};
   loaded.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   for (const std::string& warning : loaded.scene.warnings) fmt::print(stderr, "{}\n", warning);
   return loaded;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solver/base/check.h"
+#include "solver/scene/building.h"
 #include "solver/scene/embedded_scenes.h"
 #include "solver/scene/obj_reader.h"
 
@@ -42,11 +43,23 @@ const std::vector<BuiltinScene>& BuiltinScenes() {
        "a closed box of reflectance 1/2 and emittance 1/2 whose exact irradiance and radiosity are 1 "
        "everywhere",
        {At("inside", {0.9, 0.1, 0.8}, {0.3, 0.7, 0.3}, 60)}},
+      {"building-1x1",
+       "a furnished room made from its number; building-RxC joins R by C of them by doorways (up to " +
+           std::to_string(kMostRooms) + " each way)",
+       BuildingCameras({1, 1})},
   };
   return scenes;
 }
 
 std::optional<Scene> LoadBuiltinScene(std::string_view name, const SceneOptions& options) {
+  if (const std::optional<BuildingSize> size = BuildingNamed(name)) {
+    Scene scene = ReadObjText(
+        BuildingObj(*size), std::string(name) + ".obj", [](std::string_view) { return BuildingMtl(); },
+        options);
+    scene.name = name;
+    scene.cameras = BuildingCameras(*size);
+    return scene;
+  }
   const auto found = std::find_if(BuiltinScenes().begin(), BuiltinScenes().end(),
                                   [&](const BuiltinScene& scene) { return scene.name == name; });
   if (found == BuiltinScenes().end()) return std::nullopt;

@@ -1,6 +1,7 @@
 // solver/scene/builtin_scenes.h
 //
-// The scenes that the program brings along. Their geometry stands as OBJ in the folder scenes/.
+// The scenes that the program brings along. Their geometry stands as OBJ in the folder scenes/, or is made
+// from the numbers in the name (building.h).
 
 #pragma once
 
@@ -20,6 +21,7 @@ struct BuiltinScene {
   std::vector<Camera> cameras;
 };
 
+// One of each kind: of the buildings the smallest.
 const std::vector<BuiltinScene>& BuiltinScenes();
 
 // The built-in scene with its cameras; nothing if there is none of that name. Throws InputError where the

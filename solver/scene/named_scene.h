@@ -1,0 +1,15 @@
+// solver/scene/named_scene.h
+
+#pragma once
+
+#include <string>
+
+#include "solver/scene/scene.h"
+#include "solver/scene/scene_options.h"
+
+namespace penumbra {
+
+// The scene that a user names: an OBJ file or a built-in scene; a file wins. Throws InputError.
+Scene ReadNamedScene(const std::string& name, const SceneOptions& options);
+
+}  // namespace penumbra
