@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include <fmt/format.h>
 
@@ -68,57 +69,136 @@ struct Pipeline::Impl {
   PipelineOptions options;
   ResolvedOptions resolved;
   PatchVisibility visibility;
-  RadiositySolution solution;
-  std::unique_ptr<PointIrradiance> irradiance;
+  std::unique_ptr<HierarchicalSolver> solver;  // null until the roots are linked
   IrradianceMesh mesh;
   std::unique_ptr<MeshLocator> locator;
   PipelineReport report;
+  std::mutex irradiance_making;
+  std::unique_ptr<PointIrradiance> irradiance;  // of the present solution; null until someone asks
 
-  void AddPhase(const std::string& name, double seconds) { report.phases.push_back({name, seconds}); }
+  // Adds to the phase of that name.
+  void AddPhase(const std::string& name, double seconds) {
+    const auto phase = std::find_if(report.phases.begin(), report.phases.end(),
+                                    [&](const Phase& p) { return p.name == name; });
+    if (phase == report.phases.end())
+      report.phases.push_back({name, seconds});
+    else
+      phase->seconds += seconds;
+  }
 
-  IrradianceSampler Sampler() const {
-    return [this](PatchId patch, const ReceiverPoint& at) { return irradiance->OnPatch(patch, at); };
+  const PointIrradiance& Irradiance() {
+    PENUMBRA_CHECK(solver != nullptr);
+    const std::lock_guard<std::mutex> lock(irradiance_making);
+    if (!irradiance) {
+      const Stopwatch stopwatch;
+      irradiance = std::make_unique<PointIrradiance>(solver->solution(), visibility, options.point);
+      AddPhase("iterate", stopwatch.Seconds());
+    }
+    return *irradiance;
+  }
+
+  IrradianceSampler Sampler() {
+    const PointIrradiance& exact = Irradiance();
+    return [&exact](PatchId patch, const ReceiverPoint& at) { return exact.OnPatch(patch, at); };
+  }
+
+  // Runs one step of the solver, which says whether it was done, and counts what it left.
+  template <class Step>
+  bool Run(const ExecutionContext& context, const Step& step) {
+    const Stopwatch stopwatch;
+    const bool done = step(*solver, context);
+    if (done) irradiance.reset();
+    AddPhase("iterate", stopwatch.Seconds());
+    Count();
+    return done;
+  }
+
+  void Count() {
+    const RadiositySolution& solution = solver->solution();
+    PipelineReport::Counts& counts = report.counts;
+    counts.patches = scene.patches.size();
+    counts.emitters = 0;
+    for (const Patch& patch : scene.patches)
+      counts.emitters += (scene.materials[patch.material].emittance > 0).any() ? 1 : 0;
+    counts.elements = solution.forest.size();
+    counts.leaves = 0;
+    for (const Element& element : solution.forest.elements()) counts.leaves += element.IsLeaf() ? 1 : 0;
+    counts.links = solution.links.links.size();
+    counts.links_visible = counts.links_partial = 0;
+    for (const penumbra::Link& link : solution.links.links)
+      ++(link.visibility == Visibility::kVisible ? counts.links_visible : counts.links_partial);
   }
 };
 
 Pipeline::Pipeline(const Scene& scene, const PipelineOptions& options)
-    : impl_(new Impl{scene, options, Resolve(scene, options), {}, {}, {}, {}, {}, {}}) {
+    : impl_(new Impl{scene, options, Resolve(scene, options), {}, {}, {}, {}, {}, {}, {}}) {
   impl_->report.error_asked = options.error;
 }
 
 Pipeline::~Pipeline() = default;
 
-void Pipeline::Solve(const ExecutionContext& context) {
+void Pipeline::Link(const ExecutionContext& context) {
+  if (impl_->solver) return;
   context.Report("link", 0);
   const Stopwatch linking;
   impl_->visibility = PatchVisibility(impl_->scene);
-  HierarchicalSolver solver(impl_->scene, impl_->visibility, impl_->resolved.solver);
+  impl_->solver =
+      std::make_unique<HierarchicalSolver>(impl_->scene, impl_->visibility, impl_->resolved.solver);
   impl_->AddPhase("link", linking.Seconds());
+  impl_->Count();
+}
 
-  const Stopwatch iterating;
-  impl_->report.iterations = solver.Solve(context);
-  if (!solver.Converged() && !context.Cancelled())
-    impl_->report.unmet.push_back(
-        fmt::format("iterate: {} iterations left a residual of {:.2g}", impl_->report.iterations.size(),
-                    impl_->report.iterations.empty() ? INFINITY : impl_->report.iterations.back().residual));
-  impl_->solution = std::move(solver).TakeSolution();
-  impl_->irradiance =
-      std::make_unique<PointIrradiance>(impl_->solution, impl_->visibility, impl_->options.point);
-  impl_->AddPhase("iterate", iterating.Seconds());
+std::optional<IterationReport> Pipeline::Iterate(const ExecutionContext& context) {
+  Link(context);
+  std::optional<IterationReport> report;
+  impl_->Run(context, [&](HierarchicalSolver& solver, const ExecutionContext& running) {
+    report = solver.Iterate(running);
+    return report.has_value();
+  });
+  if (report) impl_->report.iterations.push_back(*report);
+  return report;
+}
 
-  PipelineReport::Counts& counts = impl_->report.counts;
-  counts.patches = impl_->scene.patches.size();
-  for (const Patch& patch : impl_->scene.patches)
-    counts.emitters += (impl_->scene.materials[patch.material].emittance > 0).any() ? 1 : 0;
-  counts.elements = impl_->solution.forest.size();
-  counts.leaves = impl_->solution.forest.AllLeaves().size();
-  counts.links = impl_->solution.links.links.size();
-  for (const Link& link : impl_->solution.links.links)
-    ++(link.visibility == Visibility::kVisible ? counts.links_visible : counts.links_partial);
+bool Pipeline::Converged() const { return impl_->solver && impl_->solver->Converged(); }
+
+bool Pipeline::Correct(const ExecutionContext& context) {
+  Link(context);
+  return impl_->Run(context, [](HierarchicalSolver& solver, const ExecutionContext& running) {
+    return solver.CorrectAll(running);
+  });
+}
+
+bool Pipeline::SubdivideLeaves(std::span<const ElementId> leaves, const ExecutionContext& context) {
+  Link(context);
+  return impl_->Run(context, [&](HierarchicalSolver& solver, const ExecutionContext& running) {
+    return solver.SubdivideLeaves(leaves, running);
+  });
+}
+
+bool Pipeline::Relight(const ExecutionContext& context) {
+  Link(context);
+  return impl_->Run(context, [](HierarchicalSolver& solver, const ExecutionContext& running) {
+    return solver.Relight(running);
+  });
+}
+
+void Pipeline::Solve(const ExecutionContext& context) {
+  Link(context);
+  const int most = impl_->resolved.solver.max_iterations;
+  for (int i = 0; i < most && !Converged() && !context.Cancelled(); ++i) {
+    context.Report("iterate", static_cast<double>(i) / most);
+    Iterate(context);
+  }
+  if (context.Cancelled()) return;
+  const std::vector<IterationReport>& iterations = impl_->report.iterations;
+  if (!Converged())
+    impl_->report.unmet.push_back(fmt::format("iterate: {} iterations left a residual of {:.2g}",
+                                              iterations.size(),
+                                              iterations.empty() ? INFINITY : iterations.back().residual));
+  Correct(context);
 }
 
 void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context) {
-  PENUMBRA_CHECK(impl_->irradiance != nullptr);
   MeshOptions options;
   options.discontinuities.enabled = kind == MeshKind::kGouraudMesh || kind == MeshKind::kInterpolant;
   options.discontinuities.min_weight = impl_->resolved.min_discontinuity_weight;
@@ -126,7 +206,7 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context) {
   options.order = kind == MeshKind::kFlat          ? InterpolantOrder::kConstant
                   : kind == MeshKind::kInterpolant ? InterpolantOrder::kQuadratic
                                                    : InterpolantOrder::kLinear;
-  MeshResult result = RunLocalPass(impl_->visibility, impl_->solution, impl_->Sampler(), options, context);
+  MeshResult result = RunLocalPass(impl_->visibility, solution(), impl_->Sampler(), options, context);
   impl_->mesh = std::move(result.mesh);
   impl_->locator = std::make_unique<MeshLocator>(impl_->scene, impl_->mesh);
 
@@ -150,15 +230,15 @@ void Pipeline::Measure(const ExecutionContext& context) {
   PENUMBRA_CHECK(impl_->locator != nullptr);
   context.Report("measure", 0);
   PipelineReport& report = impl_->report;
-  report.energy = MeasureEnergy(impl_->solution);
+  report.energy = MeasureEnergy(solution());
   const std::size_t points = impl_->options.error_points;
   const std::uint64_t seed = impl_->options.seed;
   const RepresentationError error =
       MeasureRepresentationError(impl_->scene, impl_->mesh, impl_->Sampler(), points, seed);
   report.interpolant_error = error;
   report.solution_error_estimate =
-      EstimateSolutionError(impl_->solution, *impl_->irradiance, points, seed) +
-      EstimateSourceError(impl_->solution, impl_->mesh, impl_->Sampler(), points, seed);
+      EstimateSolutionError(solution(), irradiance(), points, seed) +
+      EstimateSourceError(solution(), impl_->mesh, impl_->Sampler(), points, seed);
   report.error_met = error.p99 + report.solution_error_estimate <= report.error_asked;
   if (!report.error_met)
     report.unmet.push_back(
@@ -172,9 +252,12 @@ void Pipeline::Measure(const ExecutionContext& context) {
 
 const Scene& Pipeline::scene() const { return impl_->scene; }
 const ResolvedOptions& Pipeline::resolved() const { return impl_->resolved; }
-const RadiositySolution& Pipeline::solution() const { return impl_->solution; }
+const RadiositySolution& Pipeline::solution() const {
+  PENUMBRA_CHECK(impl_->solver != nullptr);
+  return impl_->solver->solution();
+}
 const PatchVisibility& Pipeline::visibility() const { return impl_->visibility; }
-const PointIrradiance& Pipeline::irradiance() const { return *impl_->irradiance; }
+const PointIrradiance& Pipeline::irradiance() const { return impl_->Irradiance(); }
 const IrradianceMesh& Pipeline::mesh() const { return impl_->mesh; }
 const PipelineReport& Pipeline::report() const { return impl_->report; }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -86,16 +87,38 @@ class Pipeline {
   const Scene& scene() const;
   const ResolvedOptions& resolved() const;
 
-  // Stages link and iterate: the hierarchical solution.
+  // Stages link and iterate: Link(), Iterate() until Converged() or the most iterations, Correct(). Goes on
+  // from wherever the steps below have led. Cancelled, it leaves the solution of the last whole step.
   void Solve(const ExecutionContext& context);
-  // Stages discontinuities, triangulate, interpolate, for what a display mode needs. REQUIRES: Solve().
+
+  // The same step by step, for who wants to look at what each one made. A step that is cancelled leaves
+  // solution and report as they were before it.
+  //
+  // What sees what, and the links between the roots: dark but for what surfaces emit. The other steps begin
+  // with this one where it was left out.
+  void Link(const ExecutionContext& context);
+  // One iteration: gather until the light settles, refine, gather. Nothing if it was cancelled.
+  std::optional<IterationReport> Iterate(const ExecutionContext& context);
+  // The last iteration refined nothing and left a residual below the cut-off.
+  bool Converged() const;
+  // The passes of exact irradiance over the leaves, as many as the options say. False if it was cancelled.
+  bool Correct(const ExecutionContext& context);
+  // Splits the leaves, keeps all others, links the new ones, and lights them from the present light
+  // (HierarchicalSolver::SubdivideLeaves). Takes corrections back. False if it was cancelled.
+  bool SubdivideLeaves(std::span<const ElementId> leaves, const ExecutionContext& context);
+  // Lights the scene anew after the caller has changed its emittances or reflectances, over the links there
+  // are. Takes corrections back. False if it was cancelled.
+  bool Relight(const ExecutionContext& context);
+
+  // Stages discontinuities, triangulate, interpolate, for what a display mode needs, from the solution as it
+  // is. REQUIRES: Link() or what begins with it.
   void BuildMesh(MeshKind kind, const ExecutionContext& context);
-  // Measures the energy balance and the error at random points. REQUIRES: BuildMesh().
+  // Measures the energy balance and the error at random points. REQUIRES: BuildMesh() after the last step.
   void Measure(const ExecutionContext& context);
 
-  const RadiositySolution& solution() const;
+  const RadiositySolution& solution() const;  // REQUIRES: Link()
   const PatchVisibility& visibility() const;
-  const PointIrradiance& irradiance() const;  // exact, from the solution's leaves. REQUIRES: Solve()
+  const PointIrradiance& irradiance() const;  // exact, from the solution's leaves; until the next step
   const IrradianceMesh& mesh() const;         // REQUIRES: BuildMesh()
 
   // The interpolant's irradiance at a point of a patch, or at most `reach` [m] beside it, not

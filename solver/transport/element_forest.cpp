@@ -92,6 +92,14 @@ ElementId ElementForest::Subdivide(ElementId leaf) {
   return first;
 }
 
+void ElementForest::Truncate(std::size_t count) {
+  for (std::size_t e = count; e < elements_.size(); ++e) {
+    const auto parent = static_cast<std::size_t>(elements_[e].parent);
+    if (parent < count) elements_[parent].first_child = kNoElement;
+  }
+  elements_.resize(count);
+}
+
 std::size_t ElementForest::Balance(PatchId patch) {
   // A leaf's edge borders leaves two levels finer just if one of its quarter points is a corner of some leaf.
   std::unordered_set<LatticePoint, LatticePointHash> corners;

@@ -86,6 +86,9 @@ class ElementForest {
   // Returns the first child. REQUIRES: a leaf above kMaxLevel.
   ElementId Subdivide(ElementId leaf);
 
+  // Takes back the newest subdivisions until `count` elements are left. REQUIRES: size() was `count` once.
+  void Truncate(std::size_t count);
+
   // Subdivides leaves until no two that share an edge differ by more than one level. Returns how many were
   // split.
   std::size_t Balance(PatchId patch);

@@ -30,21 +30,62 @@ double ReferenceArea(const Scene& scene) {
   return area / 256;
 }
 
-// All new links of one receiver.
-struct Group {
+double MaxReflectance(const Scene& scene) {
+  double reflectance = 0;
+  for (const Patch& patch : scene.patches)
+    reflectance = std::max(reflectance, scene.materials[patch.material].reflectance.maxCoeff());
+  return reflectance;
+}
+
+}  // namespace
+
+struct HierarchicalSolver::Group {
   ElementId receiver;
   std::vector<LinkCandidate> candidates;
 };
 
-std::vector<LinkSet> FormGroups(const ElementForest& forest, const std::vector<Group>& groups) {
-  std::vector<LinkSet> formed(groups.size());
-  ParallelFor(groups.size(), kLinkGrain, [&](std::size_t g) {
-    formed[g] = FormLinks(forest, groups[g].receiver, groups[g].candidates);
-  });
-  return formed;
+struct HierarchicalSolver::Snapshot {
+  std::size_t elements = 0;
+  std::optional<LinkSet> links;  // once they have been replaced
+  std::vector<Fragment> fragments;
+  std::vector<Rgb> irradiance, radiosity;
+  std::vector<double> radiosity_spread, spread_below;
+  std::vector<Rgb> gathered, correction, fragment_offset;
+  double residual = 1;
+  bool converged = false;
+};
+
+HierarchicalSolver::Snapshot HierarchicalSolver::TakeSnapshot() const {
+  Snapshot before;
+  before.elements = solution_.forest.size();
+  before.fragments = solution_.fragments;
+  before.irradiance = solution_.irradiance;
+  before.radiosity = solution_.radiosity;
+  before.radiosity_spread = solution_.radiosity_spread;
+  before.spread_below = solution_.spread_below;
+  before.gathered = gathered_;
+  before.correction = correction_;
+  before.fragment_offset = fragment_offset_;
+  before.residual = residual_;
+  before.converged = converged_;
+  return before;
 }
 
-}  // namespace
+void HierarchicalSolver::Restore(Snapshot before) {
+  solution_.forest.Truncate(before.elements);
+  if (before.links) solution_.links = std::move(*before.links);
+  solution_.fragments = std::move(before.fragments);
+  solution_.irradiance = std::move(before.irradiance);
+  solution_.radiosity = std::move(before.radiosity);
+  solution_.radiosity_spread = std::move(before.radiosity_spread);
+  solution_.spread_below = std::move(before.spread_below);
+  gathered_ = std::move(before.gathered);
+  correction_ = std::move(before.correction);
+  fragment_offset_ = std::move(before.fragment_offset);
+  residual_ = before.residual;
+  converged_ = before.converged;
+  IndexLinks();
+}
 
 HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility,
                                        const SolverOptions& options)
@@ -53,24 +94,43 @@ HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility
       options_(options),
       oracle_(options.eps, options.min_area, ReferenceArea(scene)) {
   solution_.forest = ElementForest(scene);
-  std::vector<Group> groups;
-  for (std::size_t p = 0; p < scene.patches.size(); ++p) {
-    const auto patch = static_cast<PatchId>(p);
-    Group group{ElementForest::Root(patch), {}};
-    for (const PatchPair& pair : visibility.SourcesOf(patch))
-      group.candidates.push_back({ElementForest::Root(pair.source), visibility.Blockers(pair)});
-    groups.push_back(std::move(group));
-    max_reflectance_ =
-        std::max(max_reflectance_, scene.materials[scene.patches[p].material].reflectance.maxCoeff());
-  }
-  Install(FormGroups(solution_.forest, groups), {});
+  std::vector<LinkSet> roots(scene.patches.size());
+  ParallelFor(roots.size(), kLinkGrain, [&](std::size_t p) {
+    std::vector<LinkCandidate> candidates;
+    for (const PatchPair& pair : visibility.SourcesOf(static_cast<PatchId>(p)))
+      candidates.push_back({ElementForest::Root(pair.source), visibility.Blockers(pair)});
+    roots[p] = FormLinks(solution_.forest, ElementForest::Root(static_cast<PatchId>(p)), candidates);
+  });
+  Install(std::move(roots), {});
   ResizeLight();
   for (std::size_t p = 0; p < scene.patches.size(); ++p)
     solution_.radiosity[p] = scene.materials[scene.patches[p].material].emittance;
 }
 
-// Replaces the links by those not dropped and the groups' new ones, ordered by receiver, then source.
-void HierarchicalSolver::Install(std::vector<LinkSet> groups, const std::vector<char>& dropped) {
+HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility,
+                                       const SolverOptions& options, RadiositySolution solution)
+    : scene_(scene),
+      visibility_(visibility),
+      options_(options),
+      oracle_(options.eps, options.min_area, ReferenceArea(scene)),
+      solution_(std::move(solution)) {
+  IndexLinks();
+  ResizeLight();
+  // What corrected a leaf is what its links do not bring.
+  const std::vector<Rgb> irradiance = solution_.irradiance;
+  Sweep();
+  for (const ElementId leaf : solution_.forest.AllLeaves()) {
+    correction_[leaf] = irradiance[leaf] - solution_.irradiance[leaf];
+    Light(leaf, irradiance[leaf]);
+  }
+  for (std::size_t p = 0; p < scene_.patches.size(); ++p) Pull(ElementForest::Root(static_cast<PatchId>(p)));
+  for (const Fragment& fragment : solution_.fragments)
+    fragment_offset_.push_back(fragment.irradiance - irradiance[fragment.leaf]);
+}
+
+// Replaces the links by those not dropped and the groups' new ones, ordered by receiver, then source. Returns
+// the old ones.
+LinkSet HierarchicalSolver::Install(std::vector<LinkSet> groups, const std::vector<char>& dropped) {
   struct Origin {
     const LinkSet* set;
     const Link* link;
@@ -93,10 +153,31 @@ void HierarchicalSolver::Install(std::vector<LinkSet> groups, const std::vector<
     merged.blockers.insert(merged.blockers.end(), blockers.begin(), blockers.end());
     merged.links.push_back(link);
   }
-  solution_.links = std::move(merged);
+  std::swap(solution_.links, merged);
+  IndexLinks();
+  return merged;
+}
+
+void HierarchicalSolver::IndexLinks() {
   first_link_.assign(solution_.forest.size() + 1, 0);
   for (const Link& link : solution_.links.links) ++first_link_[static_cast<std::size_t>(link.receiver) + 1];
   for (std::size_t e = 0; e < solution_.forest.size(); ++e) first_link_[e + 1] += first_link_[e];
+}
+
+// Forms the groups' links and puts them in the place of those dropped. False if it was cancelled before that.
+bool HierarchicalSolver::Relink(std::span<const Group> groups, const std::vector<char>& dropped,
+                                Snapshot& before, const ExecutionContext& context) {
+  std::vector<LinkSet> formed(groups.size());
+  ParallelFor(groups.size(), kLinkGrain, [&](std::size_t g) {
+    if (!context.Cancelled())
+      formed[g] = FormLinks(solution_.forest, groups[g].receiver, groups[g].candidates);
+  });
+  if (context.Cancelled()) return false;
+  LinkSet replaced = Install(std::move(formed), dropped);
+  if (!before.links) before.links = std::move(replaced);
+  TakeCorrectionsBack();
+  ResizeLight();
+  return true;
 }
 
 // Gives elements that are new the light of their parents.
@@ -206,7 +287,8 @@ double HierarchicalSolver::Sweep() {
 // Sweeps until what is missing is below the cut-off; returns the bound reached. The change of one sweep
 // understates what is missing by 1 / (1 - rho).
 double HierarchicalSolver::SweepToCutoff(IterationReport& report, const ExecutionContext& context) {
-  const double remaining = max_reflectance_ / (1 - max_reflectance_);
+  const double reflectance = MaxReflectance(scene_);
+  const double remaining = reflectance / (1 - reflectance);
   const std::vector<ElementId> leaves = solution_.forest.AllLeaves();
   std::vector<double> area;
   for (const ElementId leaf : leaves) area.push_back(solution_.forest[leaf].area);
@@ -235,7 +317,7 @@ double HierarchicalSolver::SweepToCutoff(IterationReport& report, const Executio
 }
 
 // Splits every link that the oracle rejects, once. Returns how many.
-std::size_t HierarchicalSolver::RefineOnce() {
+std::size_t HierarchicalSolver::RefineOnce(Snapshot& before, const ExecutionContext& context) {
   const std::vector<Link>& links = solution_.links.links;
   std::vector<Refinement> verdict(links.size());
   ParallelFor(links.size(), kGatherGrain,
@@ -269,15 +351,14 @@ std::size_t HierarchicalSolver::RefineOnce() {
     if (!here.empty()) groups.push_back({receiver, std::move(here)});
     begin = end;
   }
-  if (split > 0) {
-    Install(FormGroups(solution_.forest, groups), dropped);
-    // What corrected the old leaves says nothing of the new ones.
-    solution_.fragments.clear();
-    fragment_offset_.clear();
-    std::fill(correction_.begin(), correction_.end(), Rgb::Zero());
-    ResizeLight();
-  }
-  return split;
+  return split > 0 && Relink(groups, dropped, before, context) ? split : 0;
+}
+
+// What corrected the old leaves says nothing of new ones, or of other light.
+void HierarchicalSolver::TakeCorrectionsBack() {
+  solution_.fragments.clear();
+  fragment_offset_.clear();
+  std::fill(correction_.begin(), correction_.end(), Rgb::Zero());
 }
 
 void HierarchicalSolver::Balance() {
@@ -285,19 +366,24 @@ void HierarchicalSolver::Balance() {
   ResizeLight();
 }
 
-IterationReport HierarchicalSolver::Iterate(const ExecutionContext& context) {
+std::optional<IterationReport> HierarchicalSolver::Iterate(const ExecutionContext& context) {
   const Stopwatch stopwatch;
+  Snapshot before = TakeSnapshot();
   IterationReport report;
   report.residual = SweepToCutoff(report, context);
   while (!context.Cancelled()) {
-    const std::size_t split = RefineOnce();
+    const std::size_t split = RefineOnce(before, context);
     report.links_split += split;
     if (split == 0) break;
   }
-  if (report.links_split > 0) {
+  if (report.links_split > 0 && !context.Cancelled()) {
     Balance();
     // The new links carry light at once, so that what is left is a solution on all of them.
     report.residual = SweepToCutoff(report, context);
+  }
+  if (context.Cancelled()) {
+    Restore(std::move(before));
+    return std::nullopt;
   }
   converged_ = report.links_split == 0 && report.residual <= options_.relative_cutoff;
   report.elements = solution_.forest.size();
@@ -306,7 +392,47 @@ IterationReport HierarchicalSolver::Iterate(const ExecutionContext& context) {
   return report;
 }
 
-double HierarchicalSolver::Correct(LeafSampling sampling, const ExecutionContext& context) {
+bool HierarchicalSolver::SubdivideLeaves(std::span<const ElementId> leaves, const ExecutionContext& context) {
+  Snapshot before = TakeSnapshot();
+  std::vector<char> dropped(solution_.links.links.size(), 0);
+  std::vector<Group> groups;
+  for (const ElementId leaf : leaves) {
+    if (!solution_.forest[leaf].IsLeaf() || solution_.forest[leaf].level >= kMaxLevel) continue;
+    std::vector<LinkCandidate> own;
+    for (std::size_t i = first_link_[leaf]; i < first_link_[static_cast<std::size_t>(leaf) + 1]; ++i) {
+      const Link& link = solution_.links.links[i];
+      own.push_back({link.source, solution_.links.Blockers(link)});
+      dropped[i] = 1;
+    }
+    const ElementId first = solution_.forest.Subdivide(leaf);
+    for (ElementId child = first; child < first + 4; ++child) groups.push_back({child, own});
+  }
+  IterationReport ignored;
+  if (!groups.empty() && Relink(groups, dropped, before, context)) {
+    Balance();
+    SweepToCutoff(ignored, context);
+    converged_ = false;
+  }
+  if (!context.Cancelled()) return true;
+  Restore(std::move(before));
+  return false;
+}
+
+bool HierarchicalSolver::Relight(const ExecutionContext& context) {
+  Snapshot before = TakeSnapshot();
+  TakeCorrectionsBack();
+  for (const ElementId leaf : solution_.forest.AllLeaves()) Light(leaf, solution_.irradiance[leaf]);
+  for (std::size_t p = 0; p < scene_.patches.size(); ++p) Pull(ElementForest::Root(static_cast<PatchId>(p)));
+  IterationReport ignored;
+  SweepToCutoff(ignored, context);
+  converged_ = false;
+  if (!context.Cancelled()) return true;
+  Restore(std::move(before));
+  return false;
+}
+
+std::optional<double> HierarchicalSolver::Correct(LeafSampling sampling, const ExecutionContext& context) {
+  Snapshot before = TakeSnapshot();
   if (fragment_offset_.empty()) {
     solution_.fragments = CutLeavesAtContacts(solution_.forest);
     fragment_offset_.assign(solution_.fragments.size(), Rgb::Zero());
@@ -318,7 +444,10 @@ double HierarchicalSolver::Correct(LeafSampling sampling, const ExecutionContext
   ParallelFor(leaves.size(), kExactGrain, [&](std::size_t i) {
     if (!context.Cancelled()) exact[i] = ExactLeafIrradiance(solution_, irradiance, leaves[i], sampling);
   });
-  if (context.Cancelled()) return 0;
+  if (context.Cancelled()) {
+    Restore(std::move(before));
+    return std::nullopt;
+  }
 
   double squares = 0, mean = 0, area = 0;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
@@ -337,6 +466,10 @@ double HierarchicalSolver::Correct(LeafSampling sampling, const ExecutionContext
   }
   IterationReport ignored;
   SweepToCutoff(ignored, context);
+  if (context.Cancelled()) {
+    Restore(std::move(before));
+    return std::nullopt;
+  }
   LightFragments();
   return mean > 0 ? std::sqrt(squares / area) / (mean / area) : 0;
 }
@@ -351,17 +484,23 @@ void HierarchicalSolver::LightFragments() {
   }
 }
 
-std::vector<IterationReport> HierarchicalSolver::Solve(const ExecutionContext& context) {
-  std::vector<IterationReport> reports;
-  while (!converged_ && static_cast<int>(reports.size()) < options_.max_iterations && !context.Cancelled()) {
-    reports.push_back(Iterate(context));
-    context.Report("iterate", static_cast<double>(reports.size()) / options_.max_iterations);
-  }
+bool HierarchicalSolver::CorrectAll(const ExecutionContext& context) {
   // All passes but the last only need to come near: the last one replaces what they added.
   for (int pass = 1; pass <= options_.max_corrections && !context.Cancelled(); ++pass) {
     context.Report("correct", static_cast<double>(pass - 1) / options_.max_corrections);
     Correct(pass < options_.max_corrections ? LeafSampling::kCentroid : LeafSampling::kCubature, context);
   }
+  return !context.Cancelled();
+}
+
+std::vector<IterationReport> HierarchicalSolver::Solve(const ExecutionContext& context) {
+  std::vector<IterationReport> reports;
+  while (!converged_ && static_cast<int>(reports.size()) < options_.max_iterations && !context.Cancelled()) {
+    const std::optional<IterationReport> report = Iterate(context);
+    if (report) reports.push_back(*report);
+    context.Report("iterate", static_cast<double>(reports.size()) / options_.max_iterations);
+  }
+  CorrectAll(context);
   return reports;
 }
 

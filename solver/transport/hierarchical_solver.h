@@ -12,6 +12,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "solver/base/progress.h"
@@ -45,19 +47,36 @@ class HierarchicalSolver {
  public:
   // Links the roots. The scene and the visibility must outlive the solver.
   HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options);
+  // Goes on from a solution of the same scene: its links and its light, corrections included.
+  HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
+                     RadiositySolution solution);
+
+  // The steps. Each leaves the solution as it was if it is cancelled.
 
   // One iteration: gather and push-pull until the cut-off is met, then refine every link that the oracle
-  // rejects, and its children in turn. Returns what it did; links_split == 0 and a residual below the cut-off
-  // mean convergence.
-  IterationReport Iterate(const ExecutionContext& context);
+  // rejects, and its children in turn, and gather over the new links. Returns what it did; links_split == 0
+  // and a residual below the cut-off mean convergence. Nothing if cancelled.
+  std::optional<IterationReport> Iterate(const ExecutionContext& context);
+
+  // Splits the leaves, moves what links end at them down to their children, balances the trees, and gathers
+  // from the present light until it settles. Takes corrections back. The new links have not been judged:
+  // Iterate() does. For refinement by other errors than transport's (thesis 4.4.2). Leaves on the last level
+  // stay. False if cancelled.
+  bool SubdivideLeaves(std::span<const ElementId> leaves, const ExecutionContext& context);
+
+  // Gathers until the light settles after the scene's emittances or reflectances have changed, over the links
+  // there are; no form factor is computed. The light is linear in the emittances. Takes corrections back:
+  // Correct() or Iterate() may follow. False if cancelled.
+  bool Relight(const ExecutionContext& context);
 
   // One pass of deferred correction. Returns the root mean square change of the leaves' irradiance, relative
-  // to its mean; 0 if cancelled, which leaves the solution as it was. An iteration that refines takes
-  // corrections back.
-  double Correct(LeafSampling sampling, const ExecutionContext& context);
+  // to its mean; nothing if cancelled. An iteration that refines takes corrections back.
+  std::optional<double> Correct(LeafSampling sampling, const ExecutionContext& context);
+  // All passes that the options ask for. False if cancelled, which leaves those that were done.
+  bool CorrectAll(const ExecutionContext& context);
 
   // Iterates to convergence, to the most iterations, or until the context is cancelled, then corrects. A
-  // cancelled run leaves the solution of the last whole step.
+  // cancelled run leaves the solution of the last whole step. Returns the whole iterations.
   std::vector<IterationReport> Solve(const ExecutionContext& context);
 
   bool Converged() const { return converged_; }
@@ -65,11 +84,20 @@ class HierarchicalSolver {
   RadiositySolution TakeSolution() && { return std::move(solution_); }
 
  private:
+  struct Group;     // new links of one receiver
+  struct Snapshot;  // what a step that is cancelled goes back to
+  Snapshot TakeSnapshot() const;
+  void Restore(Snapshot snapshot);
+
   double Sweep();
   double SweepToCutoff(IterationReport& report, const ExecutionContext& context);
-  std::size_t RefineOnce();
+  std::size_t RefineOnce(Snapshot& before, const ExecutionContext& context);
+  void TakeCorrectionsBack();
   void Balance();
-  void Install(std::vector<LinkSet> groups, const std::vector<char>& dropped);
+  LinkSet Install(std::vector<LinkSet> groups, const std::vector<char>& dropped);
+  void IndexLinks();
+  bool Relink(std::span<const Group> groups, const std::vector<char>& dropped, Snapshot& before,
+              const ExecutionContext& context);
   void ResizeLight();
   void PushPull(ElementId element, const Rgb& from_above);
   void Light(ElementId leaf, const Rgb& irradiance);
@@ -86,8 +114,7 @@ class HierarchicalSolver {
   std::vector<Rgb> gathered_;            // per element: over its own links [W/m^2]
   std::vector<Rgb> correction_;          // per leaf: exact less linked irradiance [W/m^2]
   std::vector<Rgb> fragment_offset_;     // per fragment: exact irradiance less its leaf's [W/m^2]
-  double max_reflectance_ = 0;
-  double residual_ = 1;  // of the last sweep
+  double residual_ = 1;                  // of the last sweep
   bool converged_ = false;
 };
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <thread>
@@ -30,6 +31,15 @@ Scene LampRoom() {
 
 bool SameBytes(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb)) == 0;
+}
+
+bool SameSolution(const RadiositySolution& a, const RadiositySolution& b) {
+  const auto same_link = [](const Link& x, const Link& y) {
+    return x.receiver == y.receiver && x.source == y.source && x.form_factor == y.form_factor;
+  };
+  return SameBytes(a.irradiance, b.irradiance) && SameBytes(a.radiosity, b.radiosity) &&
+         a.fragments.size() == b.fragments.size() && a.links.blockers == b.links.blockers &&
+         std::ranges::equal(a.links.links, b.links.links, same_link);
 }
 
 // Parents are the area-weighted means of their children, leaves reflect what falls on them, nothing is
@@ -235,7 +245,21 @@ TEST(HierarchicalSolver, CancelledAndCutShort) {
     EXPECT_FALSE(solver.Converged());
     ExpectValid(solver.solution());
   }
-  for (const int milliseconds : {1, 5, 20}) {
+  // The solutions after whole steps: linked, iterated, corrected.
+  std::vector<RadiositySolution> whole;
+  {
+    HierarchicalSolver solver(scene, visibility, options);
+    whole.push_back(solver.solution());
+    while (!solver.Converged()) {
+      solver.Iterate(ExecutionContext());
+      whole.push_back(solver.solution());
+    }
+    for (const LeafSampling sampling : {LeafSampling::kCentroid, LeafSampling::kCubature}) {
+      solver.Correct(sampling, ExecutionContext());
+      whole.push_back(solver.solution());
+    }
+  }
+  for (const int milliseconds : {1, 3, 5, 10, 20, 40, 80}) {
     HierarchicalSolver solver(scene, visibility, options);
     ExecutionContext context;
     std::thread canceller([&] {
@@ -245,6 +269,11 @@ TEST(HierarchicalSolver, CancelledAndCutShort) {
     solver.Solve(context);
     canceller.join();
     ExpectValid(solver.solution());
+    EXPECT_EQ(
+        std::ranges::count_if(
+            whole, [&](const RadiositySolution& step) { return SameSolution(step, solver.solution()); }),
+        1)
+        << milliseconds << " ms";
   }
   options.max_iterations = 2;
   HierarchicalSolver solver(scene, visibility, options);
@@ -270,6 +299,99 @@ TEST(HierarchicalSolver, IteratesAfterACorrection) {
   solver.Correct(LeafSampling::kCentroid, context);
   solver.Correct(LeafSampling::kCubature, context);
   EXPECT_LE(MeasureEnergy(solver.solution()).relative_imbalance, 2e-3);
+}
+
+// Leaves that are split get links of their own, the rest of the solution stays, and the light that settles is
+// that of before, but for what finer elements tell better.
+TEST(HierarchicalSolver, SubdividesLeavesItIsTold) {
+  const Scene scene = LampRoom();
+  const PatchVisibility visibility(scene);
+  SolverOptions options;
+  options.eps = 2;
+  HierarchicalSolver solver(scene, visibility, options);
+  const ExecutionContext context;
+  while (!solver.Converged()) solver.Iterate(context);
+  const RadiositySolution before = solver.solution();
+  const std::vector<ElementId> leaves = before.forest.AllLeaves();
+  std::vector<ElementId> chosen;
+  for (std::size_t i = 0; i < leaves.size(); i += 7) chosen.push_back(leaves[i]);
+  ASSERT_TRUE(solver.SubdivideLeaves(chosen, context));
+  ExpectValid(solver.solution());
+  EXPECT_FALSE(solver.Converged());
+  const RadiositySolution& after = solver.solution();
+  for (const ElementId leaf : chosen) EXPECT_FALSE(after.forest[leaf].IsLeaf());
+  for (const Link& link : after.links.links)
+    EXPECT_FALSE(std::ranges::binary_search(chosen, link.receiver) && before.forest[link.receiver].IsLeaf());
+  EXPECT_GE(after.forest.size(), before.forest.size() + 4 * chosen.size());
+  double worst = 0, largest = 0;
+  for (std::size_t p = 0; p < scene.patches.size(); ++p) {
+    worst = std::max(worst, (after.irradiance[p] - before.irradiance[p]).abs().maxCoeff());
+    largest = std::max(largest, before.irradiance[p].maxCoeff());
+  }
+  std::printf("%zu of %zu leaves split; patches' irradiance changed by %.2g of the largest\n", chosen.size(),
+              leaves.size(), worst / largest);
+  EXPECT_LE(worst, 0.02 * largest);
+  const std::optional<IterationReport> next = solver.Iterate(context);
+  ASSERT_TRUE(next);
+  ExpectValid(solver.solution());
+}
+
+// A solver that goes on from a solution is where that one was: its light is the same to rounding, corrections
+// included, and nothing is left to refine.
+TEST(HierarchicalSolver, GoesOnFromASolution) {
+  const Scene scene = LampRoom();
+  const PatchVisibility visibility(scene);
+  SolverOptions options;
+  options.eps = 1;
+  HierarchicalSolver first(scene, visibility, options);
+  first.Solve(ExecutionContext());
+  HierarchicalSolver second(scene, visibility, options, first.solution());
+  EXPECT_TRUE(SameSolution(first.solution(), second.solution()));
+  const std::optional<IterationReport> next = second.Iterate(ExecutionContext());
+  ASSERT_TRUE(next);
+  EXPECT_LE(next->sweeps, 3U);
+  double worst = 0, largest = 0;
+  if (next->links_split == 0)
+    for (std::size_t e = 0; e < first.solution().radiosity.size(); ++e) {
+      worst =
+          std::max(worst, (first.solution().radiosity[e] - second.solution().radiosity[e]).abs().maxCoeff());
+      largest = std::max(largest, first.solution().irradiance[e].maxCoeff());
+    }
+  EXPECT_LE(worst, options.relative_cutoff * largest);
+}
+
+// On the links there are, the light is linear in the emittances, taking light away brightens nothing, and a
+// scene that is changed back is lit as before, each within the cut-off; no link is touched.
+TEST(HierarchicalSolver, RelightsOnTheSameLinks) {
+  Scene scene = LampRoom();
+  const PatchVisibility visibility(scene);
+  SolverOptions options;
+  options.eps = 2;
+  options.relative_cutoff = 1e-9;
+  HierarchicalSolver solver(scene, visibility, options);
+  while (!solver.Converged()) solver.Iterate(ExecutionContext());
+  const RadiositySolution lamp = solver.solution();
+  const std::vector<Material> materials = scene.materials;
+  const auto relit = [&](const Rgb& wall, const Rgb& lamp_emittance, double reflectance) {
+    scene.materials[0].emittance = wall;
+    scene.materials[1].emittance = lamp_emittance;
+    scene.materials[0].reflectance = reflectance * materials[0].reflectance;
+    EXPECT_TRUE(solver.Relight(ExecutionContext()));
+    EXPECT_EQ(solver.solution().links.links.size(), lamp.links.links.size());
+    ExpectValid(solver.solution());
+    return solver.solution().irradiance;
+  };
+  const Rgb red(1, 0.5, 0.25), lamp_light = materials[1].emittance;
+  const std::vector<Rgb> walls = relit(red, Rgb::Zero(), 1), both = relit(2 * red, 3 * lamp_light, 1),
+                         dim = relit(Rgb::Zero(), lamp_light, 0.5), again = relit(Rgb::Zero(), lamp_light, 1);
+  double largest = 0;
+  for (const Rgb& irradiance : both) largest = std::max(largest, irradiance.maxCoeff());
+  const double tolerance = 10 * options.relative_cutoff * largest;  // five solves, each within the cut-off
+  for (std::size_t e = 0; e < walls.size(); ++e) {
+    EXPECT_LE((2 * walls[e] + 3 * lamp.irradiance[e] - both[e]).abs().maxCoeff(), tolerance);
+    EXPECT_LE((dim[e] - again[e]).maxCoeff(), tolerance);
+    EXPECT_LE((again[e] - lamp.irradiance[e]).abs().maxCoeff(), tolerance);
+  }
 }
 
 // No patches, one patch, no light: solved at once, and dark but for what shines of itself.

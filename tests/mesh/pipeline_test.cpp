@@ -1,0 +1,88 @@
+// The pipeline step by step.
+
+#include "mesh/pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "tests/visibility/test_scenes.h"
+
+namespace penumbra::scene_test {
+namespace {
+
+Scene Room() {
+  Scene scene;
+  const std::int32_t grey = AddMaterial(scene, 0.5, 0), lamp = AddMaterial(scene, 0, 40);
+  AddBox(scene, Vec3::Zero(), {4, 3, 2.5}, true, grey);
+  AddBox(scene, {1, 1, 0}, {2, 2, 1}, false, grey);
+  Add(scene, {{2.5, 1, 2.25}, {2.5, 2, 2.25}, {3.5, 2, 2.25}, {3.5, 1, 2.25}}, lamp);
+  return scene;
+}
+
+bool SameLight(const RadiositySolution& a, const RadiositySolution& b) {
+  return a.radiosity.size() == b.radiosity.size() &&
+         std::memcmp(a.radiosity.data(), b.radiosity.data(), a.radiosity.size() * sizeof(Rgb)) == 0;
+}
+
+// Steps lead where Solve() leads, to the byte; counts and iterations are told after each, and a mesh can be
+// made at any time from the solution as it is then.
+TEST(Pipeline, StepByStepIsTheSame) {
+  const Scene scene = Room();
+  PipelineOptions options;
+  options.error = 0.2;
+  const ExecutionContext context;
+  Pipeline whole(scene, options), steps(scene, options);
+  whole.Solve(context);
+  steps.Link(context);
+  EXPECT_EQ(steps.solution().forest.size(), scene.patches.size());
+  EXPECT_EQ(steps.report().counts.links, steps.solution().links.links.size());
+  while (!steps.Converged()) {
+    const std::optional<IterationReport> report = steps.Iterate(context);
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->links, steps.report().counts.links);
+    EXPECT_EQ(report->elements, steps.report().counts.elements);
+  }
+  steps.BuildMesh(MeshKind::kGouraud, context);
+  EXPECT_FALSE(steps.mesh().triangles.empty());
+  EXPECT_TRUE(steps.Correct(context));
+  EXPECT_TRUE(SameLight(whole.solution(), steps.solution()));
+  EXPECT_EQ(whole.report().iterations.size(), steps.report().iterations.size());
+  EXPECT_TRUE(steps.report().unmet.empty());
+
+  const std::size_t leaves = steps.report().counts.leaves;
+  std::vector<ElementId> first = steps.solution().forest.AllLeaves();
+  first.resize(10);
+  EXPECT_TRUE(steps.SubdivideLeaves(first, context));
+  EXPECT_GE(steps.report().counts.leaves, leaves + 30);
+  EXPECT_TRUE(steps.Correct(context));
+  steps.BuildMesh(MeshKind::kGouraud, context);
+  steps.Measure(context);
+  EXPECT_GT(steps.report().interpolant_error.points, 0U);
+}
+
+// A step that is cancelled leaves solution and report as they were, and the pipeline can go on.
+TEST(Pipeline, CancelledStepsLeaveWhatWas) {
+  const Scene scene = Room();
+  PipelineOptions options;
+  options.error = 0.5;
+  Pipeline pipeline(scene, options);
+  const ExecutionContext running;
+  ExecutionContext cancelled;
+  cancelled.Cancel();
+  ASSERT_TRUE(pipeline.Iterate(running));
+  const RadiositySolution before = pipeline.solution();
+  EXPECT_FALSE(pipeline.Iterate(cancelled));
+  EXPECT_FALSE(pipeline.Correct(cancelled));
+  EXPECT_FALSE(pipeline.Relight(cancelled));
+  EXPECT_FALSE(pipeline.SubdivideLeaves(before.forest.AllLeaves(), cancelled));
+  EXPECT_TRUE(SameLight(before, pipeline.solution()));
+  EXPECT_EQ(pipeline.report().iterations.size(), 1U);
+  EXPECT_EQ(pipeline.report().counts.elements, before.forest.size());
+  pipeline.Solve(running);
+  EXPECT_TRUE(pipeline.Converged());
+}
+
+}  // namespace
+}  // namespace penumbra::scene_test
