@@ -1,15 +1,20 @@
 // experiments/bench/bench_scenes.h
 //
-// Scenes that several benchmarks use.
+// Scenes that several benchmarks and studies use.
 
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
 #include <vector>
 
 #include "solver/base/random.h"
 #include "solver/scene/scene.h"
+#include "solver/visibility/occlusion_method.h"
+#include "solver/visibility/point_view.h"
 
 namespace penumbra {
 
@@ -62,6 +67,34 @@ inline Scene Rooms(int n) {
       }
     }
   return scene;
+}
+
+// A square light of side 1 over the origin at height 4, and `n` boards between them, none alone as large as
+// the light; together they hide about half of it.
+inline Scene LightAndBoards(int n) {
+  Scene scene;
+  scene.materials = GreyAndLight();
+  AddPatch(scene, {{-0.5, -0.5, 4}, {-0.5, 0.5, 4}, {0.5, 0.5, 4}, {0.5, -0.5, 4}}, 1);
+  Random random(3);
+  const double size = 0.55 / std::sqrt(n);
+  for (int i = 0; i < n; ++i) {
+    const double z = random.Uniform(0.5, 3.5), scale = z / 4, angle = random.Uniform(0, std::numbers::pi);
+    const Vec3 centre(scale * random.Uniform(-0.5, 0.5), scale * random.Uniform(-0.5, 0.5), z);
+    const Vec3 u = scale * size * Vec3(std::cos(angle), std::sin(angle), 0.3),
+               v = scale * size * Vec3(-std::sin(angle), std::cos(angle), -0.2);
+    AddPatch(scene, {centre - u - v, centre + u - v, centre + u + v, centre - u + v}, 0);
+  }
+  return scene;
+}
+
+// The form factor of a point to patch 0 past the given blockers.
+inline double VisibleFactor(const Scene& scene, std::span<const PatchId> blockers, const ReceiverPoint& at,
+                            const OcclusionMethod& method) {
+  PointView view(scene, at, method);
+  view.FaceSource(0);
+  const DirectionPolygon seen = view.SeeSource(scene.patches[0].Vertices());
+  std::vector<Occluder>& occluders = view.occluder_stack();
+  return view.FindBlockers(blockers, kNoPatch, seen, occluders) ? view.VisibleFormFactor(seen, occluders) : 0;
 }
 
 }  // namespace penumbra

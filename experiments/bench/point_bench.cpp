@@ -73,24 +73,6 @@ void PointQuadrilateralBatched(benchmark::State& state) {
 }
 BENCHMARK(PointQuadrilateralBatched);
 
-// A square light of side 1 over the origin at height 4, and `n` boards between them, none alone as large as
-// the light; together they hide about half of it.
-Scene LightAndBoards(int n) {
-  Scene scene;
-  scene.materials = GreyAndLight();
-  AddPatch(scene, {{-0.5, -0.5, 4}, {-0.5, 0.5, 4}, {0.5, 0.5, 4}, {0.5, -0.5, 4}}, 1);
-  Random random(3);
-  const double size = 0.55 / std::sqrt(n);
-  for (int i = 0; i < n; ++i) {
-    const double z = random.Uniform(0.5, 3.5), scale = z / 4, angle = random.Uniform(0, std::numbers::pi);
-    const Vec3 centre(scale * random.Uniform(-0.5, 0.5), scale * random.Uniform(-0.5, 0.5), z);
-    const Vec3 u = scale * size * Vec3(std::cos(angle), std::sin(angle), 0.3),
-               v = scale * size * Vec3(-std::sin(angle), std::cos(angle), -0.2);
-    AddPatch(scene, {centre - u - v, centre + u - v, centre + u + v, centre - u + v}, 0);
-  }
-  return scene;
-}
-
 void TimeAnywhere(benchmark::State& state, const PointIrradiance& irradiance,
                   const std::vector<ReceiverPoint>& points) {
   for (auto _ : state) {
@@ -102,15 +84,6 @@ void TimeAnywhere(benchmark::State& state, const PointIrradiance& irradiance,
 }
 
 constexpr int kPoints = 16;  // around the origin, so that no single arrangement counts
-
-double VisibleFactor(const Scene& scene, std::span<const PatchId> boards, const ReceiverPoint& at,
-                     const OcclusionMethod& method) {
-  PointView view(scene, at, method);
-  view.FaceSource(0);
-  const DirectionPolygon seen = view.SeeSource(scene.patches[0].Vertices());
-  std::vector<Occluder>& occluders = view.occluder_stack();
-  return view.FindBlockers(boards, kNoPatch, seen, occluders) ? view.VisibleFormFactor(seen, occluders) : 0;
-}
 
 // One source behind boards, all of which cover some of it. `error`: the largest difference from the exact
 // backprojection, relative to the light without boards.

@@ -1,0 +1,73 @@
+#include "experiments/studies/study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "solver/base/stopwatch.h"
+
+namespace penumbra {
+
+void StudyLog::Add(StudyRow row) {
+  fmt::print(stderr, "  {:<16} {:<22} {:<20} {:>10.3g} s  p99 {:<9.3g} max {:.3g}\n", row.scene, row.method,
+             row.setting, row.seconds, row.error_p99, row.error_max);
+  rows_.push_back(std::move(row));
+}
+
+void StudyLog::Find(std::string sentence) {
+  fmt::print(stderr, "  => {}\n", sentence);
+  findings_.push_back(std::move(sentence));
+}
+
+double MedianSeconds(int repeats, const std::function<void()>& work) {
+  std::vector<double> seconds;
+  for (int i = 0; i < repeats; ++i) {
+    const Stopwatch stopwatch;
+    work();
+    seconds.push_back(stopwatch.Seconds());
+  }
+  std::sort(seconds.begin(), seconds.end());
+  return seconds[seconds.size() / 2];
+}
+
+double SecondsPerCall(double at_least, const std::function<void()>& work) {
+  const Stopwatch stopwatch;
+  std::size_t calls = 0;
+  do {
+    work();
+    ++calls;
+  } while (stopwatch.Seconds() < at_least);
+  return stopwatch.Seconds() / static_cast<double>(calls);
+}
+
+void SetErrors(std::vector<double> errors, StudyRow* row) {
+  if (errors.empty()) return;
+  std::sort(errors.begin(), errors.end());
+  const auto quantile = [&](double q) {
+    return errors[static_cast<std::size_t>(std::ceil(q * static_cast<double>(errors.size()))) - 1];
+  };
+  double squares = 0;
+  for (const double e : errors) squares += e * e;
+  row->error_rms = std::sqrt(squares / static_cast<double>(errors.size()));
+  row->error_p95 = quantile(0.95);
+  row->error_p99 = quantile(0.99);
+  row->error_max = errors.back();
+}
+
+double LogSlope(const std::vector<double>& x, const std::vector<double>& y) {
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!(x[i] > 0 && y[i] > 0)) continue;
+    const double u = std::log(x[i]), v = std::log(y[i]);
+    n += 1;
+    sx += u;
+    sy += v;
+    sxx += u * u;
+    sxy += u * v;
+  }
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+}  // namespace penumbra
