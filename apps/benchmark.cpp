@@ -22,17 +22,13 @@ Camera Orbit(const Camera& camera, double turn) {
 
 }  // namespace
 
-std::string RunBenchmark(TwoPassDisplay& display, const BenchmarkSettings& settings) {
-  const auto draw = [&](double turn) {
-    display.Render(Orbit(settings.camera, turn), settings.width, settings.height, settings.mode);
-    return display.ToneMap(settings.tone).ms;
-  };
-  draw(0);
+std::string RunBenchmark(const BenchmarkSettings& settings, const DrawFrame& draw) {
+  draw(settings.camera);
 
   FrameTimes sum;
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < settings.frames; ++i) {
-    const FrameTimes ms = draw(static_cast<double>(i) / settings.frames);
+    const FrameTimes ms = draw(Orbit(settings.camera, static_cast<double>(i) / settings.frames));
     sum.triangle_ids += ms.triangle_ids;
     sum.barycentric += ms.barycentric;
     sum.evaluate += ms.evaluate;
@@ -48,7 +44,7 @@ std::string RunBenchmark(TwoPassDisplay& display, const BenchmarkSettings& setti
                                          {"tone_map", sum.tone_map / settings.frames},
                                          {"total", sum.Total() / settings.frames}}},
                                        {"size", fmt::format("{}x{}", settings.width, settings.height)},
-                                       {"triangles", display.TriangleCount()},
+                                       {"triangles", settings.triangles},
                                        {"threads", ThreadCount()}};
   return line.dump() + "\n";
 }

@@ -8,36 +8,52 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "apps/benchmark.h"
 #include "apps/camera_arguments.h"
 #include "apps/commands.h"
+#include "apps/interruptible.h"
 #include "apps/option_values.h"
 #include "apps/output.h"
 #include "apps/scene_arguments.h"
 #include "apps/solve_run.h"
 #include "display/image_io.h"
+#include "display/ray_display.h"
 #include "display/two_pass_display.h"
 #include "solver/base/check.h"
+#include "solver/base/stopwatch.h"
 
 namespace penumbra {
 namespace {
 
+// How a mode finds what a pixel shows.
+enum class Method {
+  kTwoPass,
+  kRayShade,   // rays, exact irradiance
+  kLerpShade,  // rays, interpolants
+};
+
 struct Mode {
   const char* name;
-  MeshKind mesh;
+  Method method;
+  std::optional<MeshKind> mesh;
   ShadingMode shading;
 };
-constexpr std::array<Mode, 5> kModes = {{{"flat", MeshKind::kFlat, ShadingMode::kRadiosity},
-                                         {"gouraud", MeshKind::kGouraud, ShadingMode::kRadiosity},
-                                         {"gouraud-mesh", MeshKind::kGouraudMesh, ShadingMode::kRadiosity},
-                                         {"interpolant", MeshKind::kInterpolant, ShadingMode::kRadiosity},
-                                         {"rho", MeshKind::kFlat, ShadingMode::kReflectance}}};
+constexpr std::array<Mode, 7> kModes = {
+    {{"flat", Method::kTwoPass, MeshKind::kFlat, ShadingMode::kRadiosity},
+     {"gouraud", Method::kTwoPass, MeshKind::kGouraud, ShadingMode::kRadiosity},
+     {"gouraud-mesh", Method::kTwoPass, MeshKind::kGouraudMesh, ShadingMode::kRadiosity},
+     {"interpolant", Method::kTwoPass, MeshKind::kInterpolant, ShadingMode::kRadiosity},
+     {"exact", Method::kRayShade, std::nullopt, ShadingMode::kRadiosity},
+     {"lerp", Method::kLerpShade, MeshKind::kInterpolant, ShadingMode::kRadiosity},
+     {"rho", Method::kTwoPass, MeshKind::kFlat, ShadingMode::kReflectance}}};
 
 constexpr int kMaxPixels = 1 << 26;  // two gigabytes of buffers
 constexpr int kMaxFrames = 1'000'000;
+constexpr int kMaxSamples = 1024;
 
 struct RenderArguments {
   SceneArguments scene;
@@ -48,6 +64,9 @@ struct RenderArguments {
   std::optional<double> exposure;  // [m^2/W]; metered if not given
   int benchmark_frames = 0;        // 0: no benchmark
   int supersampling = 2;           // of PNG pictures: samples a side of a pixel
+  int samples = 1;                 // rays a pixel, where a mode casts rays
+
+  bool ByRays() const { return mode.method != Method::kTwoPass; }
 };
 
 bool IsExr(const std::string& path) { return std::filesystem::path(path).extension() == ".exr"; }
@@ -82,6 +101,12 @@ void CheckOutputs(const RenderArguments& arguments) {
     throw UsageError("render needs -o IMAGE.png or -o IMAGE.exr, or --benchmark FRAMES");
   if (arguments.output) CheckWritable(*arguments.output);
   if (arguments.scene.report) CheckWritable(*arguments.scene.report);
+  if (arguments.ByRays()) {
+    if (arguments.samples > kMaxPixels / arguments.height / arguments.width)
+      throw UsageError(fmt::format("{} samples of {}x{} pixels are too many; give a smaller --samples",
+                                   arguments.samples, arguments.width, arguments.height));
+    return;
+  }
   const int side = arguments.supersampling * std::max(arguments.width, arguments.height);
   if (arguments.output && IsPng(*arguments.output) &&
       (side > kMaxPictureSize ||
@@ -95,7 +120,10 @@ nlohmann::ordered_json RenderOptionsUsed(const RenderArguments& arguments) {
   nlohmann::ordered_json options;
   options["mode"] = arguments.mode.name;
   options["size"] = fmt::format("{}x{}", arguments.width, arguments.height);
-  options["supersampling"] = arguments.supersampling;
+  if (arguments.ByRays())
+    options["samples"] = arguments.samples;
+  else
+    options["supersampling"] = arguments.supersampling;
   if (arguments.exposure)
     options["exposure"] = *arguments.exposure;
   else
@@ -103,31 +131,88 @@ nlohmann::ordered_json RenderOptionsUsed(const RenderArguments& arguments) {
   return options;
 }
 
-// The exposure for pictures from this camera; the display has drawn it afterwards.
-double ExposureFor(const RenderArguments& arguments, const Camera& camera, TwoPassDisplay& display) {
-  const RenderedFrame& frame =
-      display.Render(camera, arguments.width, arguments.height, arguments.mode.shading);
-  if (arguments.exposure) return *arguments.exposure;
-  return arguments.mode.shading == ShadingMode::kReflectance ? 1 : MeterExposure(frame.linear, frame.kind);
+// The exposure to show a picture with.
+ToneMapping ToneFor(const RenderArguments& arguments, const RgbImage& linear,
+                    std::span<const PixelKind> kinds) {
+  ToneMapping tone;
+  if (arguments.exposure)
+    tone.exposure = *arguments.exposure;
+  else if (arguments.mode.shading == ShadingMode::kRadiosity)
+    tone.exposure = MeterExposure(linear, kinds);
+  return tone;
 }
 
-// A PNG is drawn larger by the supersampling, exposed, and averaged: smooth edges. An EXR holds one value a
-// pixel, that of its centre.
-void WriteImage(const RenderArguments& arguments, const Camera& camera, const ToneMapping& tone,
-                TwoPassDisplay& display) {
-  const std::string& path = *arguments.output;
-  const int k = arguments.supersampling;
+// The picture as a file, from across x down samples a pixel. An EXR holds their mean; for a PNG each is
+// exposed by itself, so that the edges of lights are smooth.
+void WriteImage(const std::string& path, const RgbImage& linear, std::span<const PixelKind> kinds, int across,
+                int down, const ToneMapping& tone) {
   if (IsExr(path)) {
-    WriteExr(path, display.frame().linear);
-  } else if (k == 1) {
-    WritePng(path, display.ToneMap(tone).screen);
+    WriteExr(path, Downsample(linear, across, down));
   } else {
-    const RenderedFrame& frame =
-        display.Render(camera, k * arguments.width, k * arguments.height, arguments.mode.shading);
     Srgb8Image screen;
-    EncodeSrgb(Downsample(Expose(frame.linear, frame.kind, tone.exposure), k), tone.dither, &screen);
+    EncodeSrgb(Downsample(Expose(linear, kinds, tone.exposure), across, down), tone.dither, &screen);
     WritePng(path, screen);
   }
+}
+
+BenchmarkSettings BenchmarkOf(const RenderArguments& arguments, const Camera& camera,
+                              const Pipeline& pipeline) {
+  BenchmarkSettings settings{camera, arguments.width, arguments.height, arguments.benchmark_frames, 0};
+  if (arguments.mode.mesh) settings.triangles = pipeline.mesh().triangles.size();
+  return settings;
+}
+
+// A PNG is drawn larger by the supersampling; an EXR has one sample a pixel, at its centre.
+void RenderTwoPass(const RenderArguments& arguments, const Camera& camera, SolveRun& run) {
+  TwoPassDisplay display(run.pipeline().scene(), run.pipeline().mesh());
+  const int width = arguments.width, height = arguments.height;
+  const ShadingMode shading = arguments.mode.shading;
+  const RenderedFrame& frame = display.Render(camera, width, height, shading);
+  const ToneMapping tone = ToneFor(arguments, frame.linear, frame.kind);
+  if (arguments.output) {
+    const int k = IsExr(*arguments.output) ? 1 : arguments.supersampling;
+    if (k > 1) display.Render(camera, k * width, k * height, shading);
+    WriteImage(*arguments.output, frame.linear, frame.kind, k, k, tone);
+  }
+  run.Tell();
+  if (arguments.benchmark_frames > 0)
+    WriteResult(std::nullopt,
+                RunBenchmark(BenchmarkOf(arguments, camera, run.pipeline()), [&](const Camera& from) {
+                  display.Render(from, width, height, shading);
+                  return display.ToneMap(tone).ms;
+                }));
+}
+
+void RenderByRays(const RenderArguments& arguments, const Camera& camera, SolveRun& run) {
+  const Pipeline& pipeline = run.pipeline();
+  RayDisplay display(pipeline.scene(),
+                     arguments.mode.method == Method::kRayShade
+                         ? RayShade(pipeline.scene(), pipeline.irradiance())
+                         : LerpShade(pipeline.scene(), pipeline.mesh()),
+                     arguments.samples);
+  const SampledPicture& picture = display.picture();
+  RunInterruptible([&](const ExecutionContext& context) {
+    display.Render(camera, arguments.width, arguments.height, context);
+  });
+  const ToneMapping tone = ToneFor(arguments, picture.linear, picture.kind);
+  if (arguments.output) WriteImage(*arguments.output, picture.linear, picture.kind, picture.samples, 1, tone);
+  run.Tell();
+  if (arguments.benchmark_frames > 0)
+    WriteResult(std::nullopt, RunBenchmark(BenchmarkOf(arguments, camera, pipeline), [&](const Camera& from) {
+                  FrameTimes times;
+                  const Stopwatch casting;
+                  RunInterruptible([&](const ExecutionContext& context) {
+                    display.Render(from, arguments.width, arguments.height, context);
+                  });
+                  times.evaluate = 1e3 * casting.Seconds();
+                  const Stopwatch mapping;
+                  Srgb8Image screen;
+                  EncodeSrgb(
+                      Downsample(Expose(picture.linear, picture.kind, tone.exposure), picture.samples, 1),
+                      tone.dither, &screen);
+                  times.tone_map = 1e3 * mapping.Seconds();
+                  return times;
+                }));
 }
 
 void Render(const RenderArguments& arguments) {
@@ -135,17 +220,13 @@ void Render(const RenderArguments& arguments) {
   const LoadedScene loaded = LoadScene(arguments.scene);
   const Camera camera = ChooseCamera(loaded.scene, arguments.camera);
   SolveRun run(arguments.scene, loaded, RenderOptionsUsed(arguments));
-  run.Run(arguments.mode.mesh, WantsReport(arguments.scene));
-
-  TwoPassDisplay display(loaded.scene, run.pipeline().mesh());
-  ToneMapping tone;
-  tone.exposure = ExposureFor(arguments, camera, display);
-  if (arguments.output) WriteImage(arguments, camera, tone, display);
-  run.Tell();
-  if (arguments.benchmark_frames > 0)
-    WriteResult(std::nullopt,
-                RunBenchmark(display, {camera, arguments.width, arguments.height, arguments.benchmark_frames,
-                                       arguments.mode.shading, tone}));
+  // A report tells the interpolants' error even where the picture does without them.
+  const bool measure = WantsReport(arguments.scene);
+  run.Run(measure && !arguments.mode.mesh ? MeshKind::kInterpolant : arguments.mode.mesh, measure);
+  if (arguments.ByRays())
+    RenderByRays(arguments, camera, run);
+  else
+    RenderTwoPass(arguments, camera, run);
 }
 
 void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
@@ -163,8 +244,9 @@ void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
          "--mode", [arguments](const std::string& name) { SetMode(name, &arguments->mode); },
          "flat: one value an element; gouraud: exact irradiance at the elements' corners, linear between; "
          "gouraud-mesh: the same on the discontinuity mesh; interpolant: quadratic on that mesh, the "
-         "two-pass "
-         "display; rho: reflectance alone")
+         "two-pass display; exact: exact irradiance at every pixel, by rays (RayShade); lerp: the "
+         "interpolant, "
+         "found by rays (LerpShade); rho: reflectance alone")
       ->type_name("MODE")
       ->default_str(arguments->mode.name)
       ->group("Picture");
@@ -184,8 +266,13 @@ void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
   AddNumber(app, "--exposure", &arguments->exposure, kPositive,
             "Brightness on the screen, 0 to 1, per W/m^2 (default: metered from the picture; rho: 1)")
       ->group("Picture");
-  AddInteger(app, "--supersampling", &arguments->supersampling, 1, 8,
-             "Samples a side of each pixel of a PNG, averaged; an EXR has one, at the pixel's centre")
+  AddInteger(
+      app, "--supersampling", &arguments->supersampling, 1, 8,
+      "Samples a side of each pixel of a PNG, averaged; an EXR has one, at the pixel's centre; exact and "
+      "lerp: see --samples")
+      ->group("Picture");
+  AddInteger(app, "--samples", &arguments->samples, 1, kMaxSamples,
+             "exact, lerp: rays a pixel, averaged; the first goes through its centre")
       ->group("Picture");
   AddInteger(app, "--benchmark", &arguments->benchmark_frames, 1, kMaxFrames,
              "Render N frames along an orbit of the camera and print fps and milliseconds as a line of JSON; "

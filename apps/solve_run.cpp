@@ -17,11 +17,11 @@ SolveRun::SolveRun(const SceneArguments& arguments, const LoadedScene& loaded,
   if (arguments_.verbose) PrintOptionsUsed(options_);
 }
 
-void SolveRun::Run(MeshKind kind, bool measure) {
+void SolveRun::Run(std::optional<MeshKind> kind, bool measure) {
   RunInterruptible([&](const ExecutionContext& context) {
     pipeline_.Solve(context);
-    if (!context.Cancelled()) pipeline_.BuildMesh(kind, context);
-    if (!context.Cancelled() && measure) pipeline_.Measure(context);
+    if (!context.Cancelled() && kind) pipeline_.BuildMesh(*kind, context);
+    if (!context.Cancelled() && kind && measure) pipeline_.Measure(context);
   });
 }
 

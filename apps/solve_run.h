@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "apps/report.h"
 #include "apps/scene_arguments.h"
@@ -19,8 +20,9 @@ class SolveRun {
   SolveRun(const SceneArguments& arguments, const LoadedScene& loaded,
            const nlohmann::ordered_json& command_options = nlohmann::ordered_json::object());
 
-  // Solves and builds the mesh; measures, too, where someone asked for a report. Throws Interrupted.
-  void Run(MeshKind kind, bool measure);
+  // Solves and builds the mesh, if one is wanted; measures it, too, where someone asked for a report. Throws
+  // Interrupted.
+  void Run(std::optional<MeshKind> kind, bool measure);
 
   // Writes the report to its file, if it was asked for, and the table to standard error, with -v.
   void Tell() const;

@@ -55,8 +55,8 @@ struct Srgb8Image {
 // What a pixel shows, for tone mapping.
 enum class PixelKind : std::uint8_t { kBackground, kSurface, kEmitter };
 
-// The mean of each k x k block of pixels: supersampling's box filter.
-// REQUIRES: k > 0 divides width and height.
-RgbImage Downsample(const RgbImage& image, int k);
+// The mean of each block of `across` x `down` pixels: supersampling's box filter.
+// REQUIRES: across > 0 divides width, down > 0 height.
+RgbImage Downsample(const RgbImage& image, int across, int down);
 
 }  // namespace penumbra

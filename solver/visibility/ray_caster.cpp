@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "solver/base/check.h"
@@ -44,6 +45,9 @@ struct RayCaster::Impl {
 
   RTCRayHit Intersect(const Vec3& from, const Vec3& direction, double near, double far,
                       FilterContext& context) const;
+  // Where the ray from `origin` is traced from, as Embree counts, in `from`; returns what was skipped on the
+  // way there, in lengths of the direction, or nothing if the ray misses the scene.
+  std::optional<double> Approach(const Vec3& origin, const Vec3& direction, Vec3* from) const;
 };
 
 RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
@@ -101,24 +105,29 @@ RTCRayHit RayCaster::Impl::Intersect(const Vec3& from, const Vec3& direction, do
   return ray;
 }
 
+std::optional<double> RayCaster::Impl::Approach(const Vec3& start, const Vec3& direction, Vec3* from) const {
+  // From far away the ray starts where it nears the ball around the scene: floats overflow, and lose digits.
+  *from = start - origin;
+  const double distance = from->stableNorm(), reach = diagonal;
+  if (distance <= 2 * reach) return 0;
+  const double along =
+      -(*from / distance).dot(direction) / direction.norm() * distance;  // to the nearest point
+  if (!(along > 0)) return std::nullopt;
+  const double skipped = (along - reach) / direction.norm();
+  *from += skipped * direction;
+  if (!(from->stableNorm() <= 2 * reach)) return std::nullopt;
+  return skipped;
+}
+
 RayCaster::Hit RayCaster::Cast(const Vec3& origin, const Vec3& direction, PatchId ignore) const {
   FilterContext context;
   rtcInitIntersectContext(&context.base);
   context.ignore = ignore == kNoPatch ? RTC_INVALID_GEOMETRY_ID : static_cast<unsigned int>(ignore);
   context.backs = nullptr;
-
-  // From far away the ray starts where it nears the ball around the scene: floats overflow, and lose digits.
-  Vec3 from = origin - impl_->origin;
-  double skipped = 0;
-  const double distance = from.stableNorm(), reach = impl_->diagonal;
-  if (distance > 2 * reach) {
-    const double along =
-        -(from / distance).dot(direction) / direction.norm() * distance;  // to the nearest point
-    if (!(along > 0)) return {};
-    skipped = (along - reach) / direction.norm();
-    from += skipped * direction;
-    if (!(from.stableNorm() <= 2 * reach)) return {};
-  }
+  Vec3 from;
+  const std::optional<double> approach = impl_->Approach(origin, direction, &from);
+  if (!approach) return {};
+  const double skipped = *approach;
 
   const double infinity = std::numeric_limits<double>::infinity();
   const RTCRayHit first = impl_->Intersect(from, direction, 0, infinity, context);
@@ -135,6 +144,21 @@ RayCaster::Hit RayCaster::Cast(const Vec3& origin, const Vec3& direction, PatchI
       return {static_cast<PatchId>(front.hit.primID), skipped + static_cast<double>(front.ray.tfar), true};
   }
   return {static_cast<PatchId>(first.hit.primID), skipped + at, normal.dot(direction) < 0};
+}
+
+RayCaster::Hit RayCaster::CastToFront(const Vec3& origin, const Vec3& direction) const {
+  FilterContext context;
+  rtcInitIntersectContext(&context.base);
+  context.ignore = RTC_INVALID_GEOMETRY_ID;
+  context.backs = &impl_->normals;
+  context.direction = direction;
+  Vec3 from;
+  const std::optional<double> skipped = impl_->Approach(origin, direction, &from);
+  if (!skipped) return {};
+  const RTCRayHit hit =
+      impl_->Intersect(from, direction, 0, std::numeric_limits<double>::infinity(), context);
+  if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  return {static_cast<PatchId>(hit.hit.primID), *skipped + static_cast<double>(hit.ray.tfar), true};
 }
 
 }  // namespace penumbra

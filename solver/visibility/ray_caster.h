@@ -27,6 +27,10 @@ class RayCaster {
   // thread.
   Hit Cast(const Vec3& origin, const Vec3& direction, PatchId ignore = kNoPatch) const;
 
+  // The first patch whose front the ray meets; backs are passed through, as if they were not there. So the
+  // display sees (thesis 3.6, footnote 1). Safe from any thread.
+  Hit CastToFront(const Vec3& origin, const Vec3& direction) const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

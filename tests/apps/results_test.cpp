@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -292,7 +293,7 @@ TEST(Solve, EmptySceneIsDark) {
 // show.
 TEST(Render, EveryModeDrawsTheFurnace) {
   const Sandbox sandbox;
-  for (const char* mode : {"flat", "gouraud", "gouraud-mesh", "interpolant", "rho"}) {
+  for (const char* mode : {"flat", "gouraud", "gouraud-mesh", "interpolant", "exact", "lerp", "rho"}) {
     const Outcome render =
         sandbox.Run({"render", "furnace", "-o", "image.exr", "--mode", mode, "--size", "32x24", "--error",
                      "0.1", "--eye", "0.5,0.1,0.5", "--look-at", "0.5,1,0.5", "--fov", "60"});
@@ -305,6 +306,44 @@ TEST(Render, EveryModeDrawsTheFurnace) {
     for (const auto& channel : image.channel)
       for (const float value : channel) ASSERT_NEAR(value, want, tolerance) << mode;
   }
+}
+
+// RayShade shows what a probe measures: radiosity is exact irradiance x reflectance at the point that a
+// pixel's ray meets.
+TEST(Render, ExactShowsWhatAProbeMeasures) {
+  const Sandbox sandbox;
+  // A square floor, lit by a square light above it, half hidden by a screen; seen from above the light.
+  sandbox.Write("shade.mtl", "newmtl grey\nKd 0.5 0.4 0.3\nKe 0 0 0\nnewmtl light\nKd 0 0 0\nKe 9 8 7\n");
+  sandbox.Write("shade.obj",
+                "mtllib shade.mtl\nv -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\nv -1 -1 2\nv -1 1 2\nv 1 1 2\n"
+                "v 1 -1 2\nv -1 -1 1\nv -1 0 1\nv 1 0 1\nv 1 -1 1\n"
+                "usemtl grey\nf 1 2 3 4\nf 9 10 11 12\nusemtl light\nf 5 6 7 8\n");
+  const std::vector<std::string> picture = {"render", "shade.obj", "-o",    "image.exr", "--mode",    "exact",
+                                            "--size", "8x8",       "--eye", "0,0,4",     "--look-at", "0,0,0",
+                                            "--up",   "0,1,0",     "--fov", "40",        "--error",   "0.3"};
+  const Outcome render = sandbox.Run(picture);
+  ASSERT_EQ(render.status, 0) << render.err;
+  const RgbImage image = ReadExr(sandbox.Path("image.exr"));
+  ASSERT_EQ(image.width, 8);
+
+  std::string points = "x,y,z,nx,ny,nz\n";
+  const double pixel = 2 * 4 * std::tan(20 * std::numbers::pi / 180) / 8;  // [m] on the floor
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x)
+      points += std::to_string((x - 3.5) * pixel) + "," + std::to_string((3.5 - y) * pixel) + ",0,0,0,1\n";
+  sandbox.Write("points.csv", points);
+  const Outcome probe = sandbox.Run({"probe", "shade.obj", "--points", "points.csv", "--error", "0.3"});
+  ASSERT_EQ(probe.status, 0) << probe.err;
+  const std::vector<std::string> rows = Lines(probe.out);
+  ASSERT_THAT(rows, SizeIs(65));
+  const std::array<double, 3> reflectance = {0.5, 0.4, 0.3};
+  for (std::size_t i = 0; i < 64; ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double want = reflectance[c] * std::stod(Fields(rows[i + 1])[7 + c]);
+      EXPECT_GT(want, 0.001);
+      // Points are given with six decimals, and light varies by some of itself a metre.
+      EXPECT_NEAR(static_cast<double>(image.channel[c][i]), want, 1e-5 * want) << i;
+    }
 }
 
 // A benchmark prints one line of JSON with the times of a frame.

@@ -195,7 +195,7 @@ TEST(Downsample, TakesTheMeanOfEachBlock) {
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 6; ++x)
       image.Set(x, y, {static_cast<float>(x), static_cast<float>(y), static_cast<float>(x * y)});
-  const RgbImage half = Downsample(image, 2);
+  const RgbImage half = Downsample(image, 2, 2);
   ASSERT_EQ(half.width, 3);
   ASSERT_EQ(half.height, 2);
   for (int y = 0; y < 2; ++y)
@@ -203,7 +203,11 @@ TEST(Downsample, TakesTheMeanOfEachBlock) {
       const float mx = 2 * static_cast<float>(x) + 0.5f, my = 2 * static_cast<float>(y) + 0.5f;
       EXPECT_EQ(half.At(x, y), (std::array<float, 3>{mx, my, mx * my}));
     }
-  EXPECT_EQ(Downsample(image, 1).channel, image.channel);
+  EXPECT_EQ(Downsample(image, 1, 1).channel, image.channel);
+  const RgbImage narrow = Downsample(image, 3, 1);
+  ASSERT_EQ(narrow.width, 2);
+  ASSERT_EQ(narrow.height, 4);
+  EXPECT_EQ(narrow.At(1, 3), (std::array<float, 3>{4, 3, 12}));
 }
 
 }  // namespace
