@@ -178,8 +178,7 @@ void RenderTwoPass(const RenderArguments& arguments, const Camera& camera, Solve
   if (arguments.benchmark_frames > 0)
     WriteResult(std::nullopt,
                 RunBenchmark(BenchmarkOf(arguments, camera, run.pipeline()), [&](const Camera& from) {
-                  display.Render(from, width, height, shading);
-                  return display.ToneMap(tone).ms;
+                  return display.RenderScreen(from, width, height, shading, tone).ms;
                 }));
 }
 

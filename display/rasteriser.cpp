@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "display/vector_kernels.h"
+#include "display/tile_grid.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
 
@@ -20,16 +20,8 @@ namespace {
 // the edge.
 constexpr double kHalfOpen = 0x1p-14;
 
-constexpr std::size_t kTrianglesPerBin = 2048;
+constexpr std::size_t kTrianglesPerBin = 1024;
 constexpr std::size_t kVerticesPerTask = 4096;
-
-// An affine function of the picture coordinates.
-struct Plane {
-  double x = 0, y = 0, c = 0;
-
-  double At(double px, double py) const { return c + x * px + y * py; }
-  Plane Scaled(double k) const { return {x * k, y * k, c * k}; }
-};
 
 // A vertex in homogeneous picture coordinates: it projects to (x / z, y / z), z is its depth [m].
 struct ScreenVertex {
@@ -92,18 +84,18 @@ struct Rasteriser::Impl {
   std::vector<VertexIndices> triangles;
 
   // The picture that is being drawn.
-  int width = 0, height = 0, tiles_across = 0, tiles_down = 0;
+  int width = 0, height = 0;
+  TileGrid tiles;
   std::vector<ScreenVertex> vertices;
   std::vector<Bin> bins;
-  std::vector<std::array<Plane, 3>> barycentric;  // per triangle, valid for those in a bin: proportional to
-                                                  // the coordinates of its vertices, their sum is 1 / depth
+  std::vector<Plane> barycentric;  // three a triangle, valid for those in a bin: proportional to the
+                                   // coordinates of its vertices, their sum is 1 / depth
 
   void Transform(const PixelRays& rays);
   bool SetUp(std::uint32_t id, ScreenTriangle* out);
   void Fill(std::size_t bin);
   void AddHits(const ScreenTriangle& triangle, std::uint32_t index, Bin* bin) const;
   void SortHits(Bin* bin) const;
-  void DrawTile(std::size_t tile, std::span<std::uint32_t> ids) const;
 };
 
 Rasteriser::Rasteriser(std::vector<Vec3> positions, std::vector<VertexIndices> triangles)
@@ -112,7 +104,7 @@ Rasteriser::Rasteriser(std::vector<Vec3> positions, std::vector<VertexIndices> t
   for (const VertexIndices& triangle : triangles)
     for (const std::uint32_t v : triangle) PENUMBRA_CHECK(v < positions.size());
   impl_->vertices.resize(positions.size());
-  impl_->barycentric.resize(triangles.size());
+  impl_->barycentric.resize(3 * triangles.size());
   impl_->bins.resize((triangles.size() + kTrianglesPerBin - 1) / kTrianglesPerBin);
   impl_->positions = std::move(positions);
   impl_->triangles = std::move(triangles);
@@ -172,12 +164,12 @@ bool Rasteriser::Impl::SetUp(std::uint32_t id, ScreenTriangle* out) {
   const double scale = 1 / volume;
   if (!std::isfinite(scale)) return false;
 
-  std::array<Plane, 3>& coordinates = barycentric[id];
+  Plane* coordinates = &barycentric[3 * static_cast<std::size_t>(id)];
   for (std::size_t k = 0; k < 3; ++k) {
     out->edge[k] = ToPixelDistance(edges[k]);
     coordinates[k] = edges[k].Scaled(scale);
   }
-  const auto& [p, q, r] = coordinates;
+  const Plane &p = coordinates[0], &q = coordinates[1], &r = coordinates[2];
   out->inverse_z = {p.x + q.x + r.x, p.y + q.y + r.y, p.c + q.c + r.c};
   out->id = id;
   return true;
@@ -214,12 +206,12 @@ void Rasteriser::Impl::AddHits(const ScreenTriangle& triangle, std::uint32_t ind
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x)
       if (one_tile || meets(x, y))
-        bin->hits.emplace_back(static_cast<std::uint32_t>(y * tiles_across + x), index);
+        bin->hits.emplace_back(static_cast<std::uint32_t>(y * tiles.across + x), index);
 }
 
 // A counting sort by tile, stable: within a tile triangles keep their order.
 void Rasteriser::Impl::SortHits(Bin* bin) const {
-  bin->first.assign(static_cast<std::size_t>(tiles_across) * static_cast<std::size_t>(tiles_down) + 1, 0);
+  bin->first.assign(tiles.Count() + 1, 0);
   for (const auto& [tile, index] : bin->hits) ++bin->first[tile];
   std::uint32_t sum = 0;
   for (std::uint32_t& count : bin->first) count = std::exchange(sum, sum + count);
@@ -230,24 +222,18 @@ void Rasteriser::Impl::SortHits(Bin* bin) const {
   bin->first[0] = 0;
 }
 
-void Rasteriser::Impl::DrawTile(std::size_t tile, std::span<std::uint32_t> ids) const {
-  alignas(64) float inverse_z[kTileSize * kTileSize];
-  alignas(64) std::uint32_t tile_ids[kTileSize * kTileSize];
-  std::fill(std::begin(inverse_z), std::end(inverse_z), 0.0f);
-  std::fill(std::begin(tile_ids), std::end(tile_ids), kNoTriangle);
-
-  const int x0 = static_cast<int>(tile) % tiles_across * kTileSize, x1 = std::min(x0 + kTileSize, width);
-  const int y0 = static_cast<int>(tile) / tiles_across * kTileSize, y1 = std::min(y0 + kTileSize, height);
-  for (const Bin& bin : bins)
-    for (std::uint32_t k = bin.first[tile]; k < bin.first[tile + 1]; ++k) {
+void Rasteriser::DrawTileIds(std::size_t index, Tile* tile) const {
+  const Impl& impl = *impl_;
+  tile->x = impl.tiles.X(index);
+  tile->y = impl.tiles.Y(index);
+  ClearTile(tile);
+  const int x0 = tile->x, x1 = std::min(x0 + kTileSize, impl.width);
+  const int y0 = tile->y, y1 = std::min(y0 + kTileSize, impl.height);
+  for (const Bin& bin : impl.bins)
+    for (std::uint32_t k = bin.first[index]; k < bin.first[index + 1]; ++k) {
       const ScreenTriangle& triangle = bin.triangles[bin.sorted[k]];
       TileTriangle local;
-      local.covers_tile = true;
-      for (std::size_t e = 0; e < 3; ++e) {
-        local.edge[e] = ToTile(triangle.edge[e], x0, y0);
-        const auto& [ex, ey, ec] = local.edge[e];
-        if (ec + kTileSize * (std::min(ex, 0.0f) + std::min(ey, 0.0f)) < 0) local.covers_tile = false;
-      }
+      for (std::size_t e = 0; e < 3; ++e) local.edge[e] = ToTile(triangle.edge[e], x0, y0);
       local.inverse_z = ToTile(triangle.inverse_z, x0, y0);
       local.max_inverse_z = triangle.max_inverse_z;
       local.id = triangle.id;
@@ -255,45 +241,56 @@ void Rasteriser::Impl::DrawTile(std::size_t tile, std::span<std::uint32_t> ids) 
       local.column_end = std::min(triangle.x_end, x1) - x0;
       local.row_begin = std::max(triangle.y_begin, y0) - y0;
       local.row_end = std::min(triangle.y_end, y1) - y0;
-      DrawTileTriangle(local, inverse_z, tile_ids);
+      DrawTileTriangle(local, tile);
     }
-
-  for (int y = y0; y < y1; ++y)
-    std::copy_n(tile_ids + (y - y0) * kTileSize, x1 - x0,
-                ids.begin() + static_cast<std::ptrdiff_t>(y) * width + x0);
 }
 
-void Rasteriser::DrawTriangleIds(const PixelRays& rays, int width, int height, std::span<std::uint32_t> ids) {
+void Rasteriser::DrawTileBarycentrics(Tile* tile) const { FillBarycentrics(impl_->barycentric.data(), tile); }
+
+void Rasteriser::Prepare(const PixelRays& rays, int width, int height) {
   PENUMBRA_CHECK(width > 0 && height > 0 && width <= kMaxPictureSize && height <= kMaxPictureSize);
-  PENUMBRA_CHECK(ids.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   Impl& impl = *impl_;
   impl.width = width;
   impl.height = height;
-  impl.tiles_across = (width + kTileSize - 1) / kTileSize;
-  impl.tiles_down = (height + kTileSize - 1) / kTileSize;
+  impl.tiles = TileGrid(width, height);
   impl.Transform(rays);
   ParallelFor(impl.bins.size(), 1, [&](std::size_t bin) { impl.Fill(bin); });
-  const auto tiles = static_cast<std::size_t>(impl.tiles_across) * static_cast<std::size_t>(impl.tiles_down);
-  ParallelFor(tiles, 2, [&](std::size_t tile) { impl.DrawTile(tile, ids); });
+}
+
+void Rasteriser::DrawTriangleIds(const PixelRays& rays, int width, int height, std::span<std::uint32_t> ids) {
+  PENUMBRA_CHECK(ids.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  Prepare(rays, width, height);
+  const TileGrid& tiles = impl_->tiles;
+  ParallelFor(tiles.Count(), 2, [&](std::size_t index) {
+    Tile tile;
+    DrawTileIds(index, &tile);
+    ForEachTilePart(tiles, tile.x, tile.y, [&](std::size_t from, std::size_t to, std::size_t n) {
+      CopyPart(tile.ids + from, n, ids.data() + to);
+    });
+  });
 }
 
 void Rasteriser::DrawBarycentrics(std::span<const std::uint32_t> ids, std::span<float> s,
-                                  std::span<float> t) const {
-  const Impl& impl = *impl_;
-  const auto width = static_cast<std::size_t>(impl.width);
-  PENUMBRA_CHECK(ids.size() == width * static_cast<std::size_t>(impl.height));
+                                  std::span<float> t) {
+  const TileGrid& tiles = impl_->tiles;
+  PENUMBRA_CHECK(ids.size() ==
+                 static_cast<std::size_t>(tiles.width) * static_cast<std::size_t>(tiles.height));
   PENUMBRA_CHECK(s.size() == ids.size() && t.size() == ids.size());
-  ParallelFor(static_cast<std::size_t>(impl.height), 8, [&](std::size_t y) {
-    ForEachRun(ids.subspan(y * width, width), kTileSize, [&](int x, int n, std::uint32_t id) {
-      if (id == kNoTriangle) return;
-      BarycentricRun run;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Plane& plane = impl.barycentric[id][k];
-        run.start[k] = Narrow(plane.At(x + 0.5, static_cast<double>(y) + 0.5));
-        run.step[k] = Narrow(plane.x);
-      }
-      const std::size_t at = y * width + static_cast<std::size_t>(x);
-      FillBarycentrics(run, n, s.data() + at, t.data() + at);
+  ParallelFor(tiles.Count(), 2, [&](std::size_t index) {
+    Tile tile;
+    tile.x = tiles.X(index);
+    tile.y = tiles.Y(index);
+    std::fill(std::begin(tile.ids), std::end(tile.ids), kNoTriangle);
+    ForEachTilePart(tiles, tile.x, tile.y, [&](std::size_t to, std::size_t from, std::size_t n) {
+      CopyPart(ids.data() + from, n, tile.ids + to);
+      CopyPart(s.data() + from, n, tile.s + to);
+      CopyPart(t.data() + from, n, tile.t + to);
+    });
+    FindRuns(&tile);
+    DrawTileBarycentrics(&tile);
+    ForEachTilePart(tiles, tile.x, tile.y, [&](std::size_t from, std::size_t to, std::size_t n) {
+      CopyPart(tile.s + from, n, s.data() + to);
+      CopyPart(tile.t + from, n, t.data() + to);
     });
   });
 }

@@ -15,40 +15,43 @@ constexpr std::size_t kRowsPerTask = 8;
 constexpr std::size_t kRun =
     512;  // pixels that are encoded at a time; a multiple of 8, the period of the dither
 
-// Row y of Bayer's 8 x 8 matrix, as fractions of a code in (-1/2, 1/2), zero on average.
-std::array<float, 8> DitherRow(std::size_t y) {
-  std::array<float, 8> row;
-  for (std::size_t x = 0; x < row.size(); ++x) {
-    std::size_t rank = 0;
-    for (std::size_t bit = 0; bit < 3; ++bit) {
-      const std::size_t bx = (x >> bit) & 1, by = (y >> bit) & 1;
-      rank = 4 * rank + 2 * (bx ^ by) + by;
-    }
-    row[x] = (static_cast<float>(rank) - 31.5f) / 64;
-  }
-  return row;
-}
-
-// Encodes three planes of n <= kRun values into interleaved bytes.
-void EncodeRun(const std::array<const float*, 3>& exposed, const std::array<float, 8>& dither, std::size_t n,
-               std::uint8_t* out) {
-  std::array<std::array<std::uint8_t, kRun>, 3> code;
-  for (std::size_t c = 0; c < 3; ++c) EncodeSrgbRow(exposed[c], dither.data(), n, code[c].data());
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t c = 0; c < 3; ++c) out[3 * i + c] = code[c][i];
-}
-
 // Calls body(first pixel, pixels, dither) for runs of at most kRun pixels of every row, in parallel.
 template <class Body>
 void ForEachPixelRun(int width, int height, bool dither, const Body& body) {
   ParallelFor(static_cast<std::size_t>(height), kRowsPerTask, [&](std::size_t y) {
-    const std::array<float, 8> offsets = dither ? DitherRow(y) : std::array<float, 8>{};
+    const float* offsets = dither ? DitherOffsets() + 8 * (y % 8) : nullptr;
     const auto across = static_cast<std::size_t>(width);
     for (std::size_t x = 0; x < across; x += kRun) body(y * across + x, std::min(kRun, across - x), offsets);
   });
 }
 
+// Encodes three planes of n <= kRun values into interleaved bytes.
+void EncodeRun(const std::array<const float*, 3>& exposed, const float* dither, std::size_t n,
+               std::uint8_t* out) {
+  std::array<std::uint32_t, kRun> codes;
+  EncodeRow(exposed[0], exposed[1], exposed[2], n, dither, codes.data());
+  PackRow(codes.data(), n, out);
+}
+
 }  // namespace
+
+// Bayer's matrix, as fractions of a code in (-1/2, 1/2) about the half that rounds to the nearest.
+const float* DitherOffsets() {
+  static const std::array<float, 64> offsets = [] {
+    std::array<float, 64> made{};
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      const std::size_t x = i % 8, y = i / 8;
+      std::size_t rank = 0;
+      for (std::size_t bit = 0; bit < 3; ++bit) {
+        const std::size_t bx = (x >> bit) & 1, by = (y >> bit) & 1;
+        rank = 4 * rank + 2 * (bx ^ by) + by;
+      }
+      made[i] = 0.5f + (static_cast<float>(rank) - 31.5f) / 64;
+    }
+    return made;
+  }();
+  return offsets.data();
+}
 
 double SrgbFromLinear(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
@@ -78,7 +81,7 @@ double MeterExposure(const RgbImage& image, std::span<const PixelKind> kinds) {
 RgbImage Expose(const RgbImage& image, std::span<const PixelKind> kinds, double exposure) {
   PENUMBRA_CHECK(kinds.size() == image.PixelCount());
   RgbImage exposed(image.width, image.height);
-  ForEachPixelRun(image.width, image.height, false, [&](std::size_t at, std::size_t n, const auto&) {
+  ForEachPixelRun(image.width, image.height, false, [&](std::size_t at, std::size_t n, const float*) {
     for (std::size_t c = 0; c < 3; ++c)
       ExposeRow(image.channel[c].data() + at, kinds.data() + at, static_cast<float>(exposure), kBackground, n,
                 exposed.channel[c].data() + at);
@@ -89,7 +92,7 @@ RgbImage Expose(const RgbImage& image, std::span<const PixelKind> kinds, double 
 void EncodeSrgb(const RgbImage& exposed, bool dither, Srgb8Image* out) {
   out->Resize(exposed.width, exposed.height);
   ForEachPixelRun(
-      exposed.width, exposed.height, dither, [&](std::size_t at, std::size_t n, const auto& offsets) {
+      exposed.width, exposed.height, dither, [&](std::size_t at, std::size_t n, const float* offsets) {
         const auto& [r, g, b] = exposed.channel;
         EncodeRun({r.data() + at, g.data() + at, b.data() + at}, offsets, n, out->pixels.data() + 3 * at);
       });
@@ -100,7 +103,7 @@ void ToneMap(const RgbImage& image, std::span<const PixelKind> kinds, const Tone
   PENUMBRA_CHECK(kinds.size() == image.PixelCount());
   out->Resize(image.width, image.height);
   ForEachPixelRun(image.width, image.height, settings.dither,
-                  [&](std::size_t at, std::size_t n, const auto& offsets) {
+                  [&](std::size_t at, std::size_t n, const float* offsets) {
                     std::array<std::array<float, kRun>, 3> exposed;
                     for (std::size_t c = 0; c < 3; ++c)
                       ExposeRow(image.channel[c].data() + at, kinds.data() + at,

@@ -39,6 +39,10 @@ inline constexpr double kMeteredValue = 0.9;
 // here, between exposure and transfer, so that the edges of lights are smooth.
 RgbImage Expose(const RgbImage& image, std::span<const PixelKind> kinds, double exposure);
 
+// The dither's 8 x 8 offsets in (0, 1), row by row: what is added to 255 times the encoded value before it is
+// rounded down. Pixel (x, y) takes row y % 8, column x % 8.
+const float* DitherOffsets();
+
 // An exposed image in 8-bit sRGB.
 void EncodeSrgb(const RgbImage& exposed, bool dither, Srgb8Image* out);
 

@@ -2,31 +2,29 @@
 
 #include <algorithm>
 #include <chrono>
-#include <span>
+#include <limits>
 #include <utility>
 
+#include "display/tile_grid.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
 
 namespace penumbra {
 namespace {
 
-constexpr std::size_t kRowsPerTask = 8;
+using Clock = std::chrono::steady_clock;
 
-// Calls `phase` and returns the milliseconds it took.
-template <class Phase>
-double Milliseconds(const Phase& phase) {
-  const auto start = std::chrono::steady_clock::now();
-  phase();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
+// Milliseconds since the last call, or since it was made.
+class Lap {
+ public:
+  double operator()() {
+    const Clock::time_point now = Clock::now(), last = std::exchange(last_, now);
+    return std::chrono::duration<double, std::milli>(now - last).count();
+  }
 
-Rasteriser MakeRasteriser(const IrradianceMesh& mesh) {
-  std::vector<Rasteriser::VertexIndices> triangles;
-  triangles.reserve(mesh.triangles.size());
-  for (const IrradianceMesh::Triangle& triangle : mesh.triangles) triangles.push_back(triangle.vertex);
-  return {mesh.positions, std::move(triangles)};
-}
+ private:
+  Clock::time_point last_ = Clock::now();
+};
 
 void Store(const Rgb& rgb, float* out) {
   for (int c = 0; c < 3; ++c) out[c] = static_cast<float>(rgb[c]);
@@ -54,8 +52,18 @@ TriangleShade MakeReflectanceShade(const Material& material) {
 
 }  // namespace
 
+std::unique_ptr<Passes> SoftwarePasses(const IrradianceMesh& mesh) {
+  std::vector<VertexIndices> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (const IrradianceMesh::Triangle& triangle : mesh.triangles) triangles.push_back(triangle.vertex);
+  return std::make_unique<Rasteriser>(mesh.positions, std::move(triangles));
+}
+
 TwoPassDisplay::TwoPassDisplay(const Scene& scene, const IrradianceMesh& mesh)
-    : rasteriser_(MakeRasteriser(mesh)) {
+    : TwoPassDisplay(scene, mesh, SoftwarePasses(mesh)) {}
+
+TwoPassDisplay::TwoPassDisplay(const Scene& scene, const IrradianceMesh& mesh, std::unique_ptr<Passes> passes)
+    : passes_(std::move(passes)), rasteriser_(dynamic_cast<Rasteriser*>(passes_.get())) {
   PENUMBRA_CHECK(mesh.irradiance.size() == mesh.triangles.size());
   radiosity_.reserve(mesh.triangles.size());
   reflectance_.reserve(mesh.triangles.size());
@@ -68,12 +76,78 @@ TwoPassDisplay::TwoPassDisplay(const Scene& scene, const IrradianceMesh& mesh)
     reflectance_.push_back(MakeReflectanceShade(material));
     kind_.push_back((material.emittance > 0).any() ? PixelKind::kEmitter : PixelKind::kSurface);
   }
+  screen_ = radiosity_;
+  for (std::size_t i = 0; i < screen_.size(); ++i)
+    if (kind_[i] == PixelKind::kEmitter)
+      std::fill_n(screen_[i].emittance, 3, std::numeric_limits<float>::infinity());
 }
 
-const RenderedFrame& TwoPassDisplay::Render(const Camera& camera, int width, int height, ShadingMode mode) {
+// Pass one and two, or the preparations for them.
+void TwoPassDisplay::DrawPasses(const Camera& camera, int width, int height) {
   const PixelRays rays = MakePixelRays(camera, width, height);
   frame_.width = width;
   frame_.height = height;
+  frame_.ms = {};
+  Lap lap;
+  if (rasteriser_) {
+    rasteriser_->Prepare(rays, width, height);
+    frame_.ms.triangle_ids = lap();
+    return;
+  }
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  frame_.triangle.resize(pixels);
+  frame_.s.resize(pixels);
+  frame_.t.resize(pixels);
+  passes_->DrawTriangleIds(rays, width, height, frame_.triangle);
+  frame_.ms.triangle_ids = lap();
+  passes_->DrawBarycentrics(frame_.triangle, frame_.s, frame_.t);
+  frame_.ms.barycentric = lap();
+}
+
+// Calls finish(tile) for all tiles, with `rgb` evaluated, and counts its time as `finishing`.
+template <class Finish>
+void TwoPassDisplay::DrawTiles(const std::vector<TriangleShade>& shades, float background,
+                               double FrameTimes::*finishing, const Finish& finish) {
+  const TileGrid tiles(frame_.width, frame_.height);
+  tile_times_.assign(tiles.Count(), {});
+  Lap wall;
+  ParallelFor(tiles.Count(), 1, [&](std::size_t index) {
+    Tile tile;
+    FrameTimes& times = tile_times_[index];
+    Lap lap;
+    if (rasteriser_) {
+      rasteriser_->DrawTileIds(index, &tile);
+      FindRuns(&tile);
+      times.triangle_ids = lap();
+      rasteriser_->DrawTileBarycentrics(&tile);
+      times.barycentric = lap();
+    } else {
+      tile.x = tiles.X(index);
+      tile.y = tiles.Y(index);
+      ClearTile(&tile);
+      ForEachTilePart(tiles, tile.x, tile.y, [&](std::size_t to, std::size_t from, std::size_t n) {
+        CopyPart(frame_.triangle.data() + from, n, tile.ids + to);
+        CopyPart(frame_.s.data() + from, n, tile.s + to);
+        CopyPart(frame_.t.data() + from, n, tile.t + to);
+      });
+      FindRuns(&tile);
+    }
+    EvaluateRadiosity(shades.data(), background, &tile);
+    times.evaluate = lap();
+    finish(tile);
+    times.*finishing += lap();
+  });
+  FrameTimes sum;
+  for (const FrameTimes& times : tile_times_) sum += times;
+  const double scale = wall() / std::max(sum.Total(), std::numeric_limits<double>::min());
+  frame_.ms.triangle_ids += scale * sum.triangle_ids;
+  frame_.ms.barycentric += scale * sum.barycentric;
+  frame_.ms.evaluate += scale * sum.evaluate;
+  frame_.ms.tone_map += scale * sum.tone_map;
+}
+
+const RenderedFrame& TwoPassDisplay::Render(const Camera& camera, int width, int height, ShadingMode mode) {
+  DrawPasses(camera, width, height);
   frame_.linear.Resize(width, height);
   const std::size_t pixels = frame_.linear.PixelCount();
   frame_.triangle.resize(pixels);
@@ -81,39 +155,48 @@ const RenderedFrame& TwoPassDisplay::Render(const Camera& camera, int width, int
   frame_.t.resize(pixels);
   frame_.kind.resize(pixels);
 
-  frame_.ms = {};
-  frame_.ms.triangle_ids =
-      Milliseconds([&] { rasteriser_.DrawTriangleIds(rays, width, height, frame_.triangle); });
-  frame_.ms.barycentric =
-      Milliseconds([&] { rasteriser_.DrawBarycentrics(frame_.triangle, frame_.s, frame_.t); });
-  frame_.ms.evaluate =
-      Milliseconds([&] { Evaluate(mode == ShadingMode::kRadiosity ? radiosity_ : reflectance_, mode); });
+  const bool radiosity = mode == ShadingMode::kRadiosity;
+  const TileGrid tiles(width, height);
+  DrawTiles(radiosity ? radiosity_ : reflectance_, 0, &FrameTimes::evaluate, [&](const Tile& tile) {
+    ForEachTilePart(tiles, tile.x, tile.y, [&](std::size_t from, std::size_t to, std::size_t n) {
+      for (std::size_t c = 0; c < 3; ++c)
+        CopyPart(tile.rgb[c] + from, n, frame_.linear.channel[c].data() + to);
+      for (std::size_t i = 0; i < n; ++i) {
+        const std::uint32_t id = tile.ids[from + i];
+        const PixelKind kind = radiosity && id != kNoTriangle ? kind_[id] : PixelKind::kSurface;
+        frame_.kind[to + i] = id == kNoTriangle ? PixelKind::kBackground : kind;
+      }
+      if (!rasteriser_) return;
+      CopyPart(tile.ids + from, n, frame_.triangle.data() + to);
+      CopyPart(tile.s + from, n, frame_.s.data() + to);
+      CopyPart(tile.t + from, n, frame_.t.data() + to);
+    });
+  });
   return frame_;
 }
 
-void TwoPassDisplay::Evaluate(const std::vector<TriangleShade>& shades, ShadingMode mode) {
-  const auto width = static_cast<std::size_t>(frame_.width);
-  const std::span<const std::uint32_t> ids = frame_.triangle;
-  ParallelFor(static_cast<std::size_t>(frame_.height), kRowsPerTask, [&](std::size_t y) {
-    ForEachRun(ids.subspan(y * width, width), kTileSize, [&](int x, int n, std::uint32_t id) {
-      const std::size_t at = y * width + static_cast<std::size_t>(x);
-      PixelKind kind = PixelKind::kBackground;
-      if (id != kNoTriangle) kind = mode == ShadingMode::kRadiosity ? kind_[id] : PixelKind::kSurface;
-      std::fill_n(frame_.kind.data() + at, n, kind);
-      for (int c = 0; c < 3; ++c) {
-        float* out = frame_.linear.channel[static_cast<std::size_t>(c)].data() + at;
-        if (id == kNoTriangle)
-          std::fill_n(out, n, 0.0f);
-        else
-          EvaluateRadiosity(shades[id], c, frame_.s.data() + at, frame_.t.data() + at, n, out);
-      }
+const RenderedFrame& TwoPassDisplay::RenderScreen(const Camera& camera, int width, int height,
+                                                  ShadingMode mode, const ToneMapping& settings) {
+  DrawPasses(camera, width, height);
+  frame_.screen.Resize(width, height);
+  const ScreenTransfer transfer = {static_cast<float>(settings.exposure), kBackground,
+                                   settings.dither ? DitherOffsets() : nullptr};
+  const bool radiosity = mode == ShadingMode::kRadiosity;
+  constexpr float kNothing = -1;  // radiosity is never below 0
+  const TileGrid tiles(width, height);
+  DrawTiles(radiosity ? screen_ : reflectance_, kNothing, &FrameTimes::tone_map, [&](Tile& tile) {
+    FillScreen(transfer, &tile);
+    ForEachTilePart(tiles, tile.x, tile.y, [&](std::size_t from, std::size_t to, std::size_t n) {
+      PackRow(tile.screen + from, n, frame_.screen.pixels.data() + 3 * to);
     });
   });
+  return frame_;
 }
 
 const RenderedFrame& TwoPassDisplay::ToneMap(const ToneMapping& settings) {
-  frame_.ms.tone_map =
-      Milliseconds([&] { penumbra::ToneMap(frame_.linear, frame_.kind, settings, &frame_.screen); });
+  Lap lap;
+  penumbra::ToneMap(frame_.linear, frame_.kind, settings, &frame_.screen);
+  frame_.ms.tone_map = lap();
   return frame_;
 }
 

@@ -2,93 +2,275 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <cmath>
+#include <cstring>
 #include <limits>
 
+#include "display/rasteriser.h"
 #include "solver/base/vector_dispatch.h"
 
 namespace penumbra {
 namespace {
 
-// Pixels that are drawn together: a tile's rows are a multiple of it, so that blocks need no remainder.
-constexpr int kBlock = 8;
-static_assert(kTileSize % kBlock == 0);
-
-constexpr std::array<float, kTileSize> kColumn = [] {
-  std::array<float, kTileSize> column{};
-  for (int i = 0; i < kTileSize; ++i) column[static_cast<std::size_t>(i)] = static_cast<float>(i);
-  return column;
+// Where the pixels of a block lie in it. All loops below run over the pixels of one block or of two and have
+// no branches: the compiler makes them vectors. (Vector types would be taken apart before the function is
+// cloned for wider machines.)
+constexpr auto kLaneX = [] {
+  std::array<float, kBlockPixels> x{};
+  for (int i = 0; i < kBlockPixels; ++i) x[static_cast<std::size_t>(i)] = static_cast<float>(i % kBlockSize);
+  return x;
+}();
+constexpr auto kLaneY = [] {
+  std::array<float, kBlockPixels> y{};
+  for (int i = 0; i < kBlockPixels; ++i) y[static_cast<std::size_t>(i)] = static_cast<float>(i / kBlockSize);
+  return y;
 }();
 
-constexpr std::size_t kDitherSpan = 128;  // pixels encoded at a time; a multiple of the dither's period
+#define PENUMBRA_INLINE [[gnu::always_inline]] inline
 
-inline float Min(float a, float b) { return a < b ? a : b; }
-inline float Max(float a, float b) { return a > b ? a : b; }
+PENUMBRA_INLINE float Min(float a, float b) { return a < b ? a : b; }
+PENUMBRA_INLINE float Max(float a, float b) { return a > b ? a : b; }
+
+PENUMBRA_INLINE float At(const TileTriangle::Affine& f, float x, float y) {
+  return (f.c + f.y * y) + f.x * x;
+}
+
+// 255 times the sRGB encoding of x in [0, 1]: below the knee by definition, above by the minimax polynomial
+// in x^(1/4), which is within 3.6e-4 of it.
+PENUMBRA_INLINE float Encode255(float x) {
+  const float u = __builtin_sqrtf(__builtin_sqrtf(x));
+  float power = 17.3930332f;
+  power = power * u - 81.1960719f;
+  power = power * u + 167.583004f;
+  power = power * u - 217.504142f;
+  power = power * u + 348.309864f;
+  power = power * u + 35.5990554f;
+  power = power * u - 15.1843853f;
+  return x <= 0.0031308f ? 255 * 12.92f * x : power;
+}
+
+PENUMBRA_INLINE std::int32_t Dithered(float x, float offset) {
+  return static_cast<std::int32_t>(Min(Max(Encode255(x) + offset, 0.0f), 255.0f));
+}
+
+// threshold[k]: the least float whose nearest code is k.
+const std::array<float, 257> kThreshold = [] {
+  std::array<float, 257> threshold{};
+  threshold[0] = -std::numeric_limits<float>::infinity();
+  threshold[256] = std::numeric_limits<float>::infinity();
+  for (std::size_t k = 1; k < 256; ++k) {
+    const long double encoded = (static_cast<long double>(k) - 0.5L) / 255;
+    const long double linear =
+        encoded <= 0.04045L ? encoded / 12.92L : std::pow((encoded + 0.055L) / 1.055L, 2.4L);
+    threshold[k] = static_cast<float>(linear);
+    if (static_cast<long double>(threshold[k]) < linear)
+      threshold[k] = std::nextafter(threshold[k], std::numeric_limits<float>::infinity());
+  }
+  return threshold;
+}();
+
+// The code that the polynomial gives is one off at most.
+PENUMBRA_INLINE std::int32_t Nearest(float x) {
+  const std::int32_t code = Dithered(x, 0.5f);
+  const auto k = static_cast<std::size_t>(code);
+  return code + (x >= kThreshold[k + 1] ? 1 : 0) - (x < kThreshold[k] ? 1 : 0);
+}
+
+PENUMBRA_INLINE std::uint32_t Code(std::int32_t r, std::int32_t g, std::int32_t b) {
+  return static_cast<std::uint32_t>(r | (g << 8) | (b << 16));
+}
+
+// What shows, linear and in [0, 1], where the value is `value`.
+PENUMBRA_INLINE float Exposed(float value, float exposure, float background) {
+  const float surface = Min(value * exposure, 1.0f);
+  return value < 0 ? background : surface;
+}
 
 }  // namespace
 
+void ClearTile(Tile* tile) {
+  std::fill(std::begin(tile->inverse_z), std::end(tile->inverse_z), 0.0f);
+  std::fill(std::begin(tile->ids), std::end(tile->ids), kNoTriangle);
+}
+
 PENUMBRA_VECTOR_CLONES
-void DrawTileTriangle(const TileTriangle& triangle, float* __restrict inverse_z,
-                      std::uint32_t* __restrict ids) {
-  const int begin = triangle.column_begin / kBlock * kBlock;
-  const float first = static_cast<float>(triangle.column_begin),
-              last = static_cast<float>(triangle.column_end - 1);
-  const float e0x = triangle.edge[0].x, e1x = triangle.edge[1].x, e2x = triangle.edge[2].x;
-  const float wx = triangle.inverse_z.x, w_max = triangle.max_inverse_z;
+void DrawTileTriangle(const TileTriangle& triangle, Tile* tile) {
+  const TileTriangle::Affine e0 = triangle.edge[0], e1 = triangle.edge[1], e2 = triangle.edge[2];
+  const TileTriangle::Affine inverse_z = triangle.inverse_z;
+  const float w_max = triangle.max_inverse_z;
   const std::uint32_t id = triangle.id;
-  for (int row = triangle.row_begin; row < triangle.row_end; ++row) {
-    const float y = static_cast<float>(row);
-    const float e0 = triangle.edge[0].c + triangle.edge[0].y * y;
-    const float e1 = triangle.edge[1].c + triangle.edge[1].y * y;
-    const float e2 = triangle.edge[2].c + triangle.edge[2].y * y;
-    const float w0 = triangle.inverse_z.c + triangle.inverse_z.y * y;
-    float* __restrict z_row = inverse_z + row * kTileSize;
-    std::uint32_t* __restrict id_row = ids + row * kTileSize;
-    if (triangle.covers_tile) {
-      for (int i = 0; i < kTileSize; ++i) {
-        const float w = Min(w0 + wx * kColumn[i], w_max);
-        const bool nearer = w > z_row[i];
-        z_row[i] = nearer ? w : z_row[i];
-        id_row[i] = nearer ? id : id_row[i];
+  const auto column_begin = static_cast<float>(triangle.column_begin),
+             column_end = static_cast<float>(triangle.column_end),
+             row_begin = static_cast<float>(triangle.row_begin),
+             row_end = static_cast<float>(triangle.row_end);
+  const int x_begin = triangle.column_begin / kBlockSize, x_end = (triangle.column_end - 1) / kBlockSize + 1;
+  const int y_begin = triangle.row_begin / kBlockSize, y_end = (triangle.row_end - 1) / kBlockSize + 1;
+  // The values of edges over a block, above that in its upper left pixel.
+  float rise[3], fall[3];
+  for (int k = 0; k < 3; ++k) {
+    const auto& [ex, ey, ec] = triangle.edge[k];
+    rise[k] = (kBlockSize - 1) * (Max(ex, 0) + Max(ey, 0));
+    fall[k] = (kBlockSize - 1) * (Min(ex, 0) + Min(ey, 0));
+  }
+  const bool few = (x_end - x_begin) * (y_end - y_begin) <= 2;
+  for (int by = y_begin; by < y_end; ++by) {
+    const auto top = static_cast<float>(by * kBlockSize);
+    for (int bx = x_begin; bx < x_end; ++bx) {
+      const auto left = static_cast<float>(bx * kBlockSize);
+      bool inside_all = false;
+      if (!few) {
+        // Margins of two fringes, far above the rounding of these sums.
+        bool outside = false;
+        inside_all = true;
+        for (int k = 0; k < 3; ++k) {
+          const auto& [ex, ey, ec] = triangle.edge[k];
+          const float corner = ec + ey * top + ex * left;
+          outside = outside || corner + rise[k] < -2 * kFringe;
+          inside_all = inside_all && corner + fall[k] > 2 * kFringe;
+        }
+        if (outside) continue;
+      }
+      const int at = (by * kBlocksAcross + bx) * kBlockPixels;
+      float* __restrict z = tile->inverse_z + at;
+      std::uint32_t* __restrict ids = tile->ids + at;
+      if (inside_all) {
+        for (std::size_t i = 0; i < kBlockPixels; ++i) {
+          const float w = Min(At(inverse_z, left + kLaneX[i], top + kLaneY[i]), w_max);
+          const bool nearer = w > z[i];
+          z[i] = nearer ? w : z[i];
+          ids[i] = nearer ? id : ids[i];
+        }
+        continue;
+      }
+      for (std::size_t i = 0; i < kBlockPixels; ++i) {
+        const float x = left + kLaneX[i], y = top + kLaneY[i];
+        const float w = Min(At(inverse_z, x, y), w_max);
+        const float inside = Min(At(e0, x, y), Min(At(e1, x, y), At(e2, x, y)));
+        const float w_drawn = w + w * Min(inside, 0.0f);
+        const bool drawn = (inside >= -kFringe) & (w_drawn > z[i]) & (x >= column_begin) & (x < column_end) &
+                           (y >= row_begin) & (y < row_end);
+        z[i] = drawn ? w_drawn : z[i];
+        ids[i] = drawn ? id : ids[i];
+      }
+    }
+  }
+}
+
+PENUMBRA_VECTOR_CLONES
+void FindRuns(Tile* tile) {
+  int count = 0;
+  for (int block = 0; block < kTileBlocks; ++block) {
+    const std::uint32_t* ids = tile->ids + block * kBlockPixels;
+    const std::uint64_t twice = ids[0] | (std::uint64_t{ids[0]} << 32);
+    std::uint64_t different = 0;
+    for (int i = 0; i < kBlockPixels; i += 2) {
+      std::uint64_t two;
+      std::memcpy(&two, ids + i, sizeof(two));
+      different |= two ^ twice;
+    }
+    const auto place = static_cast<std::uint16_t>(block);
+    if (different == 0) {
+      tile->runs[count++] = {ids[0], place, true};
+      continue;
+    }
+    const int first = count;
+    for (int i = 0; i < kBlockPixels; ++i) {
+      int k = first;
+      while (k < count && tile->runs[k].id != ids[i]) ++k;
+      if (k == count) tile->runs[count++] = {ids[i], place, false};
+    }
+  }
+  tile->run_count = count;
+}
+
+PENUMBRA_VECTOR_CLONES
+void FillBarycentrics(const Plane* planes, Tile* tile) {
+  for (int r = 0; r < tile->run_count; ++r) {
+    const BlockRun run = tile->runs[r];
+    if (run.id == kNoTriangle) continue;
+    const Plane* plane = planes + 3 * static_cast<std::size_t>(run.id);
+    const double x = tile->x + run.block % kBlocksAcross * kBlockSize + 0.5;
+    const double y = tile->y + run.block / kBlocksAcross * kBlockSize + 0.5;
+    TileTriangle::Affine f[3];
+    for (int k = 0; k < 3; ++k) {
+      // Triangles that are nothing but rounding may have larger planes than floats hold.
+      const auto narrow = [](double value) { return static_cast<float>(std::clamp(value, -1e30, 1e30)); };
+      f[k] = {narrow(plane[k].x), narrow(plane[k].y), narrow(plane[k].At(x, y))};
+    }
+    const TileTriangle::Affine f0 = f[0], f1 = f[1], f2 = f[2];
+    const int at = run.block * kBlockPixels;
+    const std::uint32_t id = run.id;
+    const std::uint32_t* __restrict ids = tile->ids + at;
+    float* __restrict s = tile->s + at;
+    float* __restrict t = tile->t + at;
+    for (std::size_t i = 0; i < kBlockPixels; ++i) {
+      const float b0 = Max(At(f0, kLaneX[i], kLaneY[i]), 0.0f), b1 = Max(At(f1, kLaneX[i], kLaneY[i]), 0.0f),
+                  b2 = Max(At(f2, kLaneX[i], kLaneY[i]), 0.0f);
+      const float scale = 1.0f / Max(b0 + b1 + b2, std::numeric_limits<float>::min());
+      const bool here = ids[i] == id;
+      s[i] = here ? b1 * scale : s[i];
+      t[i] = here ? b2 * scale : t[i];
+    }
+  }
+}
+
+PENUMBRA_VECTOR_CLONES
+void EvaluateRadiosity(const TriangleShade* shades, float background, Tile* tile) {
+  for (int r = 0; r < tile->run_count; ++r) {
+    const BlockRun run = tile->runs[r];
+    const int at = run.block * kBlockPixels;
+    const std::uint32_t id = run.id;
+    const std::uint32_t* __restrict ids = tile->ids + at;
+    if (id == kNoTriangle) {
+      for (auto& channel : tile->rgb) {
+        float* __restrict out = channel + at;
+        for (int i = 0; i < kBlockPixels; ++i) out[i] = ids[i] == id ? background : out[i];
       }
       continue;
     }
-    for (int block = begin; block < triangle.column_end; block += kBlock) {
-      for (int i = block; i < block + kBlock; ++i) {
-        const float x = kColumn[i];
-        const float inside = Min(e0 + e0x * x, Min(e1 + e1x * x, e2 + e2x * x));
-        const float w = Min(w0 + wx * x, w_max);
-        const float w_drawn = w + w * Min(inside, 0.0f);
-        const bool drawn = (inside >= -kFringe) & (x >= first) & (x <= last) & (w_drawn > z_row[i]);
-        z_row[i] = drawn ? w_drawn : z_row[i];
-        id_row[i] = drawn ? id : id_row[i];
+    const TriangleShade& shade = shades[id];
+    const float* __restrict s = tile->s + at;
+    const float* __restrict t = tile->t + at;
+    for (int channel = 0; channel < 3; ++channel) {
+      const float a = shade.a[channel], b2 = shade.b2[channel], c2 = shade.c2[channel];
+      const float d = shade.d[channel], e2 = shade.e2[channel], f = shade.f[channel];
+      const float reflectance = shade.reflectance[channel], emittance = shade.emittance[channel];
+      float* __restrict out = tile->rgb[channel] + at;
+      for (int i = 0; i < kBlockPixels; ++i) {
+        const float irradiance = (a * s[i] + b2 * t[i] + c2) * s[i] + (d * t[i] + e2) * t[i] + f;
+        const float radiosity = Max(irradiance, 0.0f) * reflectance + emittance;
+        out[i] = ids[i] == id ? radiosity : out[i];
       }
     }
   }
 }
 
 PENUMBRA_VECTOR_CLONES
-void FillBarycentrics(const BarycentricRun& run, int n, float* __restrict s, float* __restrict t) {
-  const float a0 = run.start[0], a1 = run.start[1], a2 = run.start[2];
-  const float d0 = run.step[0], d1 = run.step[1], d2 = run.step[2];
-  for (int i = 0; i < n; ++i) {
-    const float x = kColumn[i];
-    const float b0 = Max(a0 + d0 * x, 0.0f), b1 = Max(a1 + d1 * x, 0.0f), b2 = Max(a2 + d2 * x, 0.0f);
-    const float scale = 1.0f / Max(b0 + b1 + b2, std::numeric_limits<float>::min());
-    s[i] = b1 * scale;
-    t[i] = b2 * scale;
-  }
-}
-
-PENUMBRA_VECTOR_CLONES
-void EvaluateRadiosity(const TriangleShade& shade, int channel, const float* __restrict s,
-                       const float* __restrict t, int n, float* __restrict radiosity) {
-  const float a = shade.a[channel], b2 = shade.b2[channel], c2 = shade.c2[channel];
-  const float d = shade.d[channel], e2 = shade.e2[channel], f = shade.f[channel];
-  const float reflectance = shade.reflectance[channel], emittance = shade.emittance[channel];
-  for (int i = 0; i < n; ++i) {
-    const float irradiance = (a * s[i] + b2 * t[i] + c2) * s[i] + (d * t[i] + e2) * t[i] + f;
-    radiosity[i] = Max(irradiance, 0.0f) * reflectance + emittance;
+void FillScreen(const ScreenTransfer& transfer, Tile* tile) {
+  constexpr int kPair = 2 * kBlockPixels;  // the dither repeats after two blocks
+  const float exposure = transfer.exposure, background = transfer.background;
+  alignas(64) float offsets[2][kPair] = {};
+  if (transfer.dither != nullptr)
+    for (int half = 0; half < 2; ++half)
+      for (int i = 0; i < kPair; ++i) {
+        const int x = i / kBlockPixels * kBlockSize + i % kBlockSize;
+        const int y = half * kBlockSize + i % kBlockPixels / kBlockSize;
+        offsets[half][i] = transfer.dither[8 * y + x];
+      }
+  for (int begin = 0; begin < kTilePixels; begin += kPair) {
+    const float* __restrict offset = offsets[begin / (kBlocksAcross * kBlockPixels) % 2];
+    alignas(64) std::int32_t codes[3][kPair];
+    for (int channel = 0; channel < 3; ++channel) {
+      const float* __restrict value = tile->rgb[channel] + begin;
+      std::int32_t* __restrict code = codes[channel];
+      if (transfer.dither != nullptr)
+        for (int i = 0; i < kPair; ++i)
+          code[i] = Dithered(Exposed(value[i], exposure, background), offset[i]);
+      else
+        for (int i = 0; i < kPair; ++i) code[i] = Nearest(Exposed(value[i], exposure, background));
+    }
+    std::uint32_t* __restrict screen = tile->screen + begin;
+    for (int i = 0; i < kPair; ++i) screen[i] = Code(codes[0][i], codes[1][i], codes[2][i]);
   }
 }
 
@@ -103,31 +285,20 @@ void ExposeRow(const float* __restrict value, const PixelKind* __restrict kind, 
 }
 
 PENUMBRA_VECTOR_CLONES
-void EncodeSrgbRow(const float* __restrict linear, const float* __restrict dither, std::size_t n,
-                   std::uint8_t* __restrict code) {
-  // The offsets laid out once, so that the loop below reads all its arrays straight on.
-  std::array<float, kDitherSpan> offset;
-  for (std::size_t i = 0; i < kDitherSpan; ++i) offset[i] = 0.5f + dither[i % 8];
-  for (std::size_t begin = 0; begin < n; begin += kDitherSpan) {
-    const std::size_t count = n - begin < kDitherSpan ? n - begin : kDitherSpan;
-    for (std::size_t i = 0; i < count; ++i) {
-      const float x = linear[begin + i];
-      // x^(5/12) = x y^7 with y = x^(-1/12) by Newton's iteration from a logarithm read off the exponent
-      // bits.
-      const float z = Max(x, 0x1p-10f);
-      const float log2z = static_cast<float>(std::bit_cast<std::int32_t>(z)) * 0x1p-23f - 127.0f;
-      float y = std::bit_cast<float>(static_cast<std::int32_t>((127.0f - log2z * (1.0f / 12)) * 0x1p23f));
-      for (int iteration = 0; iteration < 3; ++iteration) {
-        const float y3 = y * y * y, y6 = y3 * y3;
-        y *= (13.0f - z * (y6 * y6)) * (1.0f / 12);
-      }
-      const float y3 = y * y * y;
-      const float power = 1.055f * (z * (y3 * y3 * y)) - 0.055f;
-      const float encoded = x <= 0.0031308f ? 12.92f * x : power;
-      const float rounded = 255.0f * encoded + offset[i];
-      code[begin + i] = static_cast<std::uint8_t>(static_cast<std::int32_t>(Min(Max(rounded, 0.0f), 255.0f)));
-    }
+void EncodeRow(const float* __restrict red, const float* __restrict green, const float* __restrict blue,
+               std::size_t n, const float* __restrict dither, std::uint32_t* __restrict codes) {
+  if (dither == nullptr) {
+    for (std::size_t i = 0; i < n; ++i) codes[i] = Code(Nearest(red[i]), Nearest(green[i]), Nearest(blue[i]));
+    return;
   }
+  std::size_t begin = 0;
+  for (; begin + 8 <= n; begin += 8)
+    for (std::size_t i = 0; i < 8; ++i)
+      codes[begin + i] = Code(Dithered(red[begin + i], dither[i]), Dithered(green[begin + i], dither[i]),
+                              Dithered(blue[begin + i], dither[i]));
+  for (std::size_t i = begin; i < n; ++i)
+    codes[i] = Code(Dithered(red[i], dither[i - begin]), Dithered(green[i], dither[i - begin]),
+                    Dithered(blue[i], dither[i - begin]));
 }
 
 }  // namespace penumbra

@@ -1,19 +1,42 @@
 // display/vector_kernels.h
 //
-// The inner loops of the display: plain loops over floats that the compiler turns into vector code, compiled
-// for several instruction sets of which the machine's best is chosen at run time. Element by element they do
-// the same IEEE operations whatever the vector width, so all of them give the same bytes.
+// The inner loops of the display over a tile of the picture, compiled for several instruction sets of which
+// the machine's best is chosen at run time. Element by element they do the same IEEE operations whatever the
+// vector width, so all of them give the same bytes.
+//
+// A tile's values lie block by block, 4 x 4 pixels together: a block is one vector, and most blocks show a
+// single triangle.
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "display/image.h"
 
 namespace penumbra {
 
-inline constexpr int kTileSize = 64;  // pixels; also the longest run of the loops below
+inline constexpr int kTileSize = 64;  // pixels a side
+inline constexpr int kTilePixels = kTileSize * kTileSize;
+inline constexpr int kBlockSize = 4;  // pixels a side
+inline constexpr int kBlockPixels = kBlockSize * kBlockSize;
+inline constexpr int kBlocksAcross = kTileSize / kBlockSize;
+inline constexpr int kTileBlocks = kBlocksAcross * kBlocksAcross;
+
+// Where the four pixels of a tile that begin at column x, a multiple of 4, and row y lie in its arrays.
+inline constexpr int TileIndex(int x, int y) {
+  return (y / kBlockSize * kBlocksAcross + x / kBlockSize) * kBlockPixels + y % kBlockSize * kBlockSize;
+}
+
+// An affine function of the picture coordinates, in binary64.
+struct Plane {
+  double x = 0, y = 0, c = 0;
+
+  double At(double px, double py) const { return c + x * px + y * py; }
+  Plane Scaled(double k) const { return {x * k, y * k, c * k}; }
+};
 
 // A triangle as one tile of the screen sees it. Values are affine in the column i and the row j of a pixel in
 // its tile: value = c + i x + j y.
@@ -26,7 +49,6 @@ struct TileTriangle {
   float max_inverse_z;
   std::uint32_t id;
   int column_begin, column_end, row_begin, row_end;  // its bounds in the tile
-  bool covers_tile;                                  // the whole tile lies inside all edges
 };
 
 // Where a pixel centre lies outside a triangle, yet by less than this [pixels], the triangle is drawn all the
@@ -35,20 +57,6 @@ struct TileTriangle {
 // far below what can be seen.
 inline constexpr float kFringe = 0x1p-10f;
 
-// Draws the triangle into a tile of kTileSize^2 values of 1 / depth, where 0 is infinitely far, and of ids. A
-// nearer triangle wins; of equally near ones the one drawn first.
-void DrawTileTriangle(const TileTriangle& triangle, float* inverse_z, std::uint32_t* ids);
-
-// Three values that are affine along a row, proportional to the barycentric coordinates of vertices 0, 1
-// and 2.
-struct BarycentricRun {
-  float start[3], step[3];
-};
-
-// The coordinates (s, t) of vertices 1 and 2 at n <= kTileSize pixels of a row, inside the triangle in spite
-// of rounding.
-void FillBarycentrics(const BarycentricRun& run, int n, float* s, float* t);
-
 // What the display knows about a triangle's light, each value for red, green and blue.
 struct TriangleShade {
   float a[3], b2[3], c2[3], d[3], e2[3], f[3];  // the irradiance interpolant, QuadraticInterpolant [W/m^2]
@@ -56,17 +64,73 @@ struct TriangleShade {
   float emittance[3];  // [W/m^2]
 };
 
-// Radiosity = max(irradiance(s, t), 0) x reflectance + emittance of one channel at n <= kTileSize pixels
-// [W/m^2]. Irradiance is clamped since a quadratic through nonnegative samples may dip below 0 between them.
-void EvaluateRadiosity(const TriangleShade& shade, int channel, const float* s, const float* t, int n,
-                       float* radiosity);
+// The pixels of a block that show one triangle.
+struct BlockRun {
+  std::uint32_t id;
+  std::uint16_t block;
+  bool whole;  // all pixels of the block do
+};
+
+// A tile on its way to the screen.
+struct Tile {
+  int x = 0, y = 0;  // its upper left pixel in the picture
+  alignas(64) std::uint32_t ids[kTilePixels];
+  alignas(64) float inverse_z[kTilePixels];  // 1 / depth, 0 where there is nothing
+  alignas(64) float s[kTilePixels], t[kTilePixels];
+  alignas(64) float rgb[3][kTilePixels];
+  alignas(64) std::uint32_t screen[kTilePixels];  // a pixel's codes: red + 2^8 green + 2^16 blue
+  int run_count = 0;
+  BlockRun runs[kTilePixels];
+};
+
+// Nothing in the whole tile yet.
+void ClearTile(Tile* tile);
+
+// Draws the triangle into `inverse_z` and `ids`. A nearer triangle wins; of equally near ones the one drawn
+// first.
+void DrawTileTriangle(const TileTriangle& triangle, Tile* tile);
+
+// Collects `runs` from `ids`.
+void FindRuns(Tile* tile);
+
+// (s, t), the coordinates of vertices 1 and 2, inside the triangle in spite of rounding, where there is one.
+// planes[3 id + k] is proportional to the coordinate of vertex k. REQUIRES: FindRuns.
+void FillBarycentrics(const Plane* planes, Tile* tile);
+
+// rgb = max(irradiance(s, t), 0) x reflectance + emittance [W/m^2], and `background` where there is no
+// triangle. Irradiance is clamped since a quadratic through nonnegative samples may dip below 0 between them.
+// REQUIRES: FindRuns; s and t.
+void EvaluateRadiosity(const TriangleShade* shades, float background, Tile* tile);
+
+// The transfer of a linear value in [0, 1] to 8 bits. Dithered: 255 times the encoded value, `offset` added,
+// is within 1e-3 of the exact one before it is rounded down. Else: the nearest code, exactly.
+struct ScreenTransfer {
+  float exposure;       // factor of the values, which are cut off at 1 afterwards
+  float background;     // what shows, linear, where a value is negative
+  const float* dither;  // 64 offsets in (0, 1), rows of 8; null: round to the nearest code
+};
+
+// `screen` from `rgb`.
+void FillScreen(const ScreenTransfer& transfer, Tile* tile);
 
 // min(max(exposure x value, 0), 1) of n values; emitters become 1, background `background`.
 void ExposeRow(const float* value, const PixelKind* kind, float exposure, float background, std::size_t n,
                float* exposed);
 
-// The sRGB code of n values in [0, 1], scaled to 255, `dither[i % 8]` added, rounded; within 2e-4 of a code
-// of the exact transfer before rounding.
-void EncodeSrgbRow(const float* linear, const float* dither, std::size_t n, std::uint8_t* code);
+// The codes of n exposed pixels of a row, as in Tile::screen. `dither`: 8 offsets in (0, 1), or null.
+void EncodeRow(const float* red, const float* green, const float* blue, std::size_t n, const float* dither,
+               std::uint32_t* codes);
+
+// Three bytes a pixel from n codes. Short rows are the usual case: inline.
+inline void PackRow(const std::uint32_t* __restrict codes, std::size_t n, std::uint8_t* __restrict bytes) {
+  std::size_t i = 0;
+  for (; i + 4 <= n; i += 4) {
+    const std::uint32_t p = codes[i], q = codes[i + 1], r = codes[i + 2], s = codes[i + 3];
+    const std::array<std::uint32_t, 3> words = {p | (q << 24), (q >> 8) | (r << 16), (r >> 16) | (s << 8)};
+    std::memcpy(bytes + 3 * i, words.data(), sizeof(words));
+  }
+  for (; i < n; ++i)
+    for (std::size_t c = 0; c < 3; ++c) bytes[3 * i + c] = static_cast<std::uint8_t>(codes[i] >> (8 * c));
+}
 
 }  // namespace penumbra

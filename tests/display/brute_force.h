@@ -19,7 +19,7 @@ namespace penumbra {
 
 struct Triangles {
   std::vector<Vec3> positions;
-  std::vector<Rasteriser::VertexIndices> triangles;
+  std::vector<VertexIndices> triangles;
 
   std::uint32_t AddVertex(const Vec3& p) {
     positions.push_back(p);

@@ -228,7 +228,7 @@ TEST(Rasteriser, ClosesTVertices) {
         }
     }
   // Fronts look inwards: turn round what does not.
-  for (Rasteriser::VertexIndices& triangle : room.triangles) {
+  for (VertexIndices& triangle : room.triangles) {
     const Vec3 &a = room.positions[triangle[0]], &b = room.positions[triangle[1]],
                &c = room.positions[triangle[2]];
     if ((b - a).cross(c - a).dot(a) > 0) std::swap(triangle[1], triangle[2]);

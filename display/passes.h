@@ -1,0 +1,41 @@
+// display/passes.h
+//
+// The two scratch images that a picture is made from (thesis 3.4.1 and 3.4.2), whoever draws them.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "display/camera.h"
+
+namespace penumbra {
+
+inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
+inline constexpr int kMaxPictureSize = 32768;  // pixels a side
+
+using VertexIndices = std::array<std::uint32_t, 3>;
+
+class Passes {
+ public:
+  virtual ~Passes() = default;
+
+  // Pass 1: ids[y * width + x] is the index of the triangle that is visible in the centre of the pixel, or
+  // kNoTriangle. REQUIRES: ids.size() == width * height; 0 < width, height <= kMaxPictureSize.
+  virtual void DrawTriangleIds(const PixelRays& rays, int width, int height,
+                               std::span<std::uint32_t> ids) = 0;
+
+  // Pass 2: (s, t), the perspective-correct coordinates of vertices 1 and 2 of the triangles that pass 1
+  // found, with s, t >= 0 and s + t <= 1 to rounding. Unchanged where there is no triangle. REQUIRES: ids are
+  // those of the last DrawTriangleIds; spans of the same size.
+  virtual void DrawBarycentrics(std::span<const std::uint32_t> ids, std::span<float> s,
+                                std::span<float> t) = 0;
+
+ protected:
+  Passes() = default;
+  Passes(const Passes&) = default;
+  Passes& operator=(const Passes&) = default;
+};
+
+}  // namespace penumbra

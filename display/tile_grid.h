@@ -1,0 +1,50 @@
+// display/tile_grid.h
+//
+// The tiles of a picture, and the way of values between them and images in rows.
+
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "display/vector_kernels.h"
+
+namespace penumbra {
+
+struct TileGrid {
+  int width = 0, height = 0;  // of the picture
+  int across = 0, down = 0;   // tiles
+
+  TileGrid() = default;
+  TileGrid(int w, int h)
+      : width(w), height(h), across((w + kTileSize - 1) / kTileSize), down((h + kTileSize - 1) / kTileSize) {}
+
+  std::size_t Count() const { return static_cast<std::size_t>(across) * static_cast<std::size_t>(down); }
+  int X(std::size_t tile) const { return static_cast<int>(tile) % across * kTileSize; }
+  int Y(std::size_t tile) const { return static_cast<int>(tile) / across * kTileSize; }
+};
+
+// Calls body(index in the tile, index in the picture, n) for the parts, n <= 4 pixels in a row, that the tile
+// at (x0, y0) and the picture share.
+template <class Body>
+void ForEachTilePart(const TileGrid& grid, int x0, int y0, const Body& body) {
+  const int rows = std::min(kTileSize, grid.height - y0), columns = std::min(kTileSize, grid.width - x0);
+  for (int y = 0; y < rows; ++y) {
+    const std::size_t row = static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(grid.width) +
+                            static_cast<std::size_t>(x0);
+    for (int x = 0; x < columns; x += kBlockSize)
+      body(static_cast<std::size_t>(TileIndex(x, y)), row + static_cast<std::size_t>(x),
+           static_cast<std::size_t>(std::min(kBlockSize, columns - x)));
+  }
+}
+
+// Whole parts, nearly all of them, are copied as one word.
+template <class T>
+void CopyPart(const T* from, std::size_t n, T* to) {
+  if (n == kBlockSize)
+    std::copy_n(from, kBlockSize, to);
+  else
+    std::copy_n(from, n, to);
+}
+
+}  // namespace penumbra
