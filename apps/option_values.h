@@ -7,10 +7,14 @@
 
 #include <CLI/CLI.hpp>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "solver/geometry/vec.h"
 
@@ -43,5 +47,32 @@ CLI::Option* AddInteger(CLI::App& app, const std::string& name, Integer* target,
 // `NAME x,y,z`, three numbers.
 CLI::Option* AddVector(CLI::App& app, const std::string& name, std::optional<Vec3>* target,
                        const std::string& help);
+
+// A value and its word on the command line.
+template <class Value>
+struct NamedValue {
+  const char* name;
+  Value value;
+};
+
+// `NAME WORD`, one of the words; take(i) is called with the number of the one that was given.
+CLI::Option* AddWord(CLI::App& app, const std::string& name, const std::vector<std::string>& words,
+                     const std::string& help, const std::function<void(std::size_t)>& take);
+
+// The same for values with names; the target is of their type, or optional.
+template <class Target, class Value, std::size_t kSize>
+CLI::Option* AddChoice(CLI::App& app, const std::string& name, Target* target,
+                       const std::array<NamedValue<Value>, kSize>& values, const std::string& help) {
+  std::vector<std::string> words;
+  for (const NamedValue<Value>& value : values) words.emplace_back(value.name);
+  return AddWord(app, name, words, help, [=](std::size_t i) { *target = values[i].value; });
+}
+
+template <class Value, std::size_t kSize>
+const char* NameOf(Value value, const std::array<NamedValue<Value>, kSize>& values) {
+  for (const NamedValue<Value>& named : values)
+    if (named.value == value) return named.name;
+  return "";
+}
 
 }  // namespace penumbra

@@ -3,18 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 
-#include "apps/commands.h"
 #include "apps/option_values.h"
-#include "apps/report.h"
-#include "mesh/solution_file.h"
-#include "solver/base/check.h"
 #include "solver/base/parallel.h"
-#include "solver/base/stopwatch.h"
 #include "solver/scene/named_scene.h"
 
 namespace penumbra {
@@ -22,79 +16,32 @@ namespace {
 
 constexpr int kMaxThreads = 1024;
 constexpr std::uint64_t kMaxErrorPoints = 100'000'000;
-constexpr const char *kSceneGroup = "Scene", *kSolvingGroup = "Solving";
 constexpr NumberRule kBelowOne{[](double x) { return x >= 0 && x < 1; }, "a number in [0, 1)"};
 
-bool IsFile(const std::string& name) {
-  std::error_code ignored;
-  return std::filesystem::exists(name, ignored) && !std::filesystem::is_directory(name, ignored);
-}
-
-// The first bytes of the file, all of them if there are fewer.
-std::string ReadBytes(const std::string& path, std::size_t count) {
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes(count, '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(count));
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
-  return bytes;
-}
-
-// Whether the file is, or was meant to be, a solution: its content tells. Nothing tells what an empty file
-// is; one that is named as a scene is a scene without faces.
-bool IsSolution(const std::string& path) {
-  if (!IsFile(path)) return false;
-  const std::string beginning = ReadBytes(path, kSolutionHeaderSize);
-  return beginning.empty() ? std::filesystem::path(path).extension() != ".obj" : LooksLikeSolution(beginning);
-}
-
-// Options that say how a scene is read or solved have no place beside a solution.
-void RefuseSceneOptions(const SceneArguments& arguments) {
-  for (const CLI::Option* option : arguments.app->get_options())
-    if (option->count() > 0 && (option->get_group() == kSceneGroup || option->get_group() == kSolvingGroup))
-      throw UsageError(fmt::format(
-          "{} says how a scene is {}, but '{}' is a solution; give the scene, or leave it out",
-          option->get_name(), option->get_group() == kSceneGroup ? "read" : "solved", arguments.scene));
-}
-
-LoadedScene ReadSolution(const SceneArguments& arguments) {
-  RefuseSceneOptions(arguments);
-  const std::string& path = arguments.scene;
-  std::error_code ignored;
-  const std::string bytes = ReadBytes(path, std::filesystem::file_size(path, ignored));
-  StoredSolution solution = DecodeSolution(bytes, path);
-  LoadedScene loaded{std::move(solution.scene)};
-  StoredRun& stored = loaded.stored.emplace();
-  stored.state = std::move(solution.state);
-  stored.version = std::move(solution.version);
-  try {
-    stored.options = nlohmann::ordered_json::parse(solution.options);
-    stored.solving = SolvingFrom(stored.options);
-    stored.state.report = PipelineReportFrom(nlohmann::ordered_json::parse(solution.report));
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(
-        fmt::format("{}: error: its options or its report cannot be read: {}", path, error.what()));
-  }
-  return loaded;
-}
+constexpr std::array<NamedValue<DiscontinuityChoice>, 5> kDiscontinuityChoices = {
+    {{"ranked", DiscontinuityChoice::kRanked},
+     {"adaptive", DiscontinuityChoice::kAdaptive},
+     {"none", DiscontinuityChoice::kNone},
+     {"random", DiscontinuityChoice::kRandom},
+     {"all", DiscontinuityChoice::kAll}}};
+constexpr std::array<NamedValue<DiscontinuityWeight>, 2> kDiscontinuityWeights = {
+    {{"thesis", DiscontinuityWeight::kThesis}, {"irradiance", DiscontinuityWeight::kIrradiance}}};
 
 }  // namespace
 
 void AddSceneArguments(CLI::App& app, SceneArguments* arguments) {
-  arguments->app = &app;
-  app.add_option(
-         "SCENE", arguments->scene,
-         "An OBJ file, the name of a built-in scene (a file wins), or a solution that `solve -o` wrote")
+  app.add_option("SCENE", arguments->scene, "An OBJ file or the name of a built-in scene; a file wins")
       ->required()
       ->type_name("");
   app.add_flag("--emission-is-radiance", arguments->reading.emission_is_radiance,
                "Ke is radiance in W/(m^2 sr) instead of emittance in W/m^2: multiply it by pi")
-      ->group(kSceneGroup);
+      ->group("Scene");
   app.add_flag("--two-sided", arguments->reading.two_sided,
                "Repeat every face, reversed, after the last: the back of face i is n + i")
-      ->group(kSceneGroup);
+      ->group("Scene");
   AddNumber(app, "--max-reflectance", &arguments->reading.max_reflectance, kBelowOne,
             "Clamp larger reflectances to X, in [0, 1), instead of refusing those of 1 or more")
-      ->group(kSceneGroup);
+      ->group("Scene");
   AddInteger(app, "--threads", &arguments->threads, 0, kMaxThreads,
              "Threads to work with, 0: all; the result is the same for any number")
       ->group("Running");
@@ -108,7 +55,7 @@ void AddSceneArguments(CLI::App& app, SceneArguments* arguments) {
 
 void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
   PipelineOptions* solving = &arguments->solving;
-  const std::string group = kSolvingGroup;
+  const std::string group = "Solving";
   AddNumber(app, "--error", &solving->error, kPositive,
             "The relative error of what is shown that 99 points in 100 shall not exceed; all below follows "
             "from it unless it is given")
@@ -121,6 +68,21 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
       ->group(group);
   AddNumber(app, "--min-discontinuity-weight", &solving->min_discontinuity_weight, kNonNegative,
             "Smallest weight of a discontinuity in the mesh [W/m^2] (default: follows from --error)")
+      ->group(group);
+  AddChoice(
+      app, "--discontinuities", &solving->discontinuities, kDiscontinuityChoices,
+      "Which become edges of the mesh, as many as a leaf may have: the heaviest (default), those where a "
+      "shadow boundary is seen to cross a leaf (Stuerzlinger 1994), none, any in random order; or all of "
+      "them")
+      ->group(group);
+  AddChoice(
+      app, "--weight", &solving->weight, kDiscontinuityWeights,
+      "What a discontinuity weighs [W/m^2]: how near its blocker is times the source's radiosity, or the "
+      "error that a leaf would make without it (default: thesis where the smallest weight is given, else "
+      "irradiance)")
+      ->group(group);
+  app.add_flag("--keep-hidden-discontinuities", solving->keep_hidden_discontinuities,
+               "Also those parts that end at another blocker on their way, as in the thesis")
       ->group(group);
   AddInteger(app, "--max-leaf-dsets", &solving->max_leaf_dsets, 0, 1'000'000,
              "Most discontinuity lines in a leaf of the mesh")
@@ -172,8 +134,12 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["error"] = arguments.solving.error;
     options["eps"] = resolved->solver.eps;
     options["min_area"] = resolved->solver.min_area;
-    options["min_discontinuity_weight"] = resolved->min_discontinuity_weight;
-    options["max_leaf_dsets"] = resolved->max_leaf_dsets;
+    const DiscontinuityOptions& mesh = resolved->discontinuities;
+    options["discontinuities"] = NameOf(mesh.choice, kDiscontinuityChoices);
+    options["weight"] = NameOf(mesh.weight, kDiscontinuityWeights);
+    options["min_discontinuity_weight"] = mesh.min_weight;
+    options["max_leaf_dsets"] = mesh.max_leaf_dsets;
+    options["keep_hidden_discontinuities"] = mesh.keep_hidden;
     options["corrections"] = resolved->solver.max_corrections;
     options["acceleration"] = resolved->solver.accelerate;
     options["relative_cutoff"] = resolved->solver.relative_cutoff;
@@ -195,35 +161,12 @@ void PrintOptionsUsed(const nlohmann::ordered_json& options) {
   fmt::print(stderr, "{}", block);
 }
 
-PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
-  PipelineOptions solving;
-  options.at("seed").get_to(solving.seed);
-  options.at("error").get_to(solving.error);
-  solving.eps = options.at("eps").get<double>();
-  solving.min_area = options.at("min_area").get<double>();
-  solving.min_discontinuity_weight = options.at("min_discontinuity_weight").get<double>();
-  options.at("max_leaf_dsets").get_to(solving.max_leaf_dsets);
-  options.at("corrections").get_to(solving.max_corrections);
-  options.at("acceleration").get_to(solving.accelerate);
-  solving.relative_cutoff = options.at("relative_cutoff").get<double>();
-  options.at("iterations").get_to(solving.max_iterations);
-  options.at("nudge").get_to(solving.point.nudge);
-  options.at("source_push_off").get_to(solving.point.source_push_off);
-  options.at("error_points").get_to(solving.error_points);
-  return solving;
-}
-
 LoadedScene LoadScene(const SceneArguments& arguments) {
   SetThreadCount(arguments.threads);
-  const Stopwatch reading;
-  const bool is_solution = IsSolution(arguments.scene);
-  LoadedScene loaded =
-      is_solution
-          ? ReadSolution(arguments)
-          : LoadedScene{std::make_unique<const Scene>(ReadNamedScene(arguments.scene, arguments.reading))};
-  loaded.seconds = reading.Seconds();
-  if (!is_solution)
-    for (const std::string& warning : loaded.scene.warnings) fmt::print(stderr, "{}\n", warning);
+  const auto begin = std::chrono::steady_clock::now();
+  LoadedScene loaded{ReadNamedScene(arguments.scene, arguments.reading), 0};
+  loaded.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  for (const std::string& warning : loaded.scene.warnings) fmt::print(stderr, "{}\n", warning);
   return loaded;
 }
 

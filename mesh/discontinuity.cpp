@@ -1,10 +1,11 @@
 #include "mesh/discontinuity.h"
 
 #include <algorithm>
-#include <map>
-#include <optional>
-#include <tuple>
+#include <cmath>
+#include <functional>
 
+#include "mesh/irradiance_jump.h"
+#include "mesh/wedge_clip.h"
 #include "solver/base/check.h"
 #include "solver/geometry/segment_clip.h"
 #include "solver/scene/tolerances.h"
@@ -13,21 +14,7 @@
 namespace penumbra {
 namespace {
 
-using Coordinates = std::tuple<double, double, double>;
-using EdgeKey = std::pair<Coordinates, Coordinates>;
-
-Coordinates Key(const Vec3& p) { return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0}; }  // -0 becomes 0
-
-EdgeKey UndirectedKey(const Vec3& a, const Vec3& b) {
-  const Coordinates ka = Key(a), kb = Key(b);
-  return ka < kb ? EdgeKey{ka, kb} : EdgeKey{kb, ka};
-}
-
-// An edge of a patch, from vertex k to k + 1.
-struct PatchEdge {
-  PatchId patch;
-  std::int32_t k;
-};
+using Blockers = std::span<const PatchId>;
 
 // What is the same for all discontinuities of one receiver.
 struct Receiver {
@@ -38,23 +25,6 @@ struct Receiver {
   double gap;   // what comes nearer touches it [m]
 
   double Height(const Vec3& p) const { return frame.n.dot(p - frame.origin); }
-};
-
-// How a segment's weight and origin come together; collects what is long enough.
-class Collector {
- public:
-  Collector(const Receiver& receiver, std::vector<Discontinuity>& found)
-      : receiver_(receiver), found_(found) {}
-
-  void Add(Discontinuity d, const Vec3& a, const Vec3& b) {
-    d.receiver = receiver_.id;
-    d.end = {receiver_.frame.ToPlane(a), receiver_.frame.ToPlane(b)};
-    if ((d.end[1] - d.end[0]).norm() > receiver_.snap) found_.push_back(d);
-  }
-
- private:
-  const Receiver& receiver_;
-  std::vector<Discontinuity>& found_;
 };
 
 // Everything about one source as the receiver sees it.
@@ -68,67 +38,128 @@ struct SourceView {
   double Height(const Vec3& p) const { return patch.normal.dot(p - patch.vertex[0]); }
 };
 
-// True if the edge of the source and that of the blocker lie in one plane: then the gradient jumps.
-bool Coplanar(const Vec3& s, const Patch& source, const Vec3& b0, const Vec3& b1, double tolerance) {
-  const Vec3 normal = (b0 - s).cross(b1 - s);
-  const double length = normal.norm();
-  if (length == 0) return false;
-  for (std::int32_t k = 0; k < source.size; ++k) {
-    if (source.vertex[k] != s) continue;
-    for (const std::int32_t other : {(k + 1) % source.size, (k + source.size - 1) % source.size})
-      if (std::abs(normal.dot(source.vertex[other] - s)) <= tolerance * length) return true;
-  }
-  return false;
-}
-
 }  // namespace
+
+double Weight(const Discontinuity& d, DiscontinuityWeight kind, double size) {
+  if (d.kind == DiscontinuityKind::kContact) return kInfiniteWeight;
+  if (kind == DiscontinuityWeight::kThesis) return d.geometric_weight * d.strength;
+  double largest = 0;
+  for (const IrradianceJump& jump : d.jump) {
+    const double kink = std::max(std::abs(jump.gradient), jump.largest_gradient);
+    largest = std::max(largest, std::min({jump.largest_value, kKinkError * size * kink,
+                                          kBendError * size * size * std::abs(jump.curvature)}));
+  }
+  return largest * d.strength;
+}
 
 struct DiscontinuityFinder::Impl {
   const Scene& scene;
   const PatchVisibility& visibility;
-  std::map<EdgeKey, std::vector<PatchEdge>> edges;
+  Silhouettes silhouettes;
   double gap;  // ContactGap() [m]
 
-  Impl(const Scene& s, const PatchVisibility& v) : scene(s), visibility(v), gap(ContactGap(s)) {
-    for (std::size_t p = 0; p < scene.patches.size(); ++p) {
-      const Patch& patch = scene.patches[p];
-      for (std::int32_t k = 0; k < patch.size; ++k) {
-        edges[UndirectedKey(patch.vertex[k], patch.vertex[(k + 1) % patch.size])].push_back(
-            {static_cast<PatchId>(p), k});
-      }
+  Impl(const Scene& s, const PatchVisibility& v)
+      : scene(s), visibility(v), silhouettes(s), gap(ContactGap(s)) {}
+
+  // Fills in weights and jumps, and keeps what is long and heavy enough.
+  class Collector {
+   public:
+    Collector(const Impl& finder, const Receiver& receiver, const DiscontinuityOptions& options,
+              std::vector<Discontinuity>& found)
+        : finder_(finder),
+          receiver_(receiver),
+          options_(options),
+          size_(std::sqrt(receiver.patch.area)),
+          found_(found) {}
+
+    bool TooLight(double weight) const {
+      return options_.weight == DiscontinuityWeight::kThesis && weight < options_.min_weight;
     }
-  }
+
+    void Add(Discontinuity d, const Vec3& a, const Vec3& b) {
+      d.receiver = receiver_.id;
+      d.end = {receiver_.frame.ToPlane(a), receiver_.frame.ToPlane(b)};
+      if ((d.end[1] - d.end[0]).norm() <= receiver_.snap) return;
+      for (int i = 0; i < Discontinuity::kJumps; ++i) {
+        const double t = (i + 0.5) / Discontinuity::kJumps;
+        d.jump[i] = finder_.JumpOf(receiver_, d, (1 - t) * d.end[0] + t * d.end[1]);
+      }
+      d.weight = Weight(d, options_.weight, size_);
+      if (d.weight >= options_.min_weight) found_.push_back(d);
+    }
+
+    // What is left of the trace of a wedge past those blockers that do not contain its vertex and edge.
+    void AddWedge(const Discontinuity& d, Wedge& wedge, const SourceView& s, Blockers blockers,
+                  const std::function<bool(PatchId)>& touches) {
+      TraceParts trace;
+      if (!options_.keep_hidden) {
+        wedge.normal = (wedge.end[0] - wedge.apex).cross(wedge.end[1] - wedge.apex);
+        const double length = wedge.normal.norm();
+        if (length > 0) {
+          wedge.normal /= length;
+          wedge.receiver_normal = receiver_.frame.n;
+          wedge.on_receiver = receiver_.frame.origin;
+          wedge.source_normal = s.patch.normal;
+          wedge.on_source = s.patch.vertex[0];
+          wedge.rounding = s.rounding;
+          for (const PatchId blocker : blockers)
+            if (!touches(blocker)) trace.Hide(wedge, finder_.scene.patches[blocker]);
+        }
+      }
+      for (const TraceParts::Part& part : trace.parts())
+        Add(d, Between(wedge.end[0], wedge.end[1], part.t0), Between(wedge.end[0], wedge.end[1], part.t1));
+    }
+
+   private:
+    const Impl& finder_;
+    const Receiver& receiver_;
+    const DiscontinuityOptions& options_;
+    double size_;
+    std::vector<Discontinuity>& found_;
+  };
 
   // False if the edge k of the blocker is no silhouette from s, or another of the blockers brings it.
-  bool IsOwnSilhouette(const Vec3& s, PatchId blocker, std::int32_t k,
-                       std::span<const PatchId> blockers) const {
-    const Patch& patch = scene.patches[blocker];
-    const Vec3& a = patch.vertex[k];
-    const auto& sharing = edges.find(UndirectedKey(a, patch.vertex[(k + 1) % patch.size]))->second;
+  bool IsOwnSilhouette(const Vec3& s, PatchId blocker, std::int32_t k, Blockers blockers) const {
+    const std::int32_t edge = silhouettes.EdgeAt(blocker, k);
+    if (!silhouettes.IsSilhouette(edge, s)) return false;
+    const std::span<const PatchEdge> sharing = silhouettes.Sharing(edge);
     if (sharing.size() != 2) return true;
-    const PatchEdge& other = sharing[0].patch == blocker ? sharing[1] : sharing[0];
-    if (other.patch == blocker) return true;
-    const Patch& neighbour = scene.patches[other.patch];
-    // A closed surface runs along its edges once in each direction; else one of the two is turned over.
-    const double turned = neighbour.vertex[other.k] == a ? -1 : 1;
-    const double own_side = patch.normal.dot(s - a), other_side = turned * neighbour.normal.dot(s - a);
-    if (own_side * other_side > 0) return false;
-    return blocker < other.patch || !std::binary_search(blockers.begin(), blockers.end(), other.patch);
+    const PatchId other = sharing[0].patch == blocker ? sharing[1].patch : sharing[0].patch;
+    return blocker <= other || !std::binary_search(blockers.begin(), blockers.end(), other);
+  }
+
+  bool HasCorner(PatchId patch, std::int32_t corner) const {
+    const std::span<const PatchId> around = silhouettes.PatchesAround(corner);
+    return std::find(around.begin(), around.end(), patch) != around.end();
+  }
+
+  IrradianceJump JumpOf(const Receiver& r, const Discontinuity& d, const Vec2& at) const {
+    const Vec2 along = (d.end[1] - d.end[0]).normalized();
+    return JumpAt(scene, silhouettes, d, r.frame.FromPlane(at),
+                  -along.y() * r.frame.u + along.x() * r.frame.v);
+  }
+
+  Receiver ReceiverOf(PatchId id) const {
+    const Patch& patch = scene.patches[id];
+    const double snap = SnapDistance(patch);
+    return {id, patch, PolygonFrame(patch.Vertices()), snap, std::max(snap, gap)};
   }
 
   void AddContacts(const Receiver& r, Collector& out) const;
   void AddHorizon(const Receiver& r, const SourceView& s, Collector& out) const;
-  void AddVertexEdge(const Receiver& r, const SourceView& s, std::span<const PatchId> blockers,
-                     double min_weight, Collector& out) const;
-  void AddEdgeVertex(const Receiver& r, const SourceView& s, std::span<const PatchId> blockers,
-                     double min_weight, Collector& out) const;
+  void AddVertexEdge(const Receiver& r, const SourceView& s, Blockers blockers, Collector& out) const;
+  void AddEdgeVertex(const Receiver& r, const SourceView& s, Blockers blockers, Collector& out) const;
+  void AddCornerEvents(const Receiver& r, const SourceView& s, Blockers blockers, PatchId blocker,
+                       std::int32_t part, Collector& out) const;
+  void MarkShared(const SourceView& s, std::int32_t source_edge, std::int32_t corner, const Vec3& from,
+                  Discontinuity* d) const;
 };
 
 void DiscontinuityFinder::Impl::AddContacts(const Receiver& r, Collector& out) const {
   Discontinuity contact;
   contact.kind = DiscontinuityKind::kContact;
   contact.degree = DiscontinuityDegree::kD0;
-  contact.geometric_weight = contact.weight = kInfiniteWeight;
+  contact.geometric_weight = kInfiniteWeight;
   for (const Contact& found : FindContacts(scene, r.id)) {
     contact.blocker = found.other;
     out.Add(contact, found.a, found.b);
@@ -153,14 +184,14 @@ void DiscontinuityFinder::Impl::AddHorizon(const Receiver& r, const SourceView& 
   d.degree = DiscontinuityDegree::kD1;
   d.source = s.id;
   d.geometric_weight = 1;
-  d.weight = s.strength;
+  d.strength = s.strength;
   out.Add(d, met[0], met[1]);
 }
 
-void DiscontinuityFinder::Impl::AddVertexEdge(const Receiver& r, const SourceView& s,
-                                              std::span<const PatchId> blockers, double min_weight,
+void DiscontinuityFinder::Impl::AddVertexEdge(const Receiver& r, const SourceView& s, Blockers blockers,
                                               Collector& out) const {
-  for (const Vec3& v : s.patch.Vertices()) {
+  for (std::int32_t part = 0; part < s.patch.size; ++part) {
+    const Vec3& v = s.patch.vertex[part];
     const double hs = r.Height(v);
     if (hs <= r.snap) continue;
     for (const PatchId blocker : blockers) {
@@ -185,52 +216,123 @@ void DiscontinuityFinder::Impl::AddVertexEdge(const Receiver& r, const SourceVie
         const double hp = r.Height(p), hq = r.Height(q);
         Discontinuity d;
         d.kind = DiscontinuityKind::kVE;
-        d.degree =
-            Coplanar(v, s.patch, a, b, s.rounding) ? DiscontinuityDegree::kD1 : DiscontinuityDegree::kD2;
         d.source = s.id;
         d.blocker = blocker;
+        d.source_part = part;
+        d.blocker_part = k;
+        d.strength = s.strength;
         d.geometric_weight = std::clamp((hs - std::min(hp, hq)) / hs, 0.0, 1.0);
-        d.weight = d.geometric_weight * s.strength;
-        if (d.weight < min_weight) continue;
-        out.Add(d, v + (p - v) * (hs / (hs - hp)), v + (q - v) * (hs / (hs - hq)));
+        if (out.TooLight(d.geometric_weight * s.strength)) continue;
+        d.shared_source_edge = CoplanarEdge(s.patch, part, a, b, s.rounding);
+        if (d.shared_source_edge >= 0) {
+          d.degree = DiscontinuityDegree::kD1;
+          d.shared_blocker_edge = {blocker, k};
+        }
+        Wedge wedge;
+        wedge.apex = v;
+        wedge.apex_height = hs;
+        wedge.end = {v + (p - v) * (hs / (hs - hp)), v + (q - v) * (hs / (hs - hq))};
+        const std::int32_t from = silhouettes.CornerAt(blocker, k);
+        const std::int32_t to = silhouettes.CornerAt(blocker, (k + 1) % patch.size);
+        out.AddWedge(d, wedge, s, blockers,
+                     [&](PatchId other) { return HasCorner(other, from) && HasCorner(other, to); });
       }
     }
   }
 }
 
-void DiscontinuityFinder::Impl::AddEdgeVertex(const Receiver& r, const SourceView& s,
-                                              std::span<const PatchId> blockers, double min_weight,
+void DiscontinuityFinder::Impl::AddEdgeVertex(const Receiver& r, const SourceView& s, Blockers blockers,
                                               Collector& out) const {
   // Each corner once, though several faces of a solid meet there.
-  std::map<Coordinates, PatchId> corners;
+  struct Use {
+    std::int32_t corner;
+    PatchId blocker;
+    std::int32_t part;
+  };
+  std::vector<Use> corners;
   for (const PatchId blocker : blockers)
-    for (const Vec3& v : scene.patches[blocker].Vertices()) corners.try_emplace(Key(v), blocker);
-  for (const auto& [key, blocker] : corners) {
-    const Vec3 v(std::get<0>(key), std::get<1>(key), std::get<2>(key));
-    const double hv = r.Height(v);
-    if (hv <= r.gap || s.Height(v) <= s.rounding) continue;
-    for (std::int32_t k = 0; k < s.patch.size; ++k) {
-      const Vec3 &a = s.patch.vertex[k], &b = s.patch.vertex[(k + 1) % s.patch.size];
-      const double ha = r.Height(a), hb = r.Height(b);
-      // The source's points above the corner whose rays through it end on the receiver.
-      SegmentClip clip;
-      clip.Keep(ha - hv - s.rounding, hb - hv - s.rounding);
-      for (std::size_t e = 0; e < s.lit.size() && !clip.Empty(); ++e) {
-        const Vec3 side = (s.lit[e] - v).cross(s.lit[(e + 1) % s.lit.size()] - v);
-        clip.Keep(side.dot(a - v), side.dot(b - v));
-      }
-      if (clip.Empty()) continue;
-      const Vec3 p = Between(a, b, clip.t0), q = Between(a, b, clip.t1);
+    for (std::int32_t k = 0; k < scene.patches[blocker].size; ++k)
+      corners.push_back({silhouettes.CornerAt(blocker, k), blocker, k});
+  std::stable_sort(corners.begin(), corners.end(),
+                   [](const Use& a, const Use& b) { return a.corner < b.corner; });
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (i > 0 && corners[i].corner == corners[i - 1].corner) continue;
+    AddCornerEvents(r, s, blockers, corners[i].blocker, corners[i].part, out);
+  }
+}
+
+void DiscontinuityFinder::Impl::AddCornerEvents(const Receiver& r, const SourceView& s, Blockers blockers,
+                                                PatchId blocker, std::int32_t part, Collector& out) const {
+  const std::int32_t corner = silhouettes.CornerAt(blocker, part);
+  const Vec3& v = silhouettes.Position(corner);
+  const double hv = r.Height(v);
+  if (hv <= r.gap || s.Height(v) <= s.rounding) return;
+  for (std::int32_t k = 0; k < s.patch.size; ++k) {
+    const Vec3 &a = s.patch.vertex[k], &b = s.patch.vertex[(k + 1) % s.patch.size];
+    const double ha = r.Height(a), hb = r.Height(b);
+    // The source's points above the corner whose rays through it end on the receiver.
+    SegmentClip clip;
+    clip.Keep(ha - hv - s.rounding, hb - hv - s.rounding);
+    for (std::size_t e = 0; e < s.lit.size() && !clip.Empty(); ++e) {
+      const Vec3 side = (s.lit[e] - v).cross(s.lit[(e + 1) % s.lit.size()] - v);
+      clip.Keep(side.dot(a - v), side.dot(b - v));
+    }
+    if (clip.Empty()) continue;
+    // Which of the corner's edges are silhouettes changes where the source's edge crosses a face's plane.
+    std::vector<double> cut = {clip.t0, clip.t1};
+    for (const PatchId face : silhouettes.PatchesAround(corner)) {
+      const Patch& patch = scene.patches[face];
+      const double fa = patch.normal.dot(a - v), fb = patch.normal.dot(b - v);
+      if (fa * fb < 0 && fa / (fa - fb) > clip.t0 && fa / (fa - fb) < clip.t1) cut.push_back(fa / (fa - fb));
+    }
+    std::sort(cut.begin(), cut.end());
+    for (std::size_t i = 0; i + 1 < cut.size(); ++i) {
+      if (!(cut[i] < cut[i + 1])) continue;
+      const Vec3 p = Between(a, b, cut[i]), q = Between(a, b, cut[i + 1]);
       const double hp = r.Height(p), hq = r.Height(q);
       Discontinuity d;
       d.kind = DiscontinuityKind::kEV;
       d.source = s.id;
       d.blocker = blocker;
+      d.source_part = k;
+      d.blocker_part = part;
+      d.strength = s.strength;
       d.geometric_weight = std::clamp(1 - hv / std::max(hp, hq), 0.0, 1.0);
-      d.weight = d.geometric_weight * s.strength;
-      if (d.weight < min_weight) continue;
-      out.Add(d, v + (v - p) * (hv / (hp - hv)), v + (v - q) * (hv / (hq - hv)));
+      if (out.TooLight(d.geometric_weight * s.strength)) continue;
+      const Vec3 middle = 0.5 * (p + q);
+      std::vector<Vec3> outline;  // the silhouette's edges at the corner
+      for (const std::int32_t edge : silhouettes.EdgesAround(corner))
+        if (silhouettes.IsSilhouette(edge, middle)) outline.push_back(silhouettes.Away(edge, corner));
+      if (outline.size() < 2) continue;
+      const double bend = outline[0].cross(outline[1]).norm();
+      if (outline.size() == 2 && outline[0].dot(outline[1]) < 0 &&
+          bend <= s.rounding * std::max(outline[0].norm(), outline[1].norm()))
+        continue;  // it runs on straight
+      MarkShared(s, k, corner, middle, &d);
+      Wedge wedge;
+      wedge.apex = v;
+      wedge.apex_height = hv;
+      wedge.through_apex = true;
+      wedge.end = {v + (v - p) * (hv / (hp - hv)), v + (v - q) * (hv / (hq - hv))};
+      out.AddWedge(d, wedge, s, blockers, [&](PatchId other) { return HasCorner(other, corner); });
     }
+  }
+}
+
+// D1 if a silhouette edge at the corner lies in one plane with the source's edge.
+void DiscontinuityFinder::Impl::MarkShared(const SourceView& s, std::int32_t source_edge, std::int32_t corner,
+                                           const Vec3& from, Discontinuity* d) const {
+  const Vec3& v = silhouettes.Position(corner);
+  const Vec3 &a = s.patch.vertex[source_edge], &b = s.patch.vertex[(source_edge + 1) % s.patch.size];
+  const Vec3 plane = (a - v).cross(b - v);
+  const double length = plane.norm();
+  for (const std::int32_t edge : silhouettes.EdgesAround(corner)) {
+    if (std::abs(plane.dot(silhouettes.Away(edge, corner))) > s.rounding * length) continue;
+    if (!silhouettes.IsSilhouette(edge, from)) continue;
+    d->degree = DiscontinuityDegree::kD1;
+    d->shared_source_edge = source_edge;
+    d->shared_blocker_edge = silhouettes.Sharing(edge).front();
+    return;
   }
 }
 
@@ -241,29 +343,31 @@ DiscontinuityFinder::DiscontinuityFinder(DiscontinuityFinder&&) noexcept = defau
 
 std::vector<Discontinuity> DiscontinuityFinder::Find(PatchId receiver,
                                                      std::span<const double> source_strength,
-                                                     double min_weight) const {
+                                                     const DiscontinuityOptions& options) const {
   PENUMBRA_CHECK(source_strength.size() == impl_->scene.patches.size());
-  const Patch& patch = impl_->scene.patches[receiver];
-  const double snap = SnapDistance(patch);
-  const Receiver r = {receiver, patch, PolygonFrame(patch.Vertices()), snap, std::max(snap, impl_->gap)};
+  const Receiver r = impl_->ReceiverOf(receiver);
   std::vector<Discontinuity> found;
-  Collector out(r, found);
+  Impl::Collector out(*impl_, r, options, found);
   impl_->AddContacts(r, out);
   for (const PatchPair& pair : impl_->visibility.SourcesOf(receiver)) {
     const double strength = source_strength[pair.source];
-    // The geometric weight is 1 at most.
-    if (!(strength > 0) || strength < min_weight) continue;
+    // The geometric weight, and the form factor of a source, are 1 at most.
+    if (!(strength > 0) || strength < options.min_weight) continue;
     const Patch& source = impl_->scene.patches[pair.source];
     const double rounding = std::max(r.snap, SnapDistance(source));
     const SourceView s = {pair.source, source, strength, rounding,
-                          ClipToHalfSpace(patch.Vertices(), source.normal, source.vertex[0])};
+                          ClipToHalfSpace(r.patch.Vertices(), source.normal, source.vertex[0])};
     if (s.lit.empty()) continue;
     impl_->AddHorizon(r, s, out);
-    const std::span<const PatchId> blockers = impl_->visibility.Blockers(pair);
-    impl_->AddVertexEdge(r, s, blockers, min_weight, out);
-    impl_->AddEdgeVertex(r, s, blockers, min_weight, out);
+    const Blockers blockers = impl_->visibility.Blockers(pair);
+    impl_->AddVertexEdge(r, s, blockers, out);
+    impl_->AddEdgeVertex(r, s, blockers, out);
   }
   return found;
+}
+
+IrradianceJump DiscontinuityFinder::Jump(const Discontinuity& d, const Vec2& at) const {
+  return impl_->JumpOf(impl_->ReceiverOf(d.receiver), d, at);
 }
 
 }  // namespace penumbra

@@ -16,6 +16,8 @@
 #include <span>
 #include <vector>
 
+#include "mesh/mesh_options.h"
+#include "mesh/silhouettes.h"
 #include "solver/geometry/polygon.h"
 #include "solver/scene/scene.h"
 #include "solver/visibility/patch_visibility.h"
@@ -25,8 +27,18 @@ namespace penumbra {
 enum class DiscontinuityKind : std::uint8_t { kVE, kEV, kHorizon, kContact };
 
 // The lowest derivative of the irradiance that jumps. Generic VE and EV events are D2, a horizon is D1 (so is
-// a VE event whose source edge and blocker edge share a plane), a contact D0.
+// an event whose source edge and blocker edge share a plane), a contact D0.
 enum class DiscontinuityDegree : std::uint8_t { kD0, kD1, kD2 };
+
+// What happens to the irradiance across a discontinuity, along the normal of its line in the receiver, for a
+// source of 1 W/m^2. Jumps are those of the derivatives; the largest changes bound what the jumps lead to on
+// a receiver so large that the event itself ends on it.
+struct IrradianceJump {
+  double gradient = 0;          // of D1 events [1/m]
+  double curvature = 0;         // of the second derivative, D2; infinite for D1 events [1/m^2]
+  double largest_gradient = 0;  // [1/m]
+  double largest_value = 0;     // [1]
+};
 
 // A segment of nonzero length on the receiver (thesis 5.5.3).
 struct Discontinuity {
@@ -34,13 +46,34 @@ struct Discontinuity {
   DiscontinuityKind kind = DiscontinuityKind::kVE;
   DiscontinuityDegree degree = DiscontinuityDegree::kD2;
   PatchId receiver = kNoPatch;
-  PatchId source = kNoPatch;    // kNoPatch for a contact
-  PatchId blocker = kNoPatch;   // kNoPatch for a horizon; the touching patch for a contact
+  PatchId source = kNoPatch;   // kNoPatch for a contact
+  PatchId blocker = kNoPatch;  // kNoPatch for a horizon; the touching patch for a contact
+  // VE: the source's vertex and the blocker's edge that meet; EV: the source's edge and the blocker's vertex.
+  // An edge has the number of the vertex where it starts.
+  std::int32_t source_part = -1, blocker_part = -1;
+  // Of a D1 event: the edges that lie in one plane.
+  std::int32_t shared_source_edge = -1;
+  PatchEdge shared_blocker_edge;
   double geometric_weight = 0;  // max(d_sb / d_sr), at most 1; 1 for a horizon, infinite for a contact
-  double weight = 0;            // times the source's strength [W/m^2] (thesis 5.3)
+  static constexpr int kJumps = 3;
+  std::array<IrradianceJump, kJumps> jump;  // at points spread along the segment
+  double strength = 0;                      // the source's largest radiosity [W/m^2]
+  double weight = 0;                        // on the receiver as a whole [W/m^2]: see Weight()
 };
 
 inline constexpr double kInfiniteWeight = std::numeric_limits<double>::infinity();
+
+// What the discontinuity weighs on a leaf of the size [m], the root of its area.
+//  kThesis: geometric_weight times strength (thesis 5.3), on any leaf.
+//  kIrradiance: an estimate of the largest error of the quadratic through a leaf's nodes, if it has no edge
+//  there: kKinkError x size x jump of the gradient, or kBendError x size^2 x jump of the second derivative;
+//  at most what the largest changes allow.
+double Weight(const Discontinuity& d, DiscontinuityWeight kind, double size);
+
+// The largest error over [0, 1] and over c of the quadratic through the values at 0, 1/2 and 1 of
+// max(0, x - c), and of max(0, x - c)^2 / 2. For a step it is its height.
+inline constexpr double kKinkError = 0.0962;
+inline constexpr double kBendError = 0.0188;
 
 // Finds the discontinuities on one receiver at a time. Lists which patches share an edge once, at
 // construction.
@@ -51,20 +84,27 @@ class DiscontinuityFinder {
   ~DiscontinuityFinder();
   DiscontinuityFinder(DiscontinuityFinder&&) noexcept;
 
-  // All contacts on the receiver, and its VE, EV and horizon discontinuities whose weight is at least
-  // `min_weight`. `source_strength` [W/m^2] holds for each patch the largest radiosity (over its leaves and
-  // the channels).
+  // All contacts on the receiver, and its VE, EV and horizon discontinuities whose weight on the receiver as
+  // a whole is at least options.min_weight. `source_strength` [W/m^2] holds for each patch the largest
+  // radiosity (over its leaves and the channels).
   //  (1) Every segment lies on the receiver and is longer than SnapDistance().
   //  (2) The same input gives the same list, in the same order. Equal segments may occur several times.
   //  (3) A VE event of an edge that two patches share is left out where both face the source's vertex, or
   //  both look
   //      away: the edge is no silhouette. Its copy from the second patch is left out as well.
-  //  (4) What comes within ContactGap() of the receiver touches it, and casts no shadow line of its own
+  //  Likewise an EV event of a corner at which fewer than two edges are silhouettes, or two in one line.
+  //  (4) Unless options.keep_hidden, parts of a segment are left out where another patch of the pair's
+  //  blockers stands in the lines from the receiver through vertex and edge.
+  //  (5) What comes within ContactGap() of the receiver touches it, and casts no shadow line of its own
   //  beside the
   //      contact.
   // Safe from any thread.
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
-                                  double min_weight) const;
+                                  const DiscontinuityOptions& options) const;
+
+  // Of a discontinuity of this scene at a point of its line, in the receiver's frame: JumpAt() across the
+  // line.
+  IrradianceJump Jump(const Discontinuity& d, const Vec2& at) const;
 
  private:
   struct Impl;

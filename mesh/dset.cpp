@@ -1,12 +1,14 @@
 #include "mesh/dset.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "mesh/leaf_margins.h"
 #include "solver/base/check.h"
+#include "solver/base/random.h"
 #include "solver/scene/tolerances.h"
 
 namespace penumbra {
@@ -64,30 +66,49 @@ struct Impinged {
 // Activates discontinuities one by one on the leaves of a patch.
 class Activation {
  public:
-  Activation(const ElementForest& forest, PatchId patch, int max_leaf_dsets)
+  Activation(const ElementForest& forest, PatchId patch, std::size_t max_leaf_dsets)
       : forest_(forest),
         frame_(PolygonFrame(forest.scene().patches[patch].Vertices())),
         snap_(SnapDistance(forest.scene().patches[patch])),
         max_leaf_dsets_(max_leaf_dsets),
         root_(BuildNode(ElementForest::Root(patch))) {
     touching.resize(leaves.size());
+    merged_.resize(leaves.size());
     inside_.resize(leaves.size());
   }
 
-  // True if the segment on the line now belongs to every leaf that it meets; false if one of them is full.
-  bool Try(const Vec2& a, const Vec2& b, std::int32_t line) {
+  // The leaves that the discontinuity meets, until the next call.
+  std::span<const Impinged> Meet(const Discontinuity& d) {
     impinged_.clear();
-    Descend(root_, a, b);
-    for (const Impinged& i : impinged_)
-      if (i.inside && !Contains(inside_[i.leaf], line) &&
-          static_cast<int>(inside_[i.leaf].size()) >= max_leaf_dsets_)
-        return false;
-    for (const Impinged& i : impinged_) {
-      if (i.inside && !Contains(inside_[i.leaf], line)) inside_[i.leaf].push_back(line);
-      if (!Contains(touching[i.leaf], line)) touching[i.leaf].push_back(line);
-    }
-    return true;
+    Descend(root_, d.end[0], d.end[1]);
+    return impinged_;
   }
+
+  // The size of the largest leaf whose inside it crosses [m]; 0 if there is none.
+  double LargestLeaf(const Discontinuity& d) {
+    double area = 0;
+    for (const Impinged& i : Meet(d))
+      if (i.inside) area = std::max(area, forest_[leaves[i.leaf]].area);
+    return std::sqrt(area);
+  }
+
+  bool Full(const Impinged& i, std::int32_t line) const {
+    return i.inside && !Contains(inside_[i.leaf], line) && inside_[i.leaf].size() >= max_leaf_dsets_;
+  }
+
+  // Makes the line one of the leaf's.
+  void Join(const Impinged& i, std::int32_t line) {
+    if (i.inside && !Contains(inside_[i.leaf], line)) inside_[i.leaf].push_back(line);
+    std::vector<std::int32_t>& lines = touching[i.leaf];
+    const auto place = static_cast<std::size_t>(std::find(lines.begin(), lines.end(), line) - lines.begin());
+    if (place == lines.size()) {
+      lines.push_back(line);
+      merged_[i.leaf].push_back(0);
+    }
+    most_merged_ = std::max(most_merged_, ++merged_[i.leaf][place]);
+  }
+
+  std::size_t most_merged() const { return most_merged_; }
 
   std::size_t InsideCount() const {
     std::size_t count = 0;
@@ -146,10 +167,12 @@ class Activation {
   const ElementForest& forest_;
   Frame frame_;
   double snap_;
-  int max_leaf_dsets_;
+  std::size_t max_leaf_dsets_;
   std::vector<Node> nodes_;
   std::int32_t root_;
   std::vector<std::vector<std::int32_t>> inside_;
+  std::vector<std::vector<std::size_t>> merged_;  // discontinuities of each line of `touching`
+  std::size_t most_merged_ = 0;
   std::vector<Impinged> impinged_;
 };
 
@@ -186,32 +209,83 @@ LineInterval ClipLine(const Vec2& origin, const Vec2& direction, const Polygon2&
   return clip;
 }
 
-PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
-                                   std::span<const Discontinuity> found,
-                                   const DiscontinuityOptions& options) {
-  PENUMBRA_CHECK(options.max_leaf_dsets >= 0);
-  PatchDSets result;
-  Activation activation(forest, patch, options.max_leaf_dsets);
-  Lines grouped;
+namespace {
+
+// Those to be tried, in the order in which they are.
+std::vector<std::size_t> InOrder(std::span<const Discontinuity> found, const DiscontinuityOptions& options,
+                                 PatchId patch, Activation& activation) {
   std::vector<std::size_t> order;
-  if (options.enabled) {
-    grouped = GroupCollinear(found, SnapDistance(forest.scene().patches[patch]));
+  if (!options.enabled()) return order;
+  std::vector<double> weight(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    weight[i] = found[i].weight;
+    if (options.weight == DiscontinuityWeight::kIrradiance)
+      weight[i] = Weight(found[i], options.weight, activation.LargestLeaf(found[i]));
+    if (weight[i] >= options.min_weight || options.choice == DiscontinuityChoice::kAll) order.push_back(i);
+  }
+  if (options.choice == DiscontinuityChoice::kRandom) {
+    Random random(options.seed, static_cast<std::uint64_t>(patch));
     for (std::size_t i = 0; i < found.size(); ++i)
-      if (found[i].weight >= options.min_weight) order.push_back(i);
+      if (found[i].kind != DiscontinuityKind::kContact) weight[i] = random.Uniform();
   }
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return found[a].weight > found[b].weight; });
+                   [&](std::size_t a, std::size_t b) { return weight[a] > weight[b]; });
+  return order;
+}
+
+}  // namespace
+
+PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
+                                   std::span<const Discontinuity> found, const DiscontinuityOptions& options,
+                                   const LeafFilter& filter) {
+  PENUMBRA_CHECK(options.max_leaf_dsets >= 0);
+  const bool adaptive = options.choice == DiscontinuityChoice::kAdaptive;
+  PENUMBRA_CHECK(!adaptive || filter);
+  PatchDSets result;
+  Activation activation(forest, patch,
+                        options.choice == DiscontinuityChoice::kAll
+                            ? std::numeric_limits<std::size_t>::max()
+                            : static_cast<std::size_t>(options.max_leaf_dsets));
+  Lines grouped;
+  if (options.enabled()) grouped = GroupCollinear(found, SnapDistance(forest.scene().patches[patch]));
 
   std::vector<std::int32_t> number(grouped.lines.size(), -1);  // of a line among the active ones
-  for (const std::size_t i : order) {
+  std::vector<ElementId> full;
+  for (const std::size_t i : InOrder(found, options, patch, activation)) {
     const Discontinuity& d = found[i];
+    const bool contact = d.kind == DiscontinuityKind::kContact;
     std::int32_t& line = number[grouped.line_of[i]];
     const auto candidate = line >= 0 ? line : static_cast<std::int32_t>(result.lines.size());
-    if (!activation.Try(d.end[0], d.end[1], candidate)) {
-      ++result.refused;
-      if (d.kind == DiscontinuityKind::kContact) ++result.refused_contacts;
-      continue;
+    full.clear();
+    std::size_t joined = 0, room = 0;
+    const std::span<const Impinged> impinged = activation.Meet(d);
+    for (const Impinged& leaf : impinged) {
+      if (activation.Full(leaf, candidate)) {
+        full.push_back(activation.leaves[leaf.leaf]);
+      } else if (leaf.inside) {
+        ++room;
+      }
     }
+    if (!adaptive || contact) {
+      if (full.empty())
+        for (const Impinged& leaf : impinged) {
+          activation.Join(leaf, candidate);
+          ++joined;
+        }
+    } else {
+      for (const Impinged& leaf : impinged)
+        if (!activation.Full(leaf, candidate) && filter(d, activation.leaves[leaf.leaf])) {
+          activation.Join(leaf, candidate);
+          ++joined;
+        }
+    }
+    if (!full.empty() && joined == 0) {
+      ++result.refused;
+      if (contact) ++result.refused_contacts;
+      if (contact || full.size() <= room)
+        result.crowded.insert(result.crowded.end(), full.begin(), full.end());
+    }
+    if (joined == 0) continue;
     ++result.activated;
     if (line < 0) {
       line = candidate;
@@ -227,6 +301,9 @@ PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
     Unite(line.cover);
     Unite(line.contact);
   }
+  result.most_merged = activation.most_merged();
+  std::sort(result.crowded.begin(), result.crowded.end());
+  result.crowded.erase(std::unique(result.crowded.begin(), result.crowded.end()), result.crowded.end());
   result.dsets_active = activation.InsideCount();
   result.leaves = std::move(activation.leaves);
   result.leaf_lines = std::move(activation.touching);

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -57,17 +58,28 @@ struct PatchDSets {
   std::size_t dsets_active = 0;      // DSets that cross the inside of their leaf
   std::size_t refused = 0;           // discontinuities that would have crowded a leaf
   std::size_t refused_contacts = 0;  // of these, contacts
+  std::size_t most_merged = 0;       // active discontinuities in one DSet, at most
+  // Leaves for whose sake a discontinuity was refused everywhere: they were full, and at most as many as
+  // those with room for it; or it was a contact. Ascending.
+  std::vector<ElementId> crowded;
 };
+
+// True if the discontinuity may become an edge of the leaf; asked for contacts never.
+using LeafFilter = std::function<bool(const Discontinuity&, ElementId)>;
 
 // Activates the discontinuities in order of weight, contacts first, each for all leaves on which it impinges
 // or for none (thesis 5.5.7).
-//  (1) An active discontinuity weighs at least options.min_weight.
+//  (1) An active discontinuity weighs at least options.min_weight. In the irradiance weight its leaf is the
+//  largest on which it impinges.
 //  (2) At most options.max_leaf_dsets lines run through the inside of any leaf. Those along a leaf's border
-//  add no
-//      edge and do not count.
+//  add no edge and do not count.
 //  (3) The heaviest come first; of equal weight, the one found first.
-// REQUIRES: the patch's quadtree is balanced; `found` are discontinuities on this patch.
+// DiscontinuityChoice changes this: kRandom puts (3) in a random order, kAll knows no (1) and (2), and
+// kAdaptive activates in each leaf that the filter lets pass what fits there, whatever becomes of other
+// leaves. REQUIRES: the patch's quadtree is balanced; `found` are discontinuities on this patch; a filter for
+// kAdaptive.
 PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
-                                   std::span<const Discontinuity> found, const DiscontinuityOptions& options);
+                                   std::span<const Discontinuity> found, const DiscontinuityOptions& options,
+                                   const LeafFilter& filter = {});
 
 }  // namespace penumbra

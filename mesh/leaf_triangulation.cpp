@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <unordered_map>
 #include <utility>
 
 #include "mesh/convex_triangulation.h"
@@ -16,150 +15,7 @@
 namespace penumbra {
 namespace {
 
-using VertexId = std::uint32_t;
-
-// A stretch of leaves' borders between neighbouring lattice vertices. Leaves on both sides refer to it.
-struct Stretch {
-  VertexId a, b;                                           // ascending lattice points
-  std::vector<std::pair<double, std::int32_t>> crossings;  // (fraction from a to b, line)
-  std::vector<VertexId> inner;                             // vertices between a and b, from a
-};
-
-struct StretchUse {
-  std::uint32_t stretch;
-  bool reversed;
-};
-
-struct StretchKey {
-  LatticePoint a, b;
-  bool operator==(const StretchKey&) const = default;
-};
-struct StretchKeyHash {
-  std::size_t operator()(const StretchKey& k) const {
-    return LatticePointHash()(k.a) * 31 + LatticePointHash()(k.b);
-  }
-};
-
-// The border vertices of a patch's leaves.
-class Borders {
- public:
-  Borders(const ElementForest& forest, const Patch& patch, const PatchDSets& dsets)
-      : forest_(forest),
-        patch_(patch),
-        dsets_(dsets),
-        frame(PolygonFrame(patch.Vertices())),
-        snap(SnapDistance(patch)) {
-    for (const ElementId leaf : dsets.leaves)
-      for (const LatticePoint& p : forest[leaf].Corners()) AddCorner(p);
-    for (const ElementId leaf : dsets.leaves) AddStretches(forest[leaf]);
-    for (std::size_t leaf = 0; leaf < dsets.leaves.size(); ++leaf)
-      for (const std::int32_t line : dsets.leaf_lines[leaf])
-        for (const StretchUse& use : uses_[leaf]) Cross(stretches_[use.stretch], line);
-    for (Stretch& stretch : stretches_) PlaceCrossings(stretch);
-  }
-
-  // The vertices around a leaf, counter-clockwise.
-  void Around(std::size_t leaf, std::vector<VertexId>& loop) const {
-    loop.clear();
-    for (const StretchUse& use : uses_[leaf]) {
-      const Stretch& s = stretches_[use.stretch];
-      loop.push_back(use.reversed ? s.b : s.a);
-      if (use.reversed) {
-        loop.insert(loop.end(), s.inner.rbegin(), s.inner.rend());
-      } else {
-        loop.insert(loop.end(), s.inner.begin(), s.inner.end());
-      }
-    }
-  }
-
-  std::vector<Vec3> positions;
-  std::vector<Vec2> in_plane;
-
- private:
-  void AddCorner(const LatticePoint& p) {
-    const auto [place, added] = corner_.try_emplace(p, static_cast<VertexId>(positions.size()));
-    if (!added) return;
-    positions.push_back(LatticePosition(patch_, p));
-    in_plane.push_back(frame.ToPlane(positions.back()));
-  }
-
-  void AddStretches(const Element& leaf) {
-    std::vector<StretchUse>& uses = uses_.emplace_back();
-    for (std::int32_t k = 0; k < leaf.size; ++k) {
-      const LatticePoint a = leaf.corner[k], b = leaf.corner[(k + 1) % leaf.size];
-      const bool halves = (a.x + b.x) % 2 == 0 && (a.y + b.y) % 2 == 0;
-      if (halves && corner_.contains(Midpoint(a, b))) {
-        uses.push_back(Use(a, Midpoint(a, b)));
-        uses.push_back(Use(Midpoint(a, b), b));
-      } else {
-        uses.push_back(Use(a, b));
-      }
-    }
-  }
-
-  StretchUse Use(const LatticePoint& from, const LatticePoint& to) {
-    const bool reversed = to < from;
-    const StretchKey key = reversed ? StretchKey{to, from} : StretchKey{from, to};
-    const auto [place, added] = stretch_.try_emplace(key, static_cast<std::uint32_t>(stretches_.size()));
-    if (added) stretches_.push_back({corner_.at(key.a), corner_.at(key.b), {}, {}});
-    return {place->second, reversed};
-  }
-
-  // Notes where the line crosses the stretch, or where discontinuities end that run along it. A corner within
-  // the snap distance of the line lies on it.
-  void Cross(Stretch& stretch, std::int32_t number) const {
-    const DiscontinuityLine& line = dsets_.lines[number];
-    const double da = line.Distance(in_plane[stretch.a]), db = line.Distance(in_plane[stretch.b]);
-    const bool a_on = std::abs(da) <= snap, b_on = std::abs(db) <= snap;
-    if (a_on && b_on) NoteEnds(stretch, number);
-    if (a_on || b_on || (da > 0) == (db > 0)) return;
-    const double fraction = da / (da - db);
-    const Vec2 at = in_plane[stretch.a] + fraction * (in_plane[stretch.b] - in_plane[stretch.a]);
-    if (Covers(line.cover, line.Along(at), kLeafReach * snap))
-      stretch.crossings.push_back({fraction, number});
-  }
-
-  // The stretch lies on the line: what ends within it needs a vertex there, or its edge would be marked too
-  // far.
-  void NoteEnds(Stretch& stretch, std::int32_t number) const {
-    const DiscontinuityLine& line = dsets_.lines[number];
-    const double a = line.Along(in_plane[stretch.a]), b = line.Along(in_plane[stretch.b]);
-    for (const auto* intervals : {&line.cover, &line.contact})
-      for (const LineInterval& i : *intervals)
-        for (const double end : {i.t0, i.t1})
-          if (end > std::min(a, b) + snap && end < std::max(a, b) - snap)
-            stretch.crossings.push_back({(end - a) / (b - a), number});
-  }
-
-  // Crossings within the snap distance of each other become one vertex.
-  void PlaceCrossings(Stretch& stretch) {
-    std::sort(stretch.crossings.begin(), stretch.crossings.end());
-    const double length = (in_plane[stretch.b] - in_plane[stretch.a]).norm();
-    double last = -1;
-    for (const auto& [fraction, line] : stretch.crossings) {
-      if (last >= 0 && (fraction - last) * length <= snap) continue;
-      last = fraction;
-      stretch.inner.push_back(static_cast<VertexId>(positions.size()));
-      // Copies: the vectors grow.
-      const Vec3 a = positions[stretch.a], b = positions[stretch.b];
-      const Vec2 a2 = in_plane[stretch.a], b2 = in_plane[stretch.b];
-      positions.push_back((1 - fraction) * a + fraction * b);
-      in_plane.push_back((1 - fraction) * a2 + fraction * b2);
-    }
-  }
-
-  const ElementForest& forest_;
-  const Patch& patch_;
-  const PatchDSets& dsets_;
-  std::unordered_map<LatticePoint, VertexId, LatticePointHash> corner_;
-  std::unordered_map<StretchKey, std::uint32_t, StretchKeyHash> stretch_;
-  std::vector<Stretch> stretches_;
-  std::vector<std::vector<StretchUse>> uses_;  // per leaf, counter-clockwise
-
- public:
-  const Frame frame;
-  const double snap;
-};
+using VertexId = PatchBorders::VertexId;
 
 // One leaf's triangles. Vertices from kInside on are its own.
 struct LeafMesh {
@@ -172,7 +28,7 @@ struct LeafMesh {
 // Triangulates leaves one after the other. One object a thread.
 class LeafTriangulator {
  public:
-  LeafTriangulator(const ElementForest& forest, const Borders& borders, const PatchDSets& dsets)
+  LeafTriangulator(const ElementForest& forest, const PatchBorders& borders, const PatchDSets& dsets)
       : forest_(forest), borders_(borders), dsets_(dsets) {}
 
   LeafMesh Triangulate(std::size_t leaf) {
@@ -353,7 +209,7 @@ class LeafTriangulator {
   }
 
   const ElementForest& forest_;
-  const Borders& borders_;
+  const PatchBorders& borders_;
   const PatchDSets& dsets_;
   std::vector<VertexId> loop_;  // the patch's ids of the first border_size_ points
   std::vector<Vec2> points_;    // around the border, then the ends of segments inside
@@ -372,8 +228,11 @@ class LeafTriangulator {
 }  // namespace
 
 PatchTriangulation TriangulateLeaves(const ElementForest& forest, PatchId patch, const PatchDSets& dsets) {
-  PENUMBRA_CHECK(dsets.leaf_lines.size() == dsets.leaves.size());
-  Borders borders(forest, forest.scene().patches[patch], dsets);
+  return TriangulateLeaves(forest, patch, dsets, PatchBorders(forest, patch, dsets));
+}
+
+PatchTriangulation TriangulateLeaves(const ElementForest& forest, PatchId patch, const PatchDSets& dsets,
+                                     PatchBorders borders) {
   std::vector<LeafMesh> meshes(dsets.leaves.size());
   constexpr std::size_t kLeavesATask = 32;
   ParallelForChunks(meshes.size(), kLeavesATask, [&](std::size_t begin, std::size_t end) {

@@ -3,10 +3,9 @@
 // The triangles of a patch: every leaf of its quadtree, triangulated along its active discontinuities
 // (thesis 5.2, 5.5), without a T-vertex inside the patch (3.6, cases A and B).
 //
-// How neighbouring leaves come to agree: the vertices on their common border are decided once, for the patch.
-// They are the corners of leaves (hanging ones as well) and, on each stretch between two of these, the
-// crossings with the lines that are active in either leaf. Each has one position, whoever asks. Inside a leaf
-// nothing has to agree with anybody; there it is enough to keep away from the border (leaf_margins.h).
+// How neighbouring leaves come to agree: the vertices on their common border are decided once, for the patch
+// (PatchBorders). Inside a leaf nothing has to agree with anybody; there it is enough to keep away from the
+// border (leaf_margins.h).
 
 #pragma once
 
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "mesh/dset.h"
+#include "mesh/patch_borders.h"
 #include "solver/geometry/vec.h"
 #include "solver/transport/element_forest.h"
 
@@ -47,5 +47,9 @@ struct PatchTriangulation {
 // Triangulates the leaves of dsets.leaves, in parallel. The same input gives the same bytes.
 // REQUIRES: the quadtree is balanced, and has not changed since `dsets` were made.
 PatchTriangulation TriangulateLeaves(const ElementForest& forest, PatchId patch, const PatchDSets& dsets);
+// The same with borders that were made before from the same arguments, and may have been welded to those of
+// other patches.
+PatchTriangulation TriangulateLeaves(const ElementForest& forest, PatchId patch, const PatchDSets& dsets,
+                                     PatchBorders borders);
 
 }  // namespace penumbra

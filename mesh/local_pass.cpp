@@ -1,9 +1,13 @@
 #include "mesh/local_pass.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "mesh/discontinuity.h"
 #include "mesh/dset.h"
+#include "mesh/shadow_crossing.h"
+#include "mesh/weld.h"
 #include "solver/base/parallel.h"
 #include "solver/base/stopwatch.h"
 
@@ -17,6 +21,34 @@ std::vector<double> SourceStrengths(const RadiositySolution& solution) {
   return strength;
 }
 
+namespace {
+
+PatchDSets Activate(const ElementForest& forest, const PatchVisibility& visibility, PatchId patch,
+                    std::span<const Discontinuity> found, const DiscontinuityOptions& options) {
+  if (options.choice != DiscontinuityChoice::kAdaptive)
+    return ActivateDiscontinuities(forest, patch, found, options);
+  ShadowCrossing crossing(forest, visibility, patch);
+  return ActivateDiscontinuities(forest, patch, found, options, [&](const Discontinuity& d, ElementId leaf) {
+    return crossing.Crosses(d.source, leaf);
+  });
+}
+
+// Splits the crowded leaves of the patch, and what balance asks for. Returns how many were crowded.
+std::size_t SplitCrowded(ElementForest& forest, PatchId patch, std::span<const ElementId> crowded,
+                         double min_area) {
+  std::size_t split = 0;
+  for (const ElementId leaf : crowded) {
+    constexpr int kChildren = 4;
+    if (forest[leaf].level >= kMaxLevel || forest[leaf].area < kChildren * min_area) continue;
+    forest.Subdivide(leaf);
+    ++split;
+  }
+  if (split > 0) forest.Balance(patch);
+  return split;
+}
+
+}  // namespace
+
 std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibility,
                                                    const RadiositySolution& solution,
                                                    const DiscontinuityOptions& options,
@@ -27,29 +59,54 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
   context.Report("discontinuities", 0);
   Stopwatch finding;
   std::vector<PatchDSets> dsets(count);
-  std::vector<std::size_t> found_count(count, 0);
+  std::vector<std::vector<Discontinuity>> found(count);
   const std::vector<double> strength = SourceStrengths(solution);
   const DiscontinuityFinder finder(scene, visibility);
   ParallelFor(count, 1, [&](std::size_t p) {
-    if (context.Cancelled()) return;
-    const auto patch = static_cast<PatchId>(p);
-    std::vector<Discontinuity> found;
-    if (options.enabled) found = finder.Find(patch, strength, options.min_weight);
-    found_count[p] = found.size();
-    dsets[p] = ActivateDiscontinuities(solution.forest, patch, found, options);
+    if (options.enabled() && !context.Cancelled())
+      found[p] = finder.Find(static_cast<PatchId>(p), strength, options);
   });
+  // The mesh may be finer than the solution: it has quadtrees of its own.
+  ElementForest forest = solution.forest;
+  std::vector<std::size_t> patches_to_do(count);
+  std::iota(patches_to_do.begin(), patches_to_do.end(), std::size_t{0});
+  for (int round = 0; !patches_to_do.empty() && !context.Cancelled(); ++round) {
+    ParallelFor(patches_to_do.size(), 1, [&](std::size_t i) {
+      const std::size_t p = patches_to_do[i];
+      dsets[p] = Activate(forest, visibility, static_cast<PatchId>(p), found[p], options);
+    });
+    if (round == options.crowded_splits) break;
+    std::vector<std::size_t> again;
+    for (const std::size_t p : patches_to_do) {
+      const std::size_t split =
+          SplitCrowded(forest, static_cast<PatchId>(p), dsets[p].crowded, options.min_split_area);
+      report.counts.leaves_split += split;
+      if (split > 0) again.push_back(p);
+    }
+    patches_to_do.swap(again);
+  }
   report.seconds.discontinuities += finding.Seconds();
 
   Stopwatch triangulating;
   std::vector<PatchTriangulation> patches(count);
+  std::vector<PatchBorders> borders;
+  if (!context.Cancelled()) {
+    borders.resize(count);
+    ParallelFor(count, 1,
+                [&](std::size_t p) { borders[p] = PatchBorders(forest, static_cast<PatchId>(p), dsets[p]); });
+    WeldOutlines(scene, borders);
+  }
   for (std::size_t p = 0; p < count && !context.Cancelled(); ++p) {
     context.Report("triangulate", static_cast<double>(p) / static_cast<double>(count));
-    patches[p] = TriangulateLeaves(solution.forest, static_cast<PatchId>(p), dsets[p]);
-    report.counts.discontinuities += found_count[p];
+    patches[p] = TriangulateLeaves(forest, static_cast<PatchId>(p), dsets[p], std::move(borders[p]));
+    for (ElementId& leaf : patches[p].leaves)
+      while (static_cast<std::size_t>(leaf) >= solution.forest.size()) leaf = forest[leaf].parent;
+    report.counts.discontinuities += found[p].size();
     report.counts.activated += dsets[p].activated;
     report.counts.dsets_active += dsets[p].dsets_active;
     report.counts.refused += dsets[p].refused;
     report.counts.refused_contacts += dsets[p].refused_contacts;
+    report.counts.most_merged = std::max(report.counts.most_merged, dsets[p].most_merged);
     report.counts.dropped_segments += patches[p].dropped_segments;
     report.counts.triangles += patches[p].triangles.size();
   }

@@ -26,8 +26,9 @@ struct MeshResult {
 // The largest radiosity of each patch, over its leaves and the channels [W/m^2].
 std::vector<double> SourceStrengths(const RadiositySolution& solution);
 
-// Triangulates all patches of the solution; counts and seconds are added to the report.
-// REQUIRES: the quadtrees are balanced.
+// Triangulates all patches of the solution; counts and seconds are added to the report. The mesh may split
+// leaves of the solution further: the `leaves` of a triangulation name for each of its leaves the solution's
+// that it is part of. REQUIRES: the quadtrees are balanced.
 std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibility,
                                                    const RadiositySolution& solution,
                                                    const DiscontinuityOptions& options,

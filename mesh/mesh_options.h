@@ -9,11 +9,35 @@
 
 namespace penumbra {
 
+// What a discontinuity weighs. A contact weighs infinitely much in either way.
+enum class DiscontinuityWeight : std::uint8_t {
+  kThesis,      // how near the blocker is to the receiver, times the source's radiosity (thesis 5.3)
+  kIrradiance,  // the error that a leaf's quadratic would make without the edge (after the thesis's 8.2)
+};
+
+// Which discontinuities become edges of the mesh.
+enum class DiscontinuityChoice : std::uint8_t {
+  kRanked,    // the heaviest, as many as a leaf may have (thesis 5.5.7)
+  kAdaptive,  // those that cross a leaf whose corners see different parts of the source (Stuerzlinger 1994)
+  kNone,      // the leaves alone
+  kRandom,    // in random order, as many as a leaf may have: to compare with ranking
+  kAll,       // all, however many a leaf gets
+};
+
 // Which discontinuities become edges of the mesh (thesis 5.2, Appendix A).
 struct DiscontinuityOptions {
-  bool enabled = true;      // false: the leaves alone
-  double min_weight = 0;    // Tree::minDiscontWeight [W/m^2]; contacts weigh infinitely much
-  int max_leaf_dsets = 10;  // Tree::maxLeafDSets: discontinuity edges within one leaf
+  DiscontinuityChoice choice = DiscontinuityChoice::kRanked;
+  DiscontinuityWeight weight = DiscontinuityWeight::kThesis;
+  double min_weight = 0;     // Tree::minDiscontWeight [W/m^2]
+  int max_leaf_dsets = 10;   // Tree::maxLeafDSets: discontinuity edges within one leaf
+  bool keep_hidden = false;  // also the parts of wedges that end at another blocker, as in the thesis
+  std::uint64_t seed = 1;    // of the random order
+  // Leaves that are too full for a discontinuity, which other leaves would take, are split as often as this;
+  // 0: not, as in the thesis. None becomes smaller than the area [m^2].
+  int crowded_splits = 0;
+  double min_split_area = 0;
+
+  bool enabled() const { return choice != DiscontinuityChoice::kNone; }
 };
 
 enum class InterpolantOrder : std::uint8_t {
@@ -35,6 +59,8 @@ struct MeshReport {
     std::size_t refused = 0;           // left out because a leaf was full
     std::size_t refused_contacts = 0;  // of these, contacts: there the picture leaks
     std::size_t dropped_segments = 0;  // too close to a leaf's border for a conforming triangulation
+    std::size_t most_merged = 0;       // active discontinuities in one discontinuity edge of a leaf
+    std::size_t leaves_split = 0;      // since they were crowded
     std::size_t triangles = 0;
     std::size_t interpolants = 0;
     std::size_t point_evaluations = 0;  // calls of IrradianceAtPoint()

@@ -22,7 +22,10 @@ namespace {
 constexpr double kEpsOfMeanIrradiance = 2;  // eps = this x error x mean irradiance
 constexpr double kWeightOfStrongest = 5;    // minimum weight = this x error x largest emittance, at most ...
 constexpr double kLargestWeight = 0.25;     // ... this x largest emittance
-constexpr double kMinAreaOfScene = 1e-7;    // of the fronts' total area
+// In the irradiance weight: what an edge left out may cost, as a part of error x mean irradiance.
+constexpr double kWeightOfMeanIrradiance = 0.5;
+constexpr int kCrowdedSplits = 3;         // DiscontinuityOptions::crowded_splits
+constexpr double kMinAreaOfScene = 1e-7;  // of the fronts' total area
 constexpr double kCutoffOfError = 0.005;
 
 struct SceneTotals {
@@ -58,23 +61,29 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   resolved.solver.max_iterations = options.max_iterations;
   resolved.solver.max_corrections = options.max_corrections;
   resolved.solver.accelerate = options.accelerate;
-  resolved.min_discontinuity_weight = options.min_discontinuity_weight.value_or(
-      std::min(kLargestWeight, kWeightOfStrongest * options.error) * totals.strongest);
-  resolved.max_leaf_dsets = options.max_leaf_dsets;
+  DiscontinuityOptions& mesh = resolved.discontinuities;
+  mesh.choice = options.discontinuities;
+  mesh.weight = options.weight.value_or(options.min_discontinuity_weight ? DiscontinuityWeight::kThesis
+                                                                         : DiscontinuityWeight::kIrradiance);
+  const double from_error =
+      mesh.weight == DiscontinuityWeight::kThesis
+          ? std::min(kLargestWeight, kWeightOfStrongest * options.error) * totals.strongest
+          : kWeightOfMeanIrradiance * options.error * mean;
+  mesh.min_weight = options.min_discontinuity_weight.value_or(from_error);
+  mesh.max_leaf_dsets = options.max_leaf_dsets;
+  mesh.keep_hidden = options.keep_hidden_discontinuities;
+  mesh.seed = options.seed;
+  mesh.crowded_splits = kCrowdedSplits;
+  mesh.min_split_area = resolved.solver.min_area;
   return resolved;
 }
 
 struct Pipeline::Impl {
-  Impl(const Scene& the_scene, const PipelineOptions& the_options)
-      : scene(the_scene), options(the_options), resolved(Resolve(the_scene, the_options)) {}
-
   const Scene& scene;
   PipelineOptions options;
   ResolvedOptions resolved;
   PatchVisibility visibility;
   std::unique_ptr<HierarchicalSolver> solver;  // null until the roots are linked
-  std::optional<RadiositySolution> stored;     // that another one made, until a step begins anew
-  std::optional<MeshKind> mesh_kind;           // of a mesh of the present solution
   IrradianceMesh mesh;
   std::unique_ptr<MeshLocator> locator;
   PipelineReport report;
@@ -91,16 +100,12 @@ struct Pipeline::Impl {
       phase->seconds += seconds;
   }
 
-  const RadiositySolution& Solution() const {
-    PENUMBRA_CHECK(solver != nullptr || stored);
-    return stored ? *stored : solver->solution();
-  }
-
   const PointIrradiance& Irradiance() {
+    PENUMBRA_CHECK(solver != nullptr);
     const std::lock_guard<std::mutex> lock(irradiance_making);
     if (!irradiance) {
       const Stopwatch stopwatch;
-      irradiance = std::make_unique<PointIrradiance>(Solution(), visibility, options.point);
+      irradiance = std::make_unique<PointIrradiance>(solver->solution(), visibility, options.point);
       AddPhase("iterate", stopwatch.Seconds());
     }
     return *irradiance;
@@ -116,20 +121,14 @@ struct Pipeline::Impl {
   bool Run(const ExecutionContext& context, const Step& step) {
     const Stopwatch stopwatch;
     const bool done = step(*solver, context);
-    if (done) Forget();
+    if (done) irradiance.reset();
     AddPhase("iterate", stopwatch.Seconds());
     Count();
     return done;
   }
 
-  // What was made of a solution that is no more.
-  void Forget() {
-    irradiance.reset();
-    mesh_kind.reset();
-  }
-
   void Count() {
-    const RadiositySolution& solution = Solution();
+    const RadiositySolution& solution = solver->solution();
     PipelineReport::Counts& counts = report.counts;
     counts.patches = scene.patches.size();
     counts.emitters = 0;
@@ -145,18 +144,9 @@ struct Pipeline::Impl {
   }
 };
 
-Pipeline::Pipeline(const Scene& scene, const PipelineOptions& options) : impl_(new Impl(scene, options)) {
+Pipeline::Pipeline(const Scene& scene, const PipelineOptions& options)
+    : impl_(new Impl{scene, options, Resolve(scene, options), {}, {}, {}, {}, {}, {}, {}}) {
   impl_->report.error_asked = options.error;
-}
-
-Pipeline::Pipeline(const Scene& scene, const PipelineOptions& options, PipelineState state)
-    : impl_(new Impl(scene, options)) {
-  impl_->visibility = std::move(state.visibility);
-  impl_->stored = std::move(state.solution);
-  impl_->mesh_kind = state.mesh_kind;
-  impl_->mesh = std::move(state.mesh);
-  impl_->locator = std::make_unique<MeshLocator>(scene, impl_->mesh);
-  impl_->report = std::move(state.report);
 }
 
 Pipeline::~Pipeline() = default;
@@ -165,12 +155,6 @@ void Pipeline::Link(const ExecutionContext& context) {
   if (impl_->solver) return;
   context.Report("link", 0);
   const Stopwatch linking;
-  if (impl_->stored) {
-    impl_->stored.reset();
-    impl_->Forget();
-    impl_->report = {};
-    impl_->report.error_asked = impl_->options.error;
-  }
   impl_->visibility = PatchVisibility(impl_->scene);
   impl_->solver =
       std::make_unique<HierarchicalSolver>(impl_->scene, impl_->visibility, impl_->resolved.solver);
@@ -229,17 +213,15 @@ void Pipeline::Solve(const ExecutionContext& context) {
 }
 
 void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context) {
-  if (impl_->mesh_kind == kind) return;
   MeshOptions options;
-  options.discontinuities.enabled = kind == MeshKind::kGouraudMesh || kind == MeshKind::kInterpolant;
-  options.discontinuities.min_weight = impl_->resolved.min_discontinuity_weight;
-  options.discontinuities.max_leaf_dsets = impl_->resolved.max_leaf_dsets;
+  options.discontinuities = impl_->resolved.discontinuities;
+  if (kind != MeshKind::kGouraudMesh && kind != MeshKind::kInterpolant)
+    options.discontinuities.choice = DiscontinuityChoice::kNone;
   options.order = kind == MeshKind::kFlat          ? InterpolantOrder::kConstant
                   : kind == MeshKind::kInterpolant ? InterpolantOrder::kQuadratic
                                                    : InterpolantOrder::kLinear;
   MeshResult result = RunLocalPass(impl_->visibility, solution(), impl_->Sampler(), options, context);
   impl_->mesh = std::move(result.mesh);
-  impl_->mesh_kind = context.Cancelled() ? std::nullopt : std::optional(kind);
   impl_->locator = std::make_unique<MeshLocator>(impl_->scene, impl_->mesh);
 
   impl_->AddPhase("discontinuities", result.report.seconds.discontinuities);
@@ -248,6 +230,7 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context) {
   PipelineReport::Counts& counts = impl_->report.counts;
   counts.discontinuities = result.report.counts.discontinuities;
   counts.dsets_active = result.report.counts.dsets_active;
+  counts.most_merged = result.report.counts.most_merged;
   counts.triangles = result.report.counts.triangles;
   counts.interpolants = result.report.counts.interpolants;
   counts.point_evaluations = result.report.counts.point_evaluations;
@@ -255,7 +238,7 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context) {
     impl_->report.unmet.push_back(
         fmt::format("discontinuities: {} contact edges left out, since a leaf would have more "
                     "than {} discontinuity edges",
-                    result.report.counts.refused_contacts, impl_->resolved.max_leaf_dsets));
+                    result.report.counts.refused_contacts, impl_->resolved.discontinuities.max_leaf_dsets));
 }
 
 void Pipeline::Measure(const ExecutionContext& context) {
@@ -283,13 +266,14 @@ void Pipeline::Measure(const ExecutionContext& context) {
 }
 
 const Scene& Pipeline::scene() const { return impl_->scene; }
-const PipelineOptions& Pipeline::options() const { return impl_->options; }
 const ResolvedOptions& Pipeline::resolved() const { return impl_->resolved; }
-const RadiositySolution& Pipeline::solution() const { return impl_->Solution(); }
+const RadiositySolution& Pipeline::solution() const {
+  PENUMBRA_CHECK(impl_->solver != nullptr);
+  return impl_->solver->solution();
+}
 const PatchVisibility& Pipeline::visibility() const { return impl_->visibility; }
 const PointIrradiance& Pipeline::irradiance() const { return impl_->Irradiance(); }
 const IrradianceMesh& Pipeline::mesh() const { return impl_->mesh; }
-std::optional<MeshKind> Pipeline::mesh_kind() const { return impl_->mesh_kind; }
 const PipelineReport& Pipeline::report() const { return impl_->report; }
 
 std::optional<Rgb> Pipeline::Interpolated(PatchId patch, const Vec3& point, double reach) const {

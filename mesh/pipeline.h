@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "mesh/irradiance_mesh.h"
+#include "mesh/mesh_options.h"
 #include "mesh/representation_error.h"
 #include "solver/base/progress.h"
 #include "solver/scene/scene.h"
@@ -31,8 +32,13 @@ struct PipelineOptions {
   std::optional<double> min_area;                  // [m^2] Appendix A, 2
   std::optional<double> min_discontinuity_weight;  // [W/m^2] Appendix A, 4
   int max_leaf_dsets = 10;                         // Appendix A, 5
-  std::optional<double> relative_cutoff;           // Appendix A, 7
-  int max_corrections = 2;                         // SolverOptions::max_corrections
+  // Which discontinuities the mesh gets. The weight is the thesis's where its minimum is given, for that is
+  // on its scale; else the irradiance weight.
+  DiscontinuityChoice discontinuities = DiscontinuityChoice::kRanked;
+  std::optional<DiscontinuityWeight> weight;
+  bool keep_hidden_discontinuities = false;
+  std::optional<double> relative_cutoff;  // Appendix A, 7
+  int max_corrections = 2;                // SolverOptions::max_corrections
   int max_iterations = 100;
   bool accelerate = true;           // SolverOptions::accelerate
   PointIrradianceOptions point;     // Appendix A, 9 and 10
@@ -43,8 +49,7 @@ struct PipelineOptions {
 // The values that a solve works with.
 struct ResolvedOptions {
   SolverOptions solver;
-  double min_discontinuity_weight = 0;  // [W/m^2]
-  int max_leaf_dsets = 10;
+  DiscontinuityOptions discontinuities;
 };
 ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options);
 
@@ -66,8 +71,8 @@ struct PipelineReport {
       phases;  // load (by the caller), link, iterate, discontinuities, triangulate, interpolate
   struct Counts {
     std::size_t patches = 0, emitters = 0, elements = 0, leaves = 0, links = 0, links_visible = 0,
-                links_partial = 0, discontinuities = 0, dsets_active = 0, triangles = 0, interpolants = 0,
-                point_evaluations = 0;
+                links_partial = 0, discontinuities = 0, dsets_active = 0, most_merged = 0, triangles = 0,
+                interpolants = 0, point_evaluations = 0;
   } counts;
   std::vector<IterationReport> iterations;
   EnergyBalance energy;
@@ -78,26 +83,13 @@ struct PipelineReport {
   std::vector<std::string> unmet;  // what missed the target, and why; one line each
 };
 
-// What the stages made, apart from what is quickly made anew.
-struct PipelineState {
-  PatchVisibility visibility;
-  RadiositySolution solution;
-  MeshKind mesh_kind = MeshKind::kInterpolant;
-  IrradianceMesh mesh;
-  PipelineReport report;
-};
-
 // Runs the stages and keeps what they made. The scene must outlive it.
 class Pipeline {
  public:
   Pipeline(const Scene& scene, const PipelineOptions& options);
-  // Shows what another one, with this scene and these options, had solved and meshed. BuildMesh() makes other
-  // kinds of it; a step of the solver drops it, and begins anew.
-  Pipeline(const Scene& scene, const PipelineOptions& options, PipelineState state);
   ~Pipeline();
 
   const Scene& scene() const;
-  const PipelineOptions& options() const;
   const ResolvedOptions& resolved() const;
 
   // Stages link and iterate: Link(), Iterate() until Converged() or the most iterations, Correct(). Goes on
@@ -124,7 +116,7 @@ class Pipeline {
   bool Relight(const ExecutionContext& context);
 
   // Stages discontinuities, triangulate, interpolate, for what a display mode needs, from the solution as it
-  // is; nothing is done where it is there already. REQUIRES: Link() or what begins with it.
+  // is. REQUIRES: Link() or what begins with it.
   void BuildMesh(MeshKind kind, const ExecutionContext& context);
   // Measures the energy balance and the error at random points. REQUIRES: BuildMesh() after the last step.
   void Measure(const ExecutionContext& context);
@@ -133,7 +125,6 @@ class Pipeline {
   const PatchVisibility& visibility() const;
   const PointIrradiance& irradiance() const;  // exact, from the solution's leaves; until the next step
   const IrradianceMesh& mesh() const;         // REQUIRES: BuildMesh()
-  std::optional<MeshKind> mesh_kind() const;  // of mesh(); nothing if that is not of the present solution
 
   // The interpolant's irradiance at a point of a patch, or at most `reach` [m] beside it, not
   // below 0 [W/m^2]. REQUIRES:

@@ -60,7 +60,7 @@ void MeshDiscontinuities(benchmark::State& state) {
   const DiscontinuityFinder finder(scene, visibility);
   const std::vector<double> strength = LightOnly(scene);
   std::size_t found = 0;
-  for (auto _ : state) found += finder.Find(0, strength, 0).size();
+  for (auto _ : state) found += finder.Find(0, strength, {}).size();
   state.counters["discontinuities"] =
       benchmark::Counter(static_cast<double>(found), benchmark::Counter::kIsRate);
 }
@@ -69,7 +69,7 @@ BENCHMARK(MeshDiscontinuities)->Arg(1)->Arg(4)->Arg(10)->Unit(benchmark::kMillis
 void MeshActivation(benchmark::State& state) {
   const Scene scene = Boards(static_cast<int>(state.range(0)));
   const PatchVisibility visibility(scene);
-  const auto found = DiscontinuityFinder(scene, visibility).Find(0, LightOnly(scene), 0);
+  const auto found = DiscontinuityFinder(scene, visibility).Find(0, LightOnly(scene), {});
   const ElementForest forest = EvenForest(scene, 6);
   for (auto _ : state) benchmark::DoNotOptimize(ActivateDiscontinuities(forest, 0, found, {}).dsets_active);
   state.counters["discontinuities"] =
@@ -81,7 +81,7 @@ BENCHMARK(MeshActivation)->Arg(1)->Arg(4)->Arg(10)->Unit(benchmark::kMillisecond
 void MeshLeafTriangulation(benchmark::State& state) {
   const Scene scene = Boards(4);
   const PatchVisibility visibility(scene);
-  const auto found = DiscontinuityFinder(scene, visibility).Find(0, LightOnly(scene), 0);
+  const auto found = DiscontinuityFinder(scene, visibility).Find(0, LightOnly(scene), {});
   const ElementForest forest = EvenForest(scene, static_cast<int>(state.range(0)));
   const PatchDSets dsets = ActivateDiscontinuities(forest, 0, found, {});
   std::size_t triangles = 0;
@@ -97,7 +97,7 @@ BENCHMARK(MeshLeafTriangulation)->Arg(3)->Arg(5)->Arg(7)->Unit(benchmark::kMilli
 void MeshLocate(benchmark::State& state) {
   const Scene scene = Boards(4);
   const PatchVisibility visibility(scene);
-  const auto found = DiscontinuityFinder(scene, visibility).Find(0, LightOnly(scene), 0);
+  const auto found = DiscontinuityFinder(scene, visibility).Find(0, LightOnly(scene), {});
   const ElementForest forest = EvenForest(scene, 5);
   std::vector<PatchTriangulation> patches;
   for (PatchId p = 0; p < static_cast<PatchId>(scene.patches.size()); ++p)

@@ -20,7 +20,8 @@ TEST(Help, ListsEveryOption) {
   const std::vector<std::string> common = {
       "--emission-is-radiance", "--two-sided", "--max-reflectance", "--threads", "--seed", "--verbose"};
   const std::vector<std::string> solving = {
-      "--error X=0.02",    "--eps",          "--min-area",  "--min-discontinuity-weight", "--max-leaf-dsets",
+      "--error X=0.02",    "--eps",          "--min-area",        "--min-discontinuity-weight",
+      "--max-leaf-dsets",  "--weight",       "--discontinuities", "--keep-hidden-discontinuities",
       "--relative-cutoff", "--error-points", "--iterations"};
   const std::vector<std::pair<std::string, std::vector<std::string>>> own = {
       {"solve", {"--report"}},
@@ -84,6 +85,7 @@ TEST(Usage, BadUsageEndsWithTwo) {
       {"solve", "furnace", "--iterations", "0"},
       {"solve", "furnace", "--error-points", "-1"},
       {"solve", "furnace", "--max-reflectance", "1"},
+      {"solve", "furnace", "-o", "solution"},
       {"render", "furnace"},
       {"render", "furnace", "-o", "image.jpg"},
       {"render", "furnace", "-o", "image"},

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <set>
+
+#include "mesh/leaf_triangulation.h"
 #include "mesh_test_scenes.h"
 
 namespace penumbra {
@@ -91,11 +95,74 @@ TEST(ActivateDiscontinuities, BordersTakeNoPlace) {
   EXPECT_TRUE(dsets.leaf_lines[1].empty());
 }
 
+// In the irradiance weight a discontinuity counts by what it costs on the leaf: a kink of the gradient with
+// the size, a bend with its square, neither more than the largest change.
+TEST(Weight, FollowsTheLeaf) {
+  Discontinuity d = Segment({0, 0}, {1, 0}, 0);
+  d.strength = 10;
+  d.geometric_weight = 0.5;
+  for (IrradianceJump& jump : d.jump) jump = {0, 3, 100, 100};
+  EXPECT_DOUBLE_EQ(Weight(d, DiscontinuityWeight::kIrradiance, 0.2), 10 * kBendError * 0.04 * 3);
+  for (IrradianceJump& jump : d.jump) jump.largest_gradient = 1e-3;
+  EXPECT_DOUBLE_EQ(Weight(d, DiscontinuityWeight::kIrradiance, 0.2), 10 * kKinkError * 0.2 * 1e-3);
+  for (IrradianceJump& jump : d.jump) jump.largest_value = 1e-7;
+  EXPECT_DOUBLE_EQ(Weight(d, DiscontinuityWeight::kIrradiance, 0.2), 10 * 1e-7);
+  EXPECT_DOUBLE_EQ(Weight(d, DiscontinuityWeight::kThesis, 0.2), 5);
+  d.kind = DiscontinuityKind::kContact;
+  EXPECT_EQ(Weight(d, DiscontinuityWeight::kIrradiance, 0.2), kInfiniteWeight);
+}
+
+// A full leaf refuses a discontinuity that three others would take, and is named as crowded; one that only it
+// would get is refused in silence.
+TEST(ActivateDiscontinuities, CrowdedLeavesAreNamed) {
+  const QuarteredSquare square;
+  DiscontinuityOptions options;
+  options.max_leaf_dsets = 1;
+  std::vector<Discontinuity> found = {Segment({0.1, 0.11}, {0.4, 0.13}, 9),
+                                      Segment({0.1, 0.21}, {0.4, 0.22}, 8)};
+  EXPECT_TRUE(ActivateDiscontinuities(square.forest, 0, found, options).crowded.empty());
+  found.push_back(Segment({0.1, 0.2}, {0.9, 0.95}, 7));
+  const PatchDSets dsets = ActivateDiscontinuities(square.forest, 0, found, options);
+  EXPECT_EQ(dsets.refused, 2U);
+  EXPECT_EQ(dsets.crowded, std::vector<ElementId>{dsets.leaves[0]});
+}
+
+// The other choices: all know no maximum, a random order no weights (but contacts come first), and the
+// adaptive one asks the filter leaf by leaf.
+TEST(ActivateDiscontinuities, OtherChoices) {
+  const QuarteredSquare square;
+  DiscontinuityOptions options;
+  options.max_leaf_dsets = 1;
+  std::vector<Discontinuity> found;
+  for (int i = 0; i < 8; ++i)
+    found.push_back(Segment({0.1, 0.1 + 0.03 * i}, {0.9, 0.11 + 0.03 * i}, 1.0 + i));
+  found.push_back(Segment({0.6, 0.8}, {0.9, 0.9}, kInfiniteWeight, DiscontinuityDegree::kD0));
+  options.choice = DiscontinuityChoice::kAll;
+  EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options).activated, 9U);
+  options.choice = DiscontinuityChoice::kRandom;
+  std::set<double> origins;
+  for (options.seed = 1; options.seed < 20; ++options.seed) {
+    const PatchDSets dsets = ActivateDiscontinuities(square.forest, 0, found, options);
+    EXPECT_EQ(dsets.activated, 2U);
+    EXPECT_EQ(dsets.refused_contacts, 0U);
+    origins.insert(dsets.lines.back().origin.y());
+  }
+  EXPECT_GT(origins.size(), 3U);
+  options.choice = DiscontinuityChoice::kAdaptive;
+  const PatchDSets dsets = ActivateDiscontinuities(
+      square.forest, 0, found, options,
+      [&](const Discontinuity&, ElementId leaf) { return leaf == square.forest.Leaves(0)[1]; });
+  EXPECT_EQ(dsets.activated, 2U);
+  EXPECT_TRUE(dsets.leaf_lines[0].empty());
+  EXPECT_EQ(dsets.leaf_lines[1].size(), 1U);
+  TriangulateLeaves(square.forest, 0, dsets).Validate(square.scene.patches[0]);
+}
+
 // Switched off, nothing is active.
 TEST(ActivateDiscontinuities, CanBeSwitchedOff) {
   const QuarteredSquare square;
   DiscontinuityOptions options;
-  options.enabled = false;
+  options.choice = DiscontinuityChoice::kNone;
   const PatchDSets dsets =
       ActivateDiscontinuities(square.forest, 0, std::vector{Segment({0.1, 0.2}, {0.4, 0.5}, 1)}, options);
   EXPECT_TRUE(dsets.lines.empty());

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <set>
 
+#include "constraint_sets.h"
 #include "mesh_test_scenes.h"
 #include "solver/base/parallel.h"
 #include "solver/scene/tolerances.h"
@@ -207,6 +208,108 @@ TEST(TriangulateLeaves, StarsAndGridsAreCompleteAndConform) {
           marked += 0.5 * (mesh.in_plane[t.vertex[(k + 1) % 3]] - mesh.in_plane[t.vertex[k]]).norm();
     EXPECT_NEAR(marked, length, 1e-6) << (star ? "star" : "grid");
   }
+}
+
+// The least angle over all triangles, in degrees, and the share of triangles below 5 degrees.
+struct Quality {
+  std::size_t triangles = 0, thin = 0;
+  double least = 180;
+  void Add(const PatchTriangulation& mesh) {
+    for (const auto& t : mesh.triangles) {
+      double angle = 180;
+      for (int k = 0; k < 3; ++k) {
+        const Vec2 &p = mesh.in_plane[t.vertex[k]], &q = mesh.in_plane[t.vertex[(k + 1) % 3]],
+                   &r = mesh.in_plane[t.vertex[(k + 2) % 3]];
+        angle = std::min(angle, std::atan2(Cross2(q - p, r - p), (q - p).dot(r - p)) * 180 / M_PI);
+      }
+      ++triangles;
+      thin += angle < 5 ? 1 : 0;
+      least = std::min(least, angle);
+    }
+  }
+};
+
+// Sets that are known to be hard, in every shape of patch: stars through one point, bundles of parallels
+// 1e-12 apart, T-contacts, axis-aligned grids, combs of overlapping collinear segments: each mesh is whole,
+// and every line is a union of edges.
+TEST(TriangulateLeaves, CorpusOfHardSetsIsWhole) {
+  int sets = 0;
+  Quality quality;
+  std::size_t dropped = 0;
+  for (std::uint32_t shape = 0; shape < 4; ++shape)
+    for (int kind = 0; kind < 6; ++kind)
+      for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+        SCOPED_TRACE(testing::Message() << shape << ", kind " << kind << ", seed " << seed);
+        Random random(seed, static_cast<std::uint64_t>(kind));
+        mesh_test::ConstraintSet set;
+        set.AddShape(shape);
+        RefineAtRandom(set.forest, 0, random, static_cast<int>(random.Index(6)), 3);
+        set.max_leaf_dsets = 40;
+        const auto anywhere = [&] { return set.At(random.Uniform(), random.Uniform()); };
+        const Vec2 centre = seed % 2 == 0 ? set.At(0.25, 0.25) : anywhere();
+        const Vec2 a = anywhere(), b = anywhere();
+        switch (kind) {
+          case 0:  // a star
+            for (int i = 0; i < 12; ++i) set.Add(centre, anywhere(), i % 3 == 0);
+            break;
+          case 1:  // parallels
+            for (int i = 0; i < 10; ++i) {
+              const Vec2 side = i * 1e-12 * Vec2(-(b - a).y(), (b - a).x()).normalized();
+              set.Add(a + side, b + side, i % 4 == 0);
+            }
+            break;
+          case 2:  // T-contacts on one segment
+            set.Add(a, b, true);
+            for (int i = 0; i < 10; ++i) set.Add(anywhere(), a + random.Uniform() * (b - a), i % 2 == 0);
+            break;
+          case 3:  // a grid, partly along quadtree lines
+            for (int i = 1; i < 8; ++i) {
+              set.Add(set.At(i / 16.0, 0.05), set.At(i / 16.0, 0.45));
+              set.Add(set.At(0.05, i / 16.0), set.At(0.45, i / 16.0), i % 2 == 0);
+            }
+            break;
+          case 4:  // overlapping collinear segments, and one across each
+            for (int i = 0; i < 8; ++i) {
+              const double t = random.Uniform(-0.2, 1);
+              set.Add(a + t * (b - a), a + (t + random.Uniform(0.01, 0.5)) * (b - a), i % 2 == 0);
+              set.Add(a + t * (b - a), anywhere());
+            }
+            break;
+          default:  // crossings that nearly coincide
+            for (int i = 0; i < 10; ++i) {
+              const Vec2 through = centre + random.LogUniform(1e-14, 1e-6) * Vec2(random.Uniform(-1, 1), 1);
+              const Vec2 p = anywhere();
+              set.Add(p, through + 0.5 * (through - p));
+            }
+        }
+        const PatchTriangulation mesh = mesh_test::CheckSet(set);
+        quality.Add(mesh);
+        dropped += mesh.dropped_segments;
+        ++sets;
+      }
+  std::printf(
+      "%d sets, %zu triangles, %zu segments dropped; %zu triangles have an angle below 5 degrees, the "
+      "least is %.2g\n",
+      sets, quality.triangles, dropped, quality.thin, quality.least);
+  EXPECT_GE(sets, 500);
+}
+
+// A thousand segments across a single leaf: the mesh is whole.
+TEST(TriangulateLeaves, ThousandSegmentsInALeaf) {
+  mesh_test::ConstraintSet set;
+  set.AddShape(0);
+  set.max_leaf_dsets = 1000;
+  Random random(9);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec2 a = set.At(random.Uniform(), random.Uniform());
+    set.Add(a, a + 0.1 * Vec2(random.Uniform(-1, 1), random.Uniform(-1, 1)), i % 10 == 0);
+  }
+  DiscontinuityOptions options;
+  options.max_leaf_dsets = 1000;
+  const PatchDSets dsets = ActivateDiscontinuities(set.forest, 0, set.found, options);
+  EXPECT_GT(dsets.dsets_active, 990U);
+  const PatchTriangulation mesh = mesh_test::CheckSet(set);
+  EXPECT_GT(mesh.triangles.size(), 2000U);
 }
 
 // A contact along a leaf's border adds no edge but marks the border as a jump, from both sides; a contact
