@@ -5,9 +5,12 @@ namespace penumbra {
 extern const Study kPointIrradianceStudy;
 extern const Study kOffsetStudy;
 extern const Study kFormFactorStudy;
+extern const Study kWholeSystemStudy;
+extern const Study kStabilityStudy;
 
 const std::vector<const Study*>& Studies() {
-  static const std::vector<const Study*> studies = {&kPointIrradianceStudy, &kOffsetStudy, &kFormFactorStudy};
+  static const std::vector<const Study*> studies = {&kPointIrradianceStudy, &kOffsetStudy, &kFormFactorStudy,
+                                                    &kWholeSystemStudy, &kStabilityStudy};
   return studies;
 }
 

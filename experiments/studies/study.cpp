@@ -1,11 +1,15 @@
 #include "experiments/studies/study.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 
 #include <fmt/format.h>
 
+#include "solver/base/check.h"
 #include "solver/base/stopwatch.h"
 
 namespace penumbra {
@@ -19,6 +23,29 @@ void StudyLog::Add(StudyRow row) {
 void StudyLog::Find(std::string sentence) {
   fmt::print(stderr, "  => {}\n", sentence);
   findings_.push_back(std::move(sentence));
+}
+
+std::vector<ReferencePoint> ReadReference(const std::string& name) {
+  const std::string path = "experiments/" + name;
+  std::ifstream file(path);
+  std::string line;
+  if (!std::getline(file, line) || !line.starts_with("x,y,z,nx,ny,nz,Er,Eg,Eb,sr,sg,sb"))
+    throw InputError(path + ":0: error: no reference is there; run from the root of the checkout");
+  std::vector<ReferencePoint> points;
+  while (std::getline(file, line)) {
+    std::array<double, 12> value{};
+    const char* at = line.data();
+    for (double& v : value) {
+      const auto [stop, error] = std::from_chars(at, line.data() + line.size(), v);
+      if (error != std::errc()) throw InputError(path + ":0: error: not a number: " + line);
+      at = stop + 1;
+    }
+    points.push_back({{value[0], value[1], value[2]},
+                      {value[3], value[4], value[5]},
+                      {value[6], value[7], value[8]},
+                      {value[9], value[10], value[11]}});
+  }
+  return points;
 }
 
 double MedianSeconds(int repeats, const std::function<void()>& work) {

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "solver/geometry/vec.h"
+
 namespace penumbra {
 
 // One measurement. What does not apply stays as it is, and is left empty in the CSV.
@@ -60,6 +62,16 @@ struct Study {
 
 // All studies, in the order of the report.
 const std::vector<const Study*>& Studies();
+
+// What a point of a committed reference knows (experiments/reference, experiments/peers).
+struct ReferencePoint {
+  Vec3 position, normal;      // [m]; unit
+  Rgb irradiance, deviation;  // [W/m^2]; the standard error
+};
+
+// The rows of a file with the header x,y,z,nx,ny,nz,Er,Eg,Eb,sr,sg,sb,... under the folder experiments/ of
+// the checkout, which is the working directory. Throws InputError where it cannot be read.
+std::vector<ReferencePoint> ReadReference(const std::string& name);
 
 // The median of the wall-clock seconds of `repeats` calls.
 double MedianSeconds(int repeats, const std::function<void()>& work);
