@@ -87,7 +87,7 @@ struct Kind {
   std::function<std::vector<std::array<double, 3>>(Random&)> make;
 };
 
-// Rectangles over the origin, front down: corner low, sides u and v.
+// Rectangles that run counter-clockwise about the z axis as seen from above it: corner low, sides u and v.
 std::vector<std::array<double, 3>> Rectangle(const Vec3& low, const Vec3& u, const Vec3& v) {
   std::vector<std::array<double, 3>> polygon;
   for (const Vec3& p : {low, Vec3(low + u), Vec3(low + u + v), Vec3(low + v)})
@@ -111,7 +111,7 @@ std::vector<Kind> Kinds() {
                    }});
   kinds.push_back({"beside an edge", [](Random& r) {
                      const double d = r.LogUniform(1e-12, 1e-3);
-                     return Rectangle(Vec3(d, -1, 0), Vec3(0, 0, 2), Vec3(0, 2, 0));
+                     return Rectangle(Vec3(d, -1, 0), Vec3(0, 2, 0), Vec3(0, 0, 2));
                    }});
   kinds.push_back({"sliver", [=](Random& r) {
                      return Rectangle(random_place(r, 1), Vec3(1, 0, 0),
@@ -119,7 +119,7 @@ std::vector<Kind> Kinds() {
                    }});
   kinds.push_back({"grazing", [](Random& r) {
                      const double h = r.LogUniform(1e-9, 1e-3);
-                     return Rectangle(Vec3(r.Uniform(2, 9), -1, 0), Vec3(0, 0, h), Vec3(0, 2, 0));
+                     return Rectangle(Vec3(r.Uniform(2, 9), -1, 0), Vec3(0, 2, 0), Vec3(0, 0, h));
                    }});
   return kinds;
 }

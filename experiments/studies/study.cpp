@@ -15,8 +15,9 @@
 namespace penumbra {
 
 void StudyLog::Add(StudyRow row) {
-  fmt::print(stderr, "  {:<16} {:<22} {:<20} {:>10.3g} s  p99 {:<9.3g} max {:.3g}\n", row.scene, row.method,
-             row.setting, row.seconds, row.error_p99, row.error_max);
+  const std::string seconds = std::isnan(row.seconds) ? "" : fmt::format("{:.3g} s", row.seconds);
+  fmt::print(stderr, "  {:<16} {:<22} {:<20} {:>12}  p99 {:<9.3g} max {:.3g}\n", row.scene, row.method,
+             row.setting, seconds, row.error_p99, row.error_max);
   rows_.push_back(std::move(row));
 }
 
