@@ -33,6 +33,7 @@ Command AddSolveCommand(CLI::App& program);
 Command AddRenderCommand(CLI::App& program);
 Command AddProbeCommand(CLI::App& program);
 Command AddFormFactorCommand(CLI::App& program);
+Command AddViewCommand(CLI::App& program);
 Command AddInfoCommand(CLI::App& program);
 Command AddScenesCommand(CLI::App& program);
 

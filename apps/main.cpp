@@ -42,7 +42,8 @@ int Main(int argc, char** argv) {
   program.get_formatter()->column_width(34);
   const std::vector<Command> commands = {AddSolveCommand(program), AddRenderCommand(program),
                                          AddProbeCommand(program), AddFormFactorCommand(program),
-                                         AddInfoCommand(program),  AddScenesCommand(program)};
+                                         AddViewCommand(program),  AddInfoCommand(program),
+                                         AddScenesCommand(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {

@@ -1,0 +1,27 @@
+#include "display/viewer/discontinuity_list.h"
+
+#include "mesh/local_pass.h"
+#include "solver/base/parallel.h"
+
+namespace penumbra::viewer {
+
+DiscontinuityList ListDiscontinuities(const LightState& light, const ExecutionContext& context) {
+  const Scene& scene = light.scene();
+  const std::vector<double> strength = SourceStrengths(light.solution());
+  const DiscontinuityFinder finder(scene, light.visibility());
+  std::vector<std::vector<Discontinuity>> found(scene.patches.size());
+  ParallelFor(found.size(), 1, [&](std::size_t p) {
+    if (!context.Cancelled()) found[p] = finder.Find(static_cast<PatchId>(p), strength, 0);
+  });
+  DiscontinuityList list;
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    const Frame frame = PolygonFrame(scene.patches[p].Vertices());
+    for (const Discontinuity& d : found[p]) {
+      list.all.push_back(d);
+      list.ends.push_back({frame.FromPlane(d.end[0]), frame.FromPlane(d.end[1])});
+    }
+  }
+  return list;
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,29 @@
+// All potential discontinuities, violet (thesis B.4.4).
+
+#include "display/viewer/overlay.h"
+
+namespace penumbra::viewer {
+namespace {
+
+class DiscontinuityOverlay final : public Overlay {
+ public:
+  void Draw(const OverlayContext& context, OverlayDrawing* drawing) const override {
+    if (!context.settings.discontinuities || !context.results.discontinuities) return;
+    const DiscontinuityList& list = *context.results.discontinuities;
+    const bool one = context.selection.kind == SelectionKind::kElement && context.snapshot.light;
+    for (std::size_t i = 0; i < list.all.size(); ++i) {
+      if (one &&
+          context.snapshot.light->solution().forest[static_cast<ElementId>(context.selection.index)].patch !=
+              list.all[i].receiver)
+        continue;
+      drawing->Line(list.ends[i][0], list.ends[i][1], colour::kViolet, 1.0F,
+                    {SelectionKind::kDiscontinuity, static_cast<std::int64_t>(i)});
+    }
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Overlay> MakeDiscontinuityOverlay() { return std::make_unique<DiscontinuityOverlay>(); }
+
+}  // namespace penumbra::viewer

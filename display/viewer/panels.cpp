@@ -1,0 +1,366 @@
+#include "display/viewer/panels.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "display/viewer/false_colour.h"
+#include "solver/base/check.h"
+
+namespace penumbra::viewer {
+namespace {
+
+void Copy(const std::string& text, char* field, std::size_t size) {
+  const std::size_t n = std::min(text.size(), size - 1);
+  std::memcpy(field, text.data(), n);
+  field[n] = '\0';
+}
+
+void Text(const std::string& text) { ImGui::TextUnformatted(text.data(), text.data() + text.size()); }
+
+ImU32 ToImGui(Colour c) { return IM_COL32(c.red, c.green, c.blue, 255); }
+
+// The parts of a menu path: at most three, the last may hold slashes.
+std::vector<std::string> PartsOf(const std::string& path) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  const bool deep = path.starts_with("File/Recent/") || path.starts_with("Cameras/Go to/");
+  for (int i = 0; i < (deep ? 2 : 1); ++i) {
+    const std::size_t slash = path.find('/', begin);
+    parts.push_back(path.substr(begin, slash - begin));
+    begin = slash + 1;
+  }
+  parts.push_back(path.substr(begin));
+  return parts;
+}
+
+constexpr float kGap = 8;
+
+void PlaceNext(float x, float y, float width, float height) {
+  ImGui::SetNextWindowPos(ImVec2(x, y), ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize(ImVec2(width, height), ImGuiCond_FirstUseEver);
+}
+
+}  // namespace
+
+template <class Action>
+void Panels::Try(Viewer& viewer, const Action& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    viewer.Complain(error.what());
+  }
+}
+
+void Panels::Draw(Viewer& viewer) {
+  MenuBar(viewer);
+  ControlPanel(viewer);
+  Parameters(viewer);
+  Details(viewer);
+  Report(viewer);
+  Help(viewer);
+  Dialog(viewer);
+  Message(viewer);
+  Legend(viewer);
+}
+
+void Panels::MenuBar(Viewer& viewer) {
+  if (!ImGui::BeginMainMenuBar()) return;
+  std::string run;
+  const std::vector<MenuItem>& items = viewer.menu().items();
+  for (std::size_t i = 0; i < items.size();) {
+    const std::string top = PartsOf(items[i].path)[0];
+    std::size_t end = i;
+    while (end < items.size() && PartsOf(items[end].path)[0] == top) ++end;
+    if (ImGui::BeginMenu(top.c_str())) {
+      for (std::size_t k = i; k < end; ++k) {
+        const std::vector<std::string> parts = PartsOf(items[k].path);
+        if (parts.size() == 3 && !ImGui::BeginMenu(parts[1].c_str())) continue;
+        const bool checked = items[k].checked && items[k].checked();
+        if (ImGui::MenuItem(parts.back().c_str(), items[k].key.c_str(), checked)) run = items[k].path;
+        if (ImGui::IsItemHovered() && !items[k].help.empty()) ImGui::SetTooltip("%s", items[k].help.c_str());
+        if (parts.size() == 3) ImGui::EndMenu();
+      }
+      ImGui::EndMenu();
+    }
+    i = end;
+  }
+  Status(viewer);
+  ImGui::EndMainMenuBar();
+  if (!run.empty()) Try(viewer, [&] { viewer.RunMenu(run); });
+}
+
+// The status indicator, upper right (thesis B.2): what is being done, how far, and a button that ends it.
+void Panels::Status(Viewer& viewer) {
+  const SessionStatus status = viewer.status();
+  std::string text = status.cancelling ? "ending " + status.phase : status.phase;
+  if (!status.busy)
+    text = viewer.analysing() ? "analysing" : viewer.snapshot().light ? "ready" : "not solved";
+  const double fps = viewer.seconds_a_frame() > 0 ? 1 / viewer.seconds_a_frame() : 0;
+  const std::string rate = fmt::format("{:.0f} fps", fps);
+  const float bar = 90, width = ImGui::CalcTextSize(text.c_str()).x + ImGui::CalcTextSize(rate.c_str()).x +
+                                (status.busy ? bar + 80 : 0) + 4 * kGap;
+  ImGui::SameLine(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width));
+  if (status.busy) {
+    // Where a phase does not say how far it is, the bar shows that it moves.
+    const double time = ImGui::GetTime();
+    const double moving = 0.5 + 0.5 * std::sin(2 * time);
+    ImGui::ProgressBar(static_cast<float>(status.fraction > 0 ? status.fraction : moving), ImVec2(bar, 0),
+                       status.fraction > 0 ? nullptr : "");
+    if (ImGui::SmallButton("Cancel")) viewer.RunMenu("Iteration/Cancel");
+  }
+  Text(text);
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", rate.c_str());
+}
+
+void Panels::Widget(Viewer& viewer, const Setting& setting) {
+  const std::string value = setting.get();
+  const std::string label = setting.help + "##" + setting.name;
+  std::string chosen = value;
+  switch (setting.kind) {
+    case SettingKind::kToggle: {
+      bool on = value == "on";
+      if (ImGui::Checkbox(label.c_str(), &on)) chosen = on ? "on" : "off";
+      break;
+    }
+    case SettingKind::kChoice:
+      if (ImGui::BeginCombo(label.c_str(), value.c_str())) {
+        for (const std::string& choice : setting.choices)
+          if (ImGui::Selectable(choice.c_str(), choice == value)) chosen = choice;
+        ImGui::EndCombo();
+      }
+      break;
+    case SettingKind::kInteger:
+    case SettingKind::kNumber:
+      if (setting.logarithmic && !setting.automatic) {
+        // Sliders reach a thousandfold either way of where they are.
+        auto number = static_cast<float>(NumberFrom(value, -1e30, 1e30));
+        const float low = std::max(number / 1000, static_cast<float>(setting.low));
+        const float high = std::min(number * 1000, static_cast<float>(setting.high));
+        if (ImGui::SliderFloat(label.c_str(), &number, low, high, "%.4g", ImGuiSliderFlags_Logarithmic))
+          chosen = TextOf(static_cast<double>(number));
+        break;
+      }
+      [[fallthrough]];
+    case SettingKind::kText: {
+      // The field is the user's while he types, and shows the value otherwise.
+      char shown[sizeof edit_];
+      Copy(edited_ == setting.name ? std::string(edit_) : value, shown, sizeof shown);
+      const bool entered =
+          ImGui::InputText(label.c_str(), shown, sizeof shown, ImGuiInputTextFlags_EnterReturnsTrue);
+      if (ImGui::IsItemActive()) {
+        edited_ = setting.name;
+        std::memcpy(edit_, shown, sizeof shown);
+      } else if (edited_ == setting.name) {
+        edited_.clear();
+      }
+      if (entered) chosen = shown;
+      break;
+    }
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("set %s %s", setting.name.c_str(), value.c_str());
+  if (chosen != value) Try(viewer, [&] { viewer.Set(setting.name, chosen); });
+}
+
+void Panels::Group(Viewer& viewer, const std::string& group) {
+  for (const Setting& setting : viewer.settings().all())
+    if (setting.group == group) Widget(viewer, setting);
+}
+
+void Panels::ControlPanel(Viewer& viewer) {
+  if (!viewer.panels().control) return;
+  PlaceNext(kGap, 30, 330, 620);
+  if (ImGui::Begin("Drawing Control Panel", &viewer.panels().control)) {
+    ImGui::PushItemWidth(120);
+    for (const char* group : {"Drawing", "Exposure", "Visualisations", "Links", "Graphs", "Viewing"})
+      if (ImGui::CollapsingHeader(group, ImGuiTreeNodeFlags_DefaultOpen)) Group(viewer, group);
+    ImGui::PopItemWidth();
+  }
+  ImGui::End();
+}
+
+void Panels::Parameters(Viewer& viewer) {
+  if (!viewer.panels().parameters) return;
+  PlaceNext(350, 30, 420, 360);
+  if (ImGui::Begin("Parameters", &viewer.panels().parameters)) {
+    ImGui::PushItemWidth(150);
+    Group(viewer, "Solving");
+    ImGui::PopItemWidth();
+    ImGui::TextDisabled("The next iteration starts over where they differ.");
+    for (const char* path : {"Iteration/Iterate", "Iteration/Iterate to convergence"}) {
+      if (ImGui::Button(path + sizeof("Iteration"))) viewer.RunMenu(path);
+      ImGui::SameLine();
+    }
+  }
+  ImGui::End();
+}
+
+void Panels::Details(Viewer& viewer) {
+  const std::vector<std::string> lines = viewer.Details();
+  if (!viewer.panels().details || lines.empty()) return;
+  ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x - kGap, 30), ImGuiCond_FirstUseEver,
+                          ImVec2(1, 0));
+  if (ImGui::Begin("Details", nullptr, ImGuiWindowFlags_AlwaysAutoResize))
+    for (const std::string& line : lines) Text(line);
+  ImGui::End();
+}
+
+void Panels::Report(Viewer& viewer) {
+  if (!viewer.panels().report) return;
+  PlaceNext(350, 60, 460, 360);
+  if (ImGui::Begin("Report", &viewer.panels().report)) {
+    const Snapshot& now = viewer.snapshot();
+    Text(fmt::format("{} patches, {} iterations{}, {} corrections", now.scene->patches.size(),
+                     now.iterations.size(), now.converged ? ", converged" : "", now.corrections));
+    if (ImGui::BeginTable("iterations", 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV)) {
+      for (const char* column : {"iteration", "residual", "elements", "links", "seconds"})
+        ImGui::TableSetupColumn(column);
+      ImGui::TableHeadersRow();
+      for (std::size_t i = 0; i < now.iterations.size(); ++i) {
+        const IterationReport& r = now.iterations[i];
+        for (const std::string& cell :
+             {fmt::format("{}", i + 1), fmt::format("{:.2g}", r.residual), fmt::format("{}", r.elements),
+              fmt::format("{}", r.links), fmt::format("{:.2f}", r.seconds)}) {
+          ImGui::TableNextColumn();
+          Text(cell);
+        }
+      }
+      ImGui::EndTable();
+    }
+    for (std::size_t k = 0; k < kMeshKinds; ++k) {
+      constexpr const char* kNames[] = {"flat", "gouraud", "gouraud-mesh", "interpolant"};
+      if (now.mesh[k]) Text(fmt::format("{}: {} triangles", kNames[k], now.mesh[k]->mesh().triangles.size()));
+    }
+    if (now.measured) {
+      const PipelineReport& m = *now.measured;
+      Text(fmt::format("energy: {:.5g} W emitted, imbalance {:.2g}", m.energy.emitted,
+                       m.energy.relative_imbalance));
+      Text(fmt::format("interpolants: error {:.3g} (99 %), {:.3g} (95 %), at {} points",
+                       m.interpolant_error.p99, m.interpolant_error.p95, m.interpolant_error.points));
+      Text(fmt::format("solution: error {:.3g}, estimated; asked for {:g}: {}", m.solution_error_estimate,
+                       m.error_asked, m.error_met ? "met" : "not met"));
+    }
+    const FrameTimes& ms = viewer.picture().times();
+    Text(fmt::format("frame: ids {:.1f}, coordinates {:.1f}, evaluation {:.1f}, tones {:.1f} ms",
+                     ms.triangle_ids, ms.barycentric, ms.evaluate, ms.tone_map));
+    if (ImGui::Button("Measure")) viewer.RunMenu("Iteration/Measure");
+  }
+  ImGui::End();
+}
+
+void Panels::Help(Viewer& viewer) {
+  if (!viewer.panels().help) return;
+  PlaceNext(120, 40, 620, 560);
+  if (ImGui::Begin("Keyboard and mouse", &viewer.panels().help)) {
+    constexpr const char* kMouse[][2] = {
+        {"left drag", "arcball: rotate; with shift about an axis of the view, with ctrl about x, y or z"},
+        {"middle drag", "arcball: move; with shift zoom, with ctrl change the perspective"},
+        {"wheel", "arcball: zoom; walk: speed"},
+        {"click", "select: a patch, then its children; a link, then its tube; a triangle; a discontinuity"},
+        {"double click", "on the background: unselect all"},
+        {"right click", "irradiance at a point; with shift its backprojection on every source"},
+        {"walk: w a s d q e, arrows", "forward, left, back, right, down, up"},
+        {"walk: left, right held", "forward, back; middle held: turn towards the pointer"},
+        {"walk: alt+click", "as a click otherwise"}};
+    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) {
+      ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed);
+      ImGui::TableSetupColumn("does");
+      const auto row = [](const std::string& key, const std::string& does) {
+        ImGui::TableNextColumn();
+        Text(key);
+        ImGui::TableNextColumn();
+        ImGui::TextWrapped("%s", does.c_str());
+      };
+      for (const auto& [key, does] : kMouse) row(key, does);
+      for (const MenuItem& item : viewer.menu().items())
+        if (!item.key.empty()) row(item.key, item.path);
+      ImGui::EndTable();
+    }
+  }
+  ImGui::End();
+}
+
+// Asks for the value of a setting that names a file or a camera.
+void Panels::Dialog(Viewer& viewer) {
+  std::string& name = viewer.panels().dialog;
+  if (name.empty()) {
+    asked_.clear();
+    return;
+  }
+  const Setting* setting = viewer.settings().Find(name);
+  ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x / 2, 120), ImGuiCond_Always, ImVec2(0.5F, 0));
+  if (ImGui::Begin("##dialog", nullptr,
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
+                       ImGuiWindowFlags_NoSavedSettings)) {
+    Text(setting->help);
+    if (asked_ != name) {
+      asked_ = name;
+      text_[0] = '\0';
+      ImGui::SetKeyboardFocusHere();
+    }
+    ImGui::PushItemWidth(460);
+    const bool entered =
+        ImGui::InputText("##value", text_, sizeof text_, ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::PopItemWidth();
+    const bool done = ImGui::Button("OK") || entered;
+    ImGui::SameLine();
+    const bool cancelled =
+        ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+    if (done || cancelled) {
+      const std::string option = name;
+      name.clear();
+      if (done && text_[0] != '\0') Try(viewer, [&] { viewer.Set(option, text_); });
+    }
+  }
+  ImGui::End();
+}
+
+void Panels::Message(Viewer& viewer) {
+  static_cast<void>(this);
+  const std::string message = viewer.message();
+  if (message.empty()) return;
+  ImGui::SetNextWindowPos(ImVec2(kGap, ImGui::GetIO().DisplaySize.y - kGap), ImGuiCond_Always, ImVec2(0, 1));
+  if (ImGui::Begin("##message", nullptr,
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
+                       ImGuiWindowFlags_NoSavedSettings)) {
+    ImGui::PushTextWrapPos(std::max(200.0F, ImGui::GetIO().DisplaySize.x - 60));
+    ImGui::TextColored(ImVec4(1, 0.6F, 0.4F, 1), "%s", message.c_str());
+    ImGui::PopTextWrapPos();
+    if (ImGui::SmallButton("Dismiss")) viewer.Dismiss();
+  }
+  ImGui::End();
+}
+
+// The scale of false colours.
+void Panels::Legend(Viewer& viewer) {
+  const ViewState& view = viewer.view();
+  const bool errors = view.error_map;
+  if (!errors && !view.false_colour) return;
+  const double top = errors ? view.error_map_max : viewer.picture().scale_top();
+  const float width = 18, height = 220;
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const ImVec2 at(size.x - 110, size.y - height - 40);
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  draw->AddRectFilled(ImVec2(at.x - 12, at.y - 34), ImVec2(at.x + 100, at.y + height + 16),
+                      IM_COL32(20, 20, 20, 190), 4);
+  constexpr int kSteps = 64;
+  for (int i = 0; i < kSteps; ++i) {
+    const float y = at.y + height * static_cast<float>(kSteps - 1 - i) / kSteps;
+    draw->AddRectFilled(ImVec2(at.x, y), ImVec2(at.x + width, y + height / kSteps + 1),
+                        ToImGui(FalseColour((i + 0.5) / kSteps)));
+  }
+  draw->AddText(ImVec2(at.x - 4, at.y - 28), IM_COL32_WHITE, errors ? "rel. error" : "W/m^2");
+  constexpr int kTicks = 4;
+  for (int i = 0; i <= kTicks; ++i) {
+    const float y = at.y + height * static_cast<float>(kTicks - i) / kTicks;
+    draw->AddLine(ImVec2(at.x + width, y), ImVec2(at.x + width + 5, y), IM_COL32_WHITE);
+    draw->AddText(ImVec2(at.x + width + 9, y - 7), IM_COL32_WHITE,
+                  fmt::format("{:.3g}", top * i / kTicks).c_str());
+  }
+}
+
+}  // namespace penumbra::viewer

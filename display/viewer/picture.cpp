@@ -1,0 +1,169 @@
+#include "display/viewer/picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "display/viewer/false_colour.h"
+#include "display/viewer/mesh_tools.h"
+#include "display/viewer/selection.h"
+#include "solver/base/check.h"
+
+namespace penumbra::viewer {
+namespace {
+
+void SetPixel(Srgb8Image* image, std::size_t i, Colour c) {
+  image->pixels[3 * i] = c.red;
+  image->pixels[3 * i + 1] = c.green;
+  image->pixels[3 * i + 2] = c.blue;
+}
+
+// Copies `part` to (left, top) as far as it fits.
+void Place(const Srgb8Image& part, int left, int top, Srgb8Image* whole) {
+  const int columns = std::min(part.width, whole->width - left);
+  if (columns <= 0) return;
+  for (int y = 0; y < part.height && top + y < whole->height; ++y) {
+    const auto from = part.pixels.begin() + 3 * static_cast<std::ptrdiff_t>(y) * part.width;
+    const auto to = whole->pixels.begin() + 3 * (static_cast<std::ptrdiff_t>(top + y) * whole->width + left);
+    std::copy_n(from, 3 * static_cast<std::ptrdiff_t>(columns), to);
+  }
+}
+
+}  // namespace
+
+MeshKind MeshOf(DrawMode mode) {
+  switch (mode) {
+    case DrawMode::kFlat:
+    case DrawMode::kRho:
+      return MeshKind::kFlat;
+    case DrawMode::kGouraud:
+      return MeshKind::kGouraud;
+    case DrawMode::kGouraudMesh:
+      return MeshKind::kGouraudMesh;
+    case DrawMode::kInterpolant:
+      break;
+  }
+  return MeshKind::kInterpolant;
+}
+
+double MeterSparsely(const RenderedFrame& frame) {
+  const int columns = (frame.width + kMeterStride - 1) / kMeterStride;
+  const int rows = (frame.height + kMeterStride - 1) / kMeterStride;
+  RgbImage sparse(columns, rows);
+  std::vector<PixelKind> kinds(sparse.PixelCount());
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      sparse.Set(x, y, frame.linear.At(kMeterStride * x, kMeterStride * y));
+      kinds[sparse.Index(x, y)] = frame.kind[frame.linear.Index(kMeterStride * x, kMeterStride * y)];
+    }
+  return MeterExposure(sparse, kinds);
+}
+
+void PictureMaker::ChooseMesh(const OverlayContext& context, const ViewState& view) {
+  kind_ = view.error_map && context.results.error_map ? MeshKind::kInterpolant : MeshOf(view.mode);
+  std::shared_ptr<const MeshState> wanted = context.snapshot.Mesh(kind_);
+  if (!wanted) {
+    kind_ = MeshKind::kFlat;
+    wanted = context.snapshot.Mesh(kind_);
+  }
+  // A triangle is one of the tools' mesh.
+  const bool isolate = view.isolate && context.selection;
+  if (isolate && context.selection.kind == SelectionKind::kTriangle)
+    for (const auto& mesh : context.snapshot.mesh)
+      if (mesh.get() == &context.mesh) wanted = mesh;
+  const Selection isolated = isolate ? context.selection : Selection{};
+  const bool same_results = isolated.kind != SelectionKind::kDiscontinuity || isolated_by_ == context.results;
+  if (wanted == whole_ && isolated == isolated_ && same_results && display_) return;
+  whole_ = wanted;
+  isolated_ = isolated;
+  isolated_by_ = context.results;
+  drawn_ = whole_;
+  if (isolated)
+    drawn_ = std::make_shared<const MeshState>(
+        context.snapshot.scene, SubMesh(whole_->mesh(), IsolatedTriangles(context, whole_->mesh())));
+  display_.emplace(*context.snapshot.scene, drawn_->mesh());
+}
+
+void PictureMaker::PaintErrors(const ErrorMap& errors, double top, Srgb8Image* out) const {
+  const RenderedFrame& frame = display_->frame();
+  if (drawn_ != whole_ || errors.error.size() != drawn_->mesh().triangles.size()) return;
+  for (std::size_t i = 0; i < frame.triangle.size(); ++i)
+    if (frame.triangle[i] != kNoTriangle)
+      SetPixel(out, i, FalseColour(static_cast<double>(errors.error[frame.triangle[i]]) / top));
+}
+
+// From the last frame to the screen.
+void PictureMaker::Shade(const OverlayContext& context, const ViewState& view, Srgb8Image* out) {
+  const RenderedFrame& frame = display_->frame();
+  const bool rho = view.mode == DrawMode::kRho || (view.mode == DrawMode::kFlat && view.trees_by_reflectance);
+  exposure_ = rho ? 1 : view.auto_exposure ? MeterSparsely(frame) : view.exposure;
+  scale_top_ = view.false_colour_max > 0 ? view.false_colour_max : 1 / exposure_;
+  if (view.error_map && context.results.error_map) {
+    *out = display_->ToneMap({exposure_, true}).screen;
+    PaintErrors(*context.results.error_map, view.error_map_max, out);
+  } else if (view.false_colour && !rho) {
+    PaintFalseColours(frame.linear, frame.kind, scale_top_, out);
+  } else {
+    *out = display_->ToneMap({exposure_, true}).screen;
+  }
+  times_ = display_->frame().ms;
+}
+
+// Thesis B.3.2: triangle ids, barycentric coordinates, depth and the picture.
+void PictureMaker::PaintSplit(const OverlayContext& context, const ViewState& view, int width, int height) {
+  screen_.Resize(width, height);
+  std::fill(screen_.pixels.begin(), screen_.pixels.end(), std::uint8_t{0});
+  const int w = std::max(1, width / 2), h = std::max(1, height / 2);
+  const RenderedFrame& frame = display_->frame();
+  Srgb8Image ids, coordinates, depths;
+  for (Srgb8Image* image : {&ids, &coordinates, &depths}) {
+    image->Resize(w, h);
+    std::fill(image->pixels.begin(), image->pixels.end(), std::uint8_t{24});
+  }
+  float nearest = 0;
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) nearest = std::max(nearest, depth_->Threshold(x, y));
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) {
+      const std::size_t i = frame.linear.Index(x, y);
+      if (frame.triangle[i] == kNoTriangle) continue;
+      SetPixel(&ids, i, ColourOfNumber(frame.triangle[i]));
+      const auto part = [](float value) {
+        return static_cast<std::uint8_t>(std::lround(255 * std::clamp(static_cast<double>(value), 0.0, 1.0)));
+      };
+      SetPixel(&coordinates, i, {part(frame.s[i]), part(frame.t[i]), part(1 - frame.s[i] - frame.t[i])});
+      const std::uint8_t grey = part(nearest > 0 ? depth_->Threshold(x, y) / nearest : 0.0F);
+      SetPixel(&depths, i, {grey, grey, grey});
+    }
+  Shade(context, view, &part_);
+  Place(ids, 0, 0, &screen_);
+  Place(coordinates, width - w, 0, &screen_);
+  Place(depths, 0, height - h, &screen_);
+  Place(part_, width - w, height - h, &screen_);
+}
+
+const Srgb8Image& PictureMaker::Make(const OverlayContext& context, const ViewState& view,
+                                     const OverlayDrawing& drawing, int width, int height) {
+  PENUMBRA_CHECK(width > 0 && height > 0);
+  ChooseMesh(context, view);
+  const int w = view.split ? std::max(1, width / 2) : width,
+            h = view.split ? std::max(1, height / 2) : height;
+  const PixelRays rays = MakePixelRays(view.camera, w, h);
+  const bool rho = view.mode == DrawMode::kRho || (view.mode == DrawMode::kFlat && view.trees_by_reflectance);
+  display_->Render(view.camera, w, h, rho ? ShadingMode::kReflectance : ShadingMode::kRadiosity);
+  const bool see_through = !view.faces || view.overlays.hidden_lines;
+  depth_.emplace(rays, display_->frame(), drawn_->mesh());
+  if (view.split) {
+    PaintSplit(context, view, width, height);
+    return screen_;
+  }
+  Shade(context, view, &screen_);
+  if (!view.faces) {
+    const auto grey = static_cast<std::uint8_t>(28);
+    std::fill(screen_.pixels.begin(), screen_.pixels.end(), grey);
+  }
+  if (see_through) depth_.emplace(rays, w, h);
+  PaintOverlay(drawing, *depth_, &screen_);
+  return screen_;
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,57 @@
+// display/viewer/picture.h
+//
+// The picture of a snapshot: what the window shows, without its panels. A function of the snapshot, the view
+// and what overlays add; everything kept here only saves time.
+
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "display/two_pass_display.h"
+#include "display/viewer/overlay.h"
+#include "display/viewer/overlay_painter.h"
+
+namespace penumbra::viewer {
+
+class PictureMaker {
+ public:
+  // Draws width x height pixels. REQUIRES: width, height > 0; the view's camera can see.
+  const Srgb8Image& Make(const OverlayContext& context, const ViewState& view, const OverlayDrawing& drawing,
+                         int width, int height);
+
+  // Of the last picture:
+  const Srgb8Image& screen() const { return screen_; }
+  const RenderedFrame* frame() const { return display_ ? &display_->frame() : nullptr; }
+  const DepthMap* depth() const { return depth_ ? &*depth_ : nullptr; }
+  // The mesh that frame() was drawn of.
+  const IrradianceMesh& drawn() const { return drawn_->mesh(); }
+  // The kind of mesh that the mode got: another one where its own is not built yet.
+  MeshKind drawn_kind() const { return kind_; }
+  double exposure() const { return exposure_; }    // screen value per W/m^2
+  double scale_top() const { return scale_top_; }  // of false colours
+  const FrameTimes& times() const { return times_; }
+
+ private:
+  void ChooseMesh(const OverlayContext& context, const ViewState& view);
+  void Shade(const OverlayContext& context, const ViewState& view, Srgb8Image* out);
+  void PaintErrors(const ErrorMap& errors, double top, Srgb8Image* out) const;
+  void PaintSplit(const OverlayContext& context, const ViewState& view, int width, int height);
+
+  std::shared_ptr<const MeshState> whole_;  // the mesh of the mode
+  std::shared_ptr<const MeshState> drawn_;  // that, or what is left of it when a selection is isolated
+  Selection isolated_;
+  AnalysisResults isolated_by_;
+  std::optional<TwoPassDisplay> display_;
+  std::optional<DepthMap> depth_;
+  Srgb8Image screen_, part_;
+  MeshKind kind_ = MeshKind::kFlat;
+  double exposure_ = 1, scale_top_ = 1;
+  FrameTimes times_;
+};
+
+// Exposure as MeterExposure() has it, from every kMeterStride-th pixel of every kMeterStride-th row.
+double MeterSparsely(const RenderedFrame& frame);
+inline constexpr int kMeterStride = 4;
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,205 @@
+#include "display/viewer/viewer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "display/image_io.h"
+#include "display/viewer/selection.h"
+#include "display/viewer/walk.h"
+#include "solver/base/check.h"
+#include "solver/scene/named_scene.h"
+
+namespace penumbra::viewer {
+
+Viewer::Viewer(std::shared_ptr<const Scene> scene, ViewerOptions options)
+    : options_(std::move(options)), session_(std::move(scene), options_.solving) {
+  view_.mode = DrawMode::kInterpolant;
+  snapshot_ = session_.snapshot();
+  tools_ = ToolsMesh();
+  cameras_ = snapshot_->scene->cameras;
+  AddViewSettings();
+  AddSolveSettings();
+  AddFileSettings();
+  AddMenus();
+  AddCameraMenu();
+  Home();
+  if (options_.solve) session_.Converge();
+}
+
+void Viewer::Home() {
+  GoTo(snapshot_->scene->cameras.empty() ? FrameScene(*snapshot_->scene) : snapshot_->scene->cameras.front());
+}
+
+void Viewer::GoTo(const Camera& camera) {
+  ValidateCamera(camera);
+  view_.camera = camera;
+}
+
+void Viewer::Open(const std::string& name) {
+  auto scene = std::make_shared<Scene>(ReadNamedScene(name, options_.reading));
+  options_.scene_name = name;
+  session_.SetScene(scene);
+  if (options_.solve) session_.Converge();
+  if (options_.opened) options_.opened(name);
+}
+
+void Viewer::AddCamera(const Camera& camera) {
+  std::erase_if(cameras_, [&](const Camera& c) { return c.name == camera.name; });
+  cameras_.push_back(camera);
+  AddCameraMenu();
+}
+
+void Viewer::SaveCamera(const std::string& name) {
+  if (name.empty() || name.find('/') != name.npos)
+    throw InputError("a camera's name has a letter or more, and no /");
+  Camera camera = view_.camera;
+  camera.name = name;
+  AddCamera(camera);
+}
+
+void Viewer::SavePicture(const std::string& path) {
+  if (!picture_.frame()) throw InputError("there is no picture yet");
+  if (path.ends_with(".exr")) {
+    WriteExr(path, picture_.frame()->linear);
+  } else if (path.ends_with(".png")) {
+    WritePng(path, picture_.screen());
+  } else {
+    throw InputError(fmt::format("'{}' ends neither in .png nor in .exr", path));
+  }
+}
+
+void Viewer::Unselect() {
+  view_.selection = {};
+  view_.probe.reset();
+  view_.backprojection.reset();
+}
+
+// Tools speak of the triangles of the mode, and of the interpolants in modes without any (thesis B.4).
+std::shared_ptr<const MeshState> Viewer::ToolsMesh() const {
+  const MeshKind kind = MeshOf(view_.mode);
+  if (kind != MeshKind::kFlat && snapshot_->Mesh(kind)) return snapshot_->Mesh(kind);
+  if (snapshot_->Mesh(MeshKind::kInterpolant)) return snapshot_->Mesh(MeshKind::kInterpolant);
+  return snapshot_->Mesh(MeshKind::kFlat);
+}
+
+OverlayContext Viewer::Context() const {
+  return {*snapshot_, *tools_, view_.overlays, view_.selection, results_};
+}
+
+void Viewer::Want(MeshKind kind) {
+  if (!snapshot_->light || snapshot_->Mesh(kind) || declined_ == snapshot_->number) return;
+  if (asked_.emplace(snapshot_->number, kind).second) session_.BuildMesh(kind);
+}
+
+// Meshes are built when the solver rests: the picture follows it with the leaves until then.
+void Viewer::AskForMeshes() {
+  if (session_.status().busy || session_.snapshot() != snapshot_) return;
+  const OverlaySettings& o = view_.overlays;
+  const bool tools =
+      o.triangles || o.sample_points || o.analytic_graph || o.interpolated_graph || o.error_graph;
+  if (MeshOf(view_.mode) != MeshKind::kFlat) Want(MeshOf(view_.mode));
+  if (view_.error_map || view_.probe || (tools && MeshOf(view_.mode) == MeshKind::kFlat))
+    Want(MeshKind::kInterpolant);
+}
+
+std::string Viewer::message() const {
+  if (!message_.empty()) return message_;
+  return session_.status().message;
+}
+
+const Srgb8Image& Viewer::Frame(int width, int height, double seconds) {
+  size_ = {width, height};
+  clock_ += seconds;
+  seconds_a_frame_ = seconds_a_frame_ > 0 ? 0.9 * seconds_a_frame_ + 0.1 * seconds : seconds;
+  if (view_.navigation == Navigation::kWalk) Walk(seconds);
+
+  const std::shared_ptr<const Snapshot> latest = session_.snapshot();
+  if (latest->scene != snapshot_->scene) {
+    snapshot_ = latest;
+    Unselect();
+    cameras_ = latest->scene->cameras;
+    AddCameraMenu();
+    Home();
+  }
+  snapshot_ = latest;
+  AskForMeshes();
+  const std::shared_ptr<const MeshState> tools = ToolsMesh();
+  // Numbers of links, triangles and discontinuities are those of one state; elements keep theirs.
+  if (tools != tools_ && view_.selection.kind == SelectionKind::kTriangle) view_.selection = {};
+  tools_ = tools;
+  if (drawn_of_ && drawn_of_->snapshot->light != snapshot_->light &&
+      view_.selection.kind != SelectionKind::kElement)
+    view_.selection = {};
+  results_ = analyses_.Update(*snapshot_, tools_, view_);
+  if (view_.selection &&
+      !(view_.selection.kind == SelectionKind::kDiscontinuity && !results_.discontinuities) &&
+      !IsValid(Context(), view_.selection))
+    view_.selection = {};
+  if (results_.probe && results_.probe != printed_probe_) {
+    printed_probe_ = results_.probe;
+    if (options_.print) {
+      if (printed_++ == 0) options_.print(kProbeHeader);
+      options_.print(ProbeLine(*results_.probe));
+    }
+  }
+
+  DrawnOf now{snapshot_, tools_, view_.overlays, view_.selection, results_};
+  if (!(drawn_of_ == now)) {
+    drawing_ = {};
+    for (const auto& overlay : AllOverlays()) overlay->Draw(Context(), &drawing_);
+    drawn_of_ = std::move(now);
+  }
+  picture_.Make(Context(), view_, drawing_, width, height);
+  fresh_ = true;
+  return picture_.screen();
+}
+
+bool Viewer::Idle() {
+  if (session_.status().busy || analyses_.Busy() || !fresh_) return false;
+  // A result that came since the last frame has to be drawn first, and may ask for more.
+  if (session_.snapshot() != snapshot_) return false;
+  AskForMeshes();
+  if (session_.status().busy) return false;
+  return results_ == analyses_.Update(*snapshot_, tools_, view_) && !analyses_.Busy();
+}
+
+void Viewer::RunMenu(const std::string& path) {
+  fresh_ = false;
+  const MenuItem* item = menu_.Find(path);
+  if (!item) throw InputError(fmt::format("there is no menu item '{}'", path));
+  // A copy: the item may replace itself.
+  const std::function<void()> run = item->run;
+  run();
+}
+
+void Viewer::Set(const std::string& name, const std::string& value) {
+  fresh_ = false;
+  const Setting* setting = settings_.Find(name);
+  if (!setting) throw InputError(fmt::format("there is no option '{}'", name));
+  try {
+    setting->set(value);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", name, error.what()));
+  }
+}
+
+std::vector<std::string> Viewer::Details() const {
+  std::vector<std::string> lines = DescribeSelection(Context());
+  if (results_.probe) {
+    if (!lines.empty()) lines.emplace_back();
+    lines.emplace_back("irradiance probe");
+    for (std::string& line : DescribeProbe(*results_.probe, *snapshot_->scene))
+      lines.push_back(std::move(line));
+  }
+  if (results_.backprojection) {
+    if (!lines.empty()) lines.emplace_back();
+    std::size_t hidden = 0;
+    for (const BackprojectedPatch& patch : *results_.backprojection) hidden += patch.visible.empty() ? 1 : 0;
+    lines.push_back(fmt::format("backprojection on {} sources, {} of them hidden",
+                                results_.backprojection->size(), hidden));
+  }
+  return lines;
+}
+
+}  // namespace penumbra::viewer

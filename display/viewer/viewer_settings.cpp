@@ -1,0 +1,176 @@
+// The settings of the viewer.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "display/viewer/viewer.h"
+#include "solver/base/check.h"
+
+namespace penumbra::viewer {
+namespace {
+
+// A setting of the solver that follows from others unless it is given.
+Setting Optional(const std::string& name, const std::string& help, std::optional<double>* value, double low,
+                 std::function<double()> otherwise, std::function<void()> changed) {
+  constexpr double kHigh = 1e12;
+  Setting setting{name, "Solving", help, SettingKind::kNumber, low, kHigh, true, true, {}, {}, {}};
+  setting.get = [value, otherwise = std::move(otherwise)] {
+    return *value ? TextOf(**value) : fmt::format("auto ({:.4g})", otherwise());
+  };
+  setting.set = [=, changed = std::move(changed)](const std::string& text) {
+    *value = text == "auto" ? std::nullopt : std::optional(NumberFrom(text, low, kHigh));
+    changed();
+  };
+  return setting;
+}
+
+}  // namespace
+
+void Viewer::AddViewSettings() {
+  Settings& s = settings_;
+  s.Choice("mode", "Drawing", "Drawing mode", &view_.mode,
+           {"flat", "gouraud", "gouraud-mesh", "interpolant", "rho"});
+  s.Toggle("faces", "Drawing", "Faces", &view_.faces);
+  s.Toggle("trees-by-reflectance", "Drawing", "Flat faces by reflectance", &view_.trees_by_reflectance);
+  s.Toggle("split", "Drawing", "Ids, coordinates, depth and picture", &view_.split);
+  s.Toggle("auto-exposure", "Exposure", "Automatic exposure", &view_.auto_exposure);
+  Setting& exposure =
+      s.Number("exposure", "Exposure", "Irradiance-2-Pixel [m^2/W]", &view_.exposure, 1e-9, 1e9, true);
+  exposure.get = [this] { return TextOf(view_.auto_exposure ? picture_.exposure() : view_.exposure); };
+  exposure.set = [this](const std::string& text) {
+    view_.exposure = NumberFrom(text, 1e-9, 1e9);
+    view_.auto_exposure = false;
+  };
+  s.Toggle("false-colour", "Exposure", "False colours", &view_.false_colour);
+  s.Number("false-colour-max", "Exposure", "Top of the scale [W/m^2], 0: by exposure",
+           &view_.false_colour_max, 0, 1e12, false);
+
+  OverlaySettings& o = view_.overlays;
+  s.Toggle("element-mesh", "Visualisations", "Element mesh", &o.element_mesh);
+  s.Integer("mesh-depth", "Visualisations", "Mesh depth", &o.mesh_depth, 0, kMaxLevel);
+  s.Toggle("discontinuities", "Visualisations", "All discontinuities", &o.discontinuities);
+  s.Toggle("triangles", "Visualisations", "Triangulation", &o.triangles);
+  s.Toggle("sample-points", "Visualisations", "Sample points", &o.sample_points);
+  s.Toggle("hidden-lines", "Visualisations", "Show hidden lines", &o.hidden_lines);
+  s.Toggle("isolate", "Visualisations", "Draw only what is selected", &view_.isolate);
+  s.Toggle("visible-links", "Links", "Visible links", &o.visible_links);
+  s.Toggle("split-links", "Links", "Links split by a plane", &o.split_links);
+  s.Toggle("partial-links", "Links", "Partial links", &o.partial_links);
+  s.Number("link-min-irradiance", "Links", "At least [W/m^2]", &o.link_min_irradiance, 0, 1e12, false);
+  s.Integer("link-limit", "Links", "The strongest", &o.link_limit, 0, 1'000'000);
+  s.Toggle("error-map", "Graphs", "Representation error as a map", &view_.error_map);
+  s.Number("error-map-max", "Graphs", "Top of the map, relative", &view_.error_map_max, 1e-9, 1e9, true);
+  s.Toggle("analytic-graph", "Graphs", "Analytic irradiance", &o.analytic_graph);
+  s.Toggle("interpolated-graph", "Graphs", "Interpolated irradiance", &o.interpolated_graph);
+  s.Toggle("error-graph", "Graphs", "Error surface", &o.error_graph);
+  s.Number("graph-scale", "Graphs", "Graph height scale [m per W/m^2]", &o.graph_scale, 1e-9, 1e6, true);
+  s.Integer("grid-density", "Graphs", "Grid density", &o.grid_density, 1, 200);
+  s.Toggle("dynamic-grid", "Graphs", "Dynamic grid density", &o.dynamic_grid);
+
+  s.Choice("navigation", "Viewing", "Viewing mode", &view_.navigation, {"arcball", "walk"});
+  s.Number("walk-speed", "Viewing", "Walking speed [m/s]", &view_.walk_speed, 1e-3, 1e4, true);
+  s.Toggle("mouse-look", "Viewing", "The mouse turns a walking view", &view_.mouse_look);
+  s.Vector(
+      "eye", "Viewing", "Eye [m]", [this] { return view_.camera.eye; },
+      [this](const Vec3& v) {
+        Camera camera = view_.camera;
+        camera.eye = v;
+        GoTo(camera);
+      });
+  s.Vector(
+      "look-at", "Viewing", "Look at [m]", [this] { return view_.camera.look_at; },
+      [this](const Vec3& v) {
+        Camera camera = view_.camera;
+        camera.look_at = v;
+        GoTo(camera);
+      });
+  s.Vector(
+      "up", "Viewing", "Up", [this] { return view_.camera.up; },
+      [this](const Vec3& v) { view_.camera.up = v; });
+  s.Number("fov", "Viewing", "Vertical field of view [degrees]", &view_.camera.vertical_fov, kMinFov, kMaxFov,
+           false);
+
+  s.Toggle("control-panel", "Panels", "Drawing control panel", &panels_.control);
+  s.Toggle("parameters", "Panels", "Parameters", &panels_.parameters);
+  s.Toggle("report", "Panels", "Report", &panels_.report);
+  s.Toggle("details", "Panels", "Details", &panels_.details);
+  s.Toggle("help", "Panels", "Keyboard shortcuts", &panels_.help);
+}
+
+void Viewer::AddSolveSettings() {
+  Settings& s = settings_;
+  PipelineOptions& o = options_.solving;
+  const auto changed = [this] { SolvingChanged(); };
+  const auto also = [&](Setting& setting) {
+    setting.set = [set = setting.set, changed](const std::string& text) {
+      set(text);
+      changed();
+    };
+  };
+  also(s.Number("error", "Solving", "Error of what is shown, relative", &o.error, 1e-6, 10, true));
+  s.Add(Optional(
+      "eps", "Max error of a link [W/m^2]", &o.eps, 1e-12,
+      [this] { return Resolve(*snapshot_->scene, options_.solving).solver.eps; }, changed));
+  s.Add(Optional(
+      "min-area", "Min area of an element [m^2]", &o.min_area, 0,
+      [this] { return Resolve(*snapshot_->scene, options_.solving).solver.min_area; }, changed));
+  s.Add(Optional(
+      "min-discontinuity-weight", "Minimum discontinuity weight [W/m^2]", &o.min_discontinuity_weight, 0,
+      [this] { return Resolve(*snapshot_->scene, options_.solving).min_discontinuity_weight; }, changed));
+  also(s.Integer("max-leaf-dsets", "Solving", "Max leaf discontinuity segments", &o.max_leaf_dsets, 0,
+                 1'000'000));
+  s.Add(Optional(
+      "relative-cutoff", "Relative error cutoff", &o.relative_cutoff, 1e-15,
+      [this] { return Resolve(*snapshot_->scene, options_.solving).solver.relative_cutoff; }, changed));
+  also(s.Integer("corrections", "Solving", "Corrections by exact irradiance", &o.max_corrections, 0, 100));
+  also(s.Integer("iterations", "Solving", "Most iterations", &o.max_iterations, 1, 1'000'000));
+  also(s.Toggle("acceleration", "Solving", "Guess ahead between sweeps", &o.accelerate));
+  also(s.Number("nudge", "Solving", "Nudge of points in contact [m]", &o.point.nudge, 0, 1e6, false));
+  also(s.Number("source-push-off", "Solving", "Push-off of sources [m]", &o.point.source_push_off, 0, 1e6,
+                false));
+  Setting points{"error-points",
+                 "Solving",
+                 "Points that measure the error",
+                 SettingKind::kText,
+                 0,
+                 1,
+                 false,
+                 false,
+                 {},
+                 {},
+                 {}};
+  points.get = [&o] { return std::to_string(o.error_points); };
+  points.set = [&o, changed](const std::string& text) {
+    const double number = NumberFrom(text, 0, 1e8);
+    if (number != std::floor(number)) throw InputError(fmt::format("'{}' is not a whole number", text));
+    o.error_points = static_cast<std::size_t>(number);
+    changed();
+  };
+  s.Add(points);
+}
+
+// Settings that are done rather than kept: dialogs and scripts name a file or a camera.
+void Viewer::AddFileSettings() {
+  const auto action = [this](const std::string& name, const std::string& help, auto run) {
+    Setting setting{name, "Files", help, SettingKind::kText, 0, 1, false, false, {}, {}, {}};
+    setting.get = [] { return std::string(); };
+    setting.set = run;
+    settings_.Add(std::move(setting));
+  };
+  action("open", "Open a scene: a file or the name of a built-in one",
+         [this](const std::string& v) { Open(v); });
+  action("save-picture", "Save the picture as .png, or .exr in W/m^2",
+         [this](const std::string& v) { SavePicture(v); });
+  action("save-camera", "Name this camera", [this](const std::string& v) { SaveCamera(v); });
+  action("camera", "Go to a camera", [this](const std::string& v) {
+    for (const Camera& camera : cameras_)
+      if (camera.name == v) {
+        GoTo(camera);
+        return;
+      }
+    throw InputError(fmt::format("there is no camera '{}'", v));
+  });
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,18 @@
+// display/viewer/walk.h
+//
+// Walking and flying through a scene.
+
+#pragma once
+
+#include "solver/scene/scene.h"
+
+namespace penumbra::viewer {
+
+// The camera moved [m] along its view, to its right and along `up`.
+Camera Fly(const Camera& camera, double forward, double right, double upward, const Vec3& up);
+
+// The view turned by these angles [radians], to the right about `up` and upwards; it stops short of looking
+// along `up`. The camera stands upright afterwards.
+Camera Look(const Camera& camera, double right, double upward, const Vec3& up);
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,360 @@
+// The viewer without a window: everything that a user can do, done.
+
+#include "display/viewer/viewer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "display/viewer/script.h"
+#include "solver/base/check.h"
+#include "tests/viewer/viewer_test_scenes.h"
+
+namespace penumbra::viewer {
+namespace {
+
+using testing::HasSubstr;
+using viewer_test::Click;
+using viewer_test::Drag;
+using viewer_test::Options;
+using viewer_test::PlaceOf;
+using viewer_test::Settle;
+using viewer_test::ShadowScene;
+
+// Pixels that differ.
+std::size_t Difference(const Srgb8Image& a, const Srgb8Image& b) {
+  if (a.pixels.size() != b.pixels.size()) return std::max(a.pixels.size(), b.pixels.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) count += a.pixels[i] != b.pixels[i] ? 1 : 0;
+  return count;
+}
+
+class SolvedViewer : public testing::Test {
+ protected:
+  SolvedViewer() : viewer(ShadowScene(), Options(true)) { EXPECT_TRUE(Settle(viewer)); }
+  Viewer viewer;
+};
+
+TEST_F(SolvedViewer, FollowsTheSolutionToItsInterpolants) {
+  EXPECT_TRUE(viewer.snapshot().converged);
+  EXPECT_TRUE(viewer.snapshot().Mesh(MeshKind::kInterpolant));
+  EXPECT_EQ(viewer.picture().drawn_kind(), MeshKind::kInterpolant);
+}
+
+// The picture is a function of state and view: the way to them does not matter.
+TEST_F(SolvedViewer, ThePictureDependsOnStateAndViewAlone) {
+  const Srgb8Image before = viewer.Frame(96, 64, 0);
+  Drag(viewer, MouseButton::kLeft, 20, 20, 60, 40);
+  viewer.Set("element-mesh", "on");
+  viewer.Set("mode", "flat");
+  EXPECT_TRUE(Settle(viewer));
+  EXPECT_GT(Difference(before, viewer.Frame(96, 64, 0)), 100U);
+  viewer.Frame(31, 77, 0);
+  viewer.RunMenu("Viewing/Home");
+  viewer.Set("element-mesh", "off");
+  viewer.Set("mode", "interpolant");
+  EXPECT_TRUE(Settle(viewer));
+  EXPECT_EQ(Difference(before, viewer.Frame(96, 64, 0)), 0U);
+}
+
+TEST_F(SolvedViewer, EveryMenuItemRuns) {
+  const std::vector<MenuItem> items = viewer.menu().items();
+  std::set<std::string> keys;
+  for (const MenuItem& item : items) {
+    if (!item.key.empty()) {
+      EXPECT_TRUE(ParseChord(item.key)) << item.key;
+      EXPECT_TRUE(keys.insert(item.key).second) << "two items for " << item.key;
+    }
+    SCOPED_TRACE(item.path);
+    viewer.RunMenu(item.path);
+    viewer.Frame(48, 32, 0.01);
+    EXPECT_TRUE(Settle(viewer, 48, 32));
+    EXPECT_EQ(viewer.message(), "");
+  }
+}
+
+TEST_F(SolvedViewer, EverySettingTakesBackWhatItGives) {
+  for (const Setting& setting : viewer.settings().all()) {
+    if (setting.group == "Files" || setting.automatic) continue;
+    SCOPED_TRACE(setting.name);
+    const std::string value = setting.get();
+    EXPECT_NO_THROW(viewer.Set(setting.name, value));
+    EXPECT_EQ(setting.get(), value);
+    EXPECT_THROW(viewer.Set(setting.name, "?"), InputError);
+    EXPECT_EQ(setting.get(), value);
+  }
+  EXPECT_THROW(viewer.Set("no-such-option", "1"), InputError);
+  EXPECT_THROW(viewer.RunMenu("No/Such/Item"), InputError);
+}
+
+TEST_F(SolvedViewer, EveryModeAndSizeDraws) {
+  for (const char* mode : {"flat", "gouraud", "gouraud-mesh", "interpolant", "rho"})
+    for (const char* split : {"off", "on"}) {
+      viewer.Set("mode", mode);
+      viewer.Set("split", split);
+      ASSERT_TRUE(Settle(viewer));
+      EXPECT_EQ(viewer.picture().drawn_kind(), MeshOf(viewer.view().mode));
+      for (const auto& [w, h] : {std::pair{1, 1}, {1, 50}, {50, 1}, {2, 3}, {97, 33}}) {
+        const Srgb8Image& picture = viewer.Frame(w, h, 0.01);
+        EXPECT_EQ(picture.width, w);
+        EXPECT_EQ(picture.height, h);
+      }
+    }
+}
+
+TEST_F(SolvedViewer, SelectsPatchesThenTheirChildren) {
+  viewer.Set("mode", "flat");
+  viewer.Set("isolate", "off");
+  const Vec3 corner(-0.8, -0.7, 0);
+  const ElementForest& forest = viewer.snapshot().light->solution().forest;
+  for (int level = 0; level < 3; ++level) {
+    ASSERT_TRUE(Settle(viewer));
+    Click(viewer, MouseButton::kLeft, PlaceOf(viewer, corner).x, PlaceOf(viewer, corner).y);
+    const Selection& selection = viewer.view().selection;
+    ASSERT_EQ(selection.kind, SelectionKind::kElement);
+    const auto id = static_cast<ElementId>(selection.index);
+    EXPECT_EQ(forest[id].level, level);
+    EXPECT_EQ(forest[id].patch, 0);
+    EXPECT_THAT(viewer.Details(), testing::Contains(HasSubstr("irradiance")));
+    if (forest[id].IsLeaf()) break;
+  }
+  viewer.RunMenu("Geometry/Unselect all");
+  EXPECT_FALSE(viewer.view().selection);
+}
+
+TEST_F(SolvedViewer, IsolatesWhatIsSelectedAndADoubleClickBesideItEndsThat) {
+  viewer.Set("mode", "flat");
+  ASSERT_TRUE(Settle(viewer));
+  const Vec3 corner(-0.8, -0.7, 0);
+  Click(viewer, MouseButton::kLeft, PlaceOf(viewer, corner).x, PlaceOf(viewer, corner).y);
+  ASSERT_TRUE(Settle(viewer));
+  const RenderedFrame& frame = *viewer.picture().frame();
+  std::size_t shown = 0;
+  for (const std::uint32_t id : frame.triangle) {
+    if (id == kNoTriangle) continue;
+    ++shown;
+    ASSERT_EQ(viewer.picture().drawn().triangles[id].patch, 0);
+  }
+  EXPECT_GT(shown, 100U);
+  viewer.Handle(viewer_test::Button(InputEvent::Kind::kMove, MouseButton::kLeft, 2, 2));
+  Click(viewer, MouseButton::kLeft, 2, 2);
+  EXPECT_TRUE(viewer.view().selection);
+  Click(viewer, MouseButton::kLeft, 2, 2);
+  EXPECT_FALSE(viewer.view().selection);
+}
+
+TEST_F(SolvedViewer, SelectsLinksTubesTrianglesAndDiscontinuities) {
+  viewer.Set("mode", "flat");
+  viewer.Set("isolate", "off");
+  for (const char* links : {"visible-links", "split-links", "partial-links"}) viewer.Set(links, "on");
+  viewer.Set("link-limit", "1");
+  viewer.Set("hidden-lines", "on");
+  ASSERT_TRUE(Settle(viewer));
+  const RadiositySolution& solution = viewer.snapshot().light->solution();
+  const auto strongest = std::max_element(
+      solution.links.links.begin(), solution.links.links.end(), [&](const Link& a, const Link& b) {
+        return a.form_factor * solution.radiosity[static_cast<std::size_t>(a.source)].maxCoeff() <
+               b.form_factor * solution.radiosity[static_cast<std::size_t>(b.source)].maxCoeff();
+      });
+  const Vec3 middle = 0.5 * (Centroid(solution.forest[strongest->receiver].Vertices()) +
+                             Centroid(solution.forest[strongest->source].Vertices()));
+  Click(viewer, MouseButton::kLeft, PlaceOf(viewer, middle).x, PlaceOf(viewer, middle).y);
+  EXPECT_EQ(viewer.view().selection.kind, SelectionKind::kLink);
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_THAT(viewer.Details(), testing::Contains(HasSubstr("form factor")));
+  Click(viewer, MouseButton::kLeft, PlaceOf(viewer, middle).x, PlaceOf(viewer, middle).y);
+  EXPECT_EQ(viewer.view().selection.kind, SelectionKind::kTube);
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_THAT(viewer.Details(), testing::Contains(HasSubstr("tube")));
+
+  viewer.RunMenu("Geometry/Unselect all");
+  for (const char* links : {"visible-links", "split-links", "partial-links"}) viewer.Set(links, "off");
+  viewer.Set("triangles", "on");
+  ASSERT_TRUE(Settle(viewer));
+  const Vec3 corner(-0.8, -0.7, 0);
+  Click(viewer, MouseButton::kLeft, PlaceOf(viewer, corner).x, PlaceOf(viewer, corner).y);
+  EXPECT_EQ(viewer.view().selection.kind, SelectionKind::kTriangle);
+  for (const char* graph :
+       {"analytic-graph", "interpolated-graph", "error-graph", "sample-points", "isolate"})
+    viewer.Set(graph, "on");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_THAT(viewer.Details(), testing::Contains(HasSubstr("discontinuity edges")));
+
+  viewer.RunMenu("Geometry/Unselect all");
+  viewer.Set("triangles", "off");
+  viewer.Set("discontinuities", "on");
+  viewer.Set("sample-points", "off");
+  ASSERT_TRUE(Settle(viewer));
+  // The shadow's lines run all over the floor's middle: a sweep of clicks meets one.
+  for (double x = -0.9; x < 0.9 && viewer.view().selection.kind != SelectionKind::kDiscontinuity; x += 0.02) {
+    viewer.RunMenu("Geometry/Unselect all");
+    viewer.Frame(96, 64, 1);
+    Click(viewer, MouseButton::kLeft, PlaceOf(viewer, Vec3(x, -0.5, 0)).x,
+          PlaceOf(viewer, Vec3(x, -0.5, 0)).y);
+  }
+  ASSERT_EQ(viewer.view().selection.kind, SelectionKind::kDiscontinuity);
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_THAT(viewer.Details(), testing::Contains(HasSubstr("blocker")));
+}
+
+TEST_F(SolvedViewer, ProbesTellWhatTheyFind) {
+  const ScreenPoint at = PlaceOf(viewer, Vec3(-0.7, -0.6, 0));
+  Click(viewer, MouseButton::kRight, at.x, at.y);
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_THAT(viewer.Details(), testing::Contains(HasSubstr("analytic")));
+  Click(viewer, MouseButton::kRight, at.x, at.y, kShift);
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_THAT(viewer.Details(),
+              testing::Contains(HasSubstr("backprojection on 1 sources, 0 of them hidden")));
+  viewer.RunMenu("Geometry/Unselect all");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_TRUE(viewer.Details().empty());
+}
+
+TEST_F(SolvedViewer, KeysRunMenusAndFlyWhileWalking) {
+  InputEvent key;
+  key.kind = InputEvent::Kind::kKeyDown;
+  key.key = "m";
+  viewer.Handle(key);
+  EXPECT_TRUE(viewer.view().overlays.element_mesh);
+  viewer.Set("navigation", "walk");
+  viewer.Set("walk-speed", "3");
+  const Camera before = viewer.view().camera;
+  key.key = "w";
+  viewer.Handle(key);
+  viewer.Frame(96, 64, 0.1);
+  viewer.Frame(96, 64, 0.1);
+  key.kind = InputEvent::Kind::kKeyUp;
+  viewer.Handle(key);
+  viewer.Frame(96, 64, 0.1);
+  EXPECT_NEAR((viewer.view().camera.eye - before.eye).norm(), 0.6, 1e-12);
+}
+
+TEST_F(SolvedViewer, CamerasAreSavedByName) {
+  Drag(viewer, MouseButton::kMiddle, 20, 20, 60, 40);
+  viewer.Set("save-camera", "mine");
+  const Camera saved = viewer.view().camera;
+  viewer.RunMenu("Viewing/Home");
+  EXPECT_NE(viewer.view().camera.eye, saved.eye);
+  viewer.RunMenu("Cameras/Go to/mine");
+  EXPECT_EQ(viewer.view().camera.eye, saved.eye);
+  viewer.Set("camera", "above");
+  viewer.Set("camera", "mine");
+  EXPECT_EQ(viewer.view().camera.eye, saved.eye);
+  EXPECT_THROW(viewer.Set("camera", "nobody's"), InputError);
+}
+
+TEST_F(SolvedViewer, ASceneThatFailsToLoadLeavesTheOldOne) {
+  EXPECT_THROW(viewer.Set("open", "no/such/file.obj"), InputError);
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.snapshot().scene->patches.size(), 3U);
+  viewer.Set("open", "furnace");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.snapshot().scene->name, "furnace");
+}
+
+TEST(Viewer, EmptyScenesAreDark) {
+  Viewer viewer(std::make_shared<const Scene>(), Options(true));
+  EXPECT_TRUE(Settle(viewer));
+  viewer.Set("element-mesh", "on");
+  viewer.Set("discontinuities", "on");
+  viewer.Set("triangles", "on");
+  EXPECT_TRUE(Settle(viewer));
+}
+
+// Solving never holds up the view: while it works, frames come.
+TEST(Viewer, DrawsWhileItSolvesAndIsCancelled) {
+  ViewerOptions options = Options(true);
+  options.solving.error = 0.005;
+  Viewer viewer(ShadowScene(), options);
+  int frames = 0;
+  while (viewer.status().busy && frames < 20) {
+    viewer.Frame(32, 24, 0.01);
+    ++frames;
+  }
+  viewer.RunMenu("Iteration/Cancel");
+  EXPECT_TRUE(Settle(viewer));
+  EXPECT_GT(frames, 0);
+}
+
+// A stage without a window.
+class Headless final : public ScriptStage {
+ public:
+  explicit Headless(Viewer& viewer) : viewer_(viewer) {}
+  void Input(const InputEvent& event) override { viewer_.Handle(event); }
+  void Resize(int w, int h) override {
+    width = w;
+    height = h;
+  }
+  void Screenshot(const std::string& path) override { screenshots.push_back(path); }
+  int width = 96, height = 64;
+  std::vector<std::string> screenshots;
+
+ private:
+  Viewer& viewer_;
+};
+
+TEST(Script, PlaysItsActionsInOrder) {
+  Viewer viewer(ShadowScene(), Options(false));
+  Headless stage(viewer);
+  ScriptPlayer player(ParseScript("s", R"(# a comment
+set mode flat
+menu Iteration/Iterate to convergence
+wait idle
+key m
+mouse drag middle 10 10 30 20
+mouse click left 5 5
+mouse scroll 1
+resize 40x30
+wait frames 2
+screenshot a.png
+quit
+set mode nonsense
+)"));
+  int frames = 0;
+  while (player.Advance(viewer, stage, 0.01) && frames < 100000) {
+    viewer.Frame(stage.width, stage.height, 0.01);
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+    ++frames;
+  }
+  EXPECT_TRUE(viewer.snapshot().converged);
+  EXPECT_TRUE(viewer.view().overlays.element_mesh);
+  EXPECT_EQ(viewer.view().mode, DrawMode::kFlat);
+  EXPECT_EQ(stage.width, 40);
+  EXPECT_THAT(stage.screenshots, testing::ElementsAre("a.png"));
+}
+
+std::string ErrorOf(const std::string& text) {
+  try {
+    const Script script = ParseScript("f", text);
+    Viewer viewer(ShadowScene(), Options(false));
+    Headless stage(viewer);
+    ScriptPlayer player(script);
+    for (int i = 0; i < 100 && player.Advance(viewer, stage, 0.01); ++i) viewer.Frame(8, 8, 0.01);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(Script, TellsWhatIsWrongAndWhere) {
+  EXPECT_THAT(ErrorOf("\nfly away\n"), testing::StartsWith("f:2: error: 'fly' is none of"));
+  EXPECT_THAT(ErrorOf("key nonsense"), testing::StartsWith("f:1: error: 'nonsense' is no key"));
+  EXPECT_THAT(ErrorOf("mouse move 1"), testing::StartsWith("f:1: error: y is missing"));
+  EXPECT_THAT(ErrorOf("mouse press thumb"), HasSubstr("none of left, middle, right"));
+  EXPECT_THAT(ErrorOf("wait forever"), HasSubstr("none of idle, frames, seconds"));
+  EXPECT_THAT(ErrorOf("wait frames -1"), HasSubstr("below 0"));
+  EXPECT_THAT(ErrorOf("resize 0x5"), HasSubstr("not WIDTHxHEIGHT"));
+  EXPECT_THAT(ErrorOf("screenshot a.jpg"), HasSubstr("does not end in .png"));
+  EXPECT_THAT(ErrorOf("quit now"), HasSubstr("'now' is too much"));
+  EXPECT_THAT(ErrorOf("wait frames 1\nset mode nonsense"),
+              testing::StartsWith("f:2: error: mode: 'nonsense'"));
+  EXPECT_THAT(ErrorOf("set sillyness 3"), testing::StartsWith("f:1: error: there is no option 'sillyness'"));
+  EXPECT_THAT(ErrorOf("menu Nowhere"), testing::StartsWith("f:1: error: there is no menu item 'Nowhere'"));
+  EXPECT_EQ(ErrorOf("# only a comment\n\n"), "");
+}
+
+}  // namespace
+}  // namespace penumbra::viewer

@@ -1,0 +1,247 @@
+// The window as a user sees it, on a display without a screen: scripts play what he would do, and screenshots
+// show what came of it.
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <stb/stb_image.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "tests/apps/run_program.h"
+
+namespace penumbra {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// An X server of our own, as long as this lives; DISPLAY names it.
+class Display {
+ public:
+  Display() {
+    int ends[2];
+    if (pipe(ends) != 0) return;
+    server_ = fork();
+    if (server_ == 0) {
+      close(ends[0]);
+      const int nowhere = open("/dev/null", O_WRONLY);
+      dup2(nowhere, STDERR_FILENO);
+      const std::string number = std::to_string(ends[1]);
+      // The server finds a free display itself, and writes its number once it is ready.
+      execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "1400x1000x24", "-nolisten", "tcp",
+             nullptr);
+      _exit(127);
+    }
+    close(ends[1]);
+    std::string name;
+    for (char c = 0; read(ends[0], &c, 1) == 1 && c != '\n';) name += c;
+    close(ends[0]);
+    if (!name.empty()) setenv("DISPLAY", (":" + name).c_str(), 1);
+    ready_ = !name.empty();
+    setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+    unsetenv("WAYLAND_DISPLAY");
+  }
+  ~Display() {
+    kill(server_, SIGTERM);
+    waitpid(server_, nullptr, 0);
+  }
+  bool ready() const { return ready_; }
+
+ private:
+  pid_t server_ = -1;
+  bool ready_ = false;
+};
+
+class Window : public testing::Test {
+ protected:
+  Window() {
+    // What is remembered between sessions goes into the sandbox.
+    setenv("XDG_STATE_HOME", sandbox.Path("state").c_str(), 1);
+  }
+  Outcome Play(const std::string& script, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"view", "floating-cube", "--error",
+                                          "0.2",  "--script",      sandbox.Write("script", script)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return sandbox.Run(arguments);
+  }
+  struct Shot {
+    int width = 0, height = 0;
+    std::vector<unsigned char> rgb;
+    std::size_t Different(const Shot& other) const {
+      if (rgb.size() != other.rgb.size()) return rgb.size() + other.rgb.size();
+      std::size_t count = 0;
+      for (std::size_t i = 0; i < rgb.size(); i += 3)
+        count += rgb[i] != other.rgb[i] || rgb[i + 1] != other.rgb[i + 1] || rgb[i + 2] != other.rgb[i + 2]
+                     ? 1
+                     : 0;
+      return count;
+    }
+  };
+  Shot Load(const std::string& name) {
+    Shot shot;
+    int channels = 0;
+    unsigned char* data = stbi_load(sandbox.Path(name).c_str(), &shot.width, &shot.height, &channels, 3);
+    EXPECT_NE(data, nullptr) << name;
+    if (!data) return shot;
+    shot.rgb.assign(data, data + static_cast<std::ptrdiff_t>(3) * shot.width * shot.height);
+    stbi_image_free(data);
+    return shot;
+  }
+
+  static void SetUpTestSuite() { display = new Display; }
+  static void TearDownTestSuite() { delete display; }
+  void SetUp() override { ASSERT_TRUE(display->ready()) << "no display: is Xvfb installed?"; }
+
+  static Display* display;
+  Sandbox sandbox;
+};
+Display* Window::display = nullptr;
+
+TEST_F(Window, SolvesAndShowsEveryVisualisation) {
+  const Outcome run = Play(R"(
+resize 480x360
+screenshot before.png
+wait idle
+screenshot solved.png
+set mode flat
+key m
+screenshot mesh.png
+key m
+key t
+wait idle
+screenshot triangles.png
+key t
+key x
+wait idle
+screenshot discontinuities.png
+key x
+set visible-links on
+set partial-links on
+set split-links on
+screenshot links.png
+set visible-links off
+set partial-links off
+set split-links off
+set mode interpolant
+key v
+wait idle
+screenshot split.png
+key v
+key o
+screenshot false-colour.png
+key o
+key e
+wait idle
+screenshot error.png
+key e
+key f
+screenshot no-faces.png
+)");
+  EXPECT_EQ(run.status, 0) << run.err;
+  const Shot solved = Load("solved.png");
+  EXPECT_EQ(solved.width, 480);
+  EXPECT_EQ(solved.height, 360);
+  for (const char* name : {"before", "mesh", "triangles", "discontinuities", "links", "split", "false-colour",
+                           "error", "no-faces"})
+    EXPECT_GT(Load(std::string(name) + ".png").Different(solved), 500U) << name;
+}
+
+TEST_F(Window, PanelsMenusAndDialogsHearMouseAndKeys) {
+  const Outcome run = Play(R"(
+resize 640x480
+wait idle
+screenshot plain.png
+key d
+screenshot panel.png
+key d
+key ?
+screenshot help.png
+key ?
+screenshot plain-again.png
+mouse click left 20 8
+screenshot menu.png
+key escape
+mouse click left 500 400
+key ctrl+k
+wait frames 2
+type corner
+key enter
+wait frames 2
+set camera corner
+key ctrl+o
+wait frames 2
+type nowhere.obj
+key enter
+screenshot message.png
+)");
+  EXPECT_EQ(run.status, 0) << run.err;
+  const Shot plain = Load("plain.png");
+  EXPECT_EQ(Load("plain-again.png").Different(plain), 0U);
+  for (const char* name : {"panel", "help", "menu", "message"})
+    EXPECT_GT(Load(std::string(name) + ".png").Different(plain), 1000U) << name;
+}
+
+TEST_F(Window, ProbesPrintWhatTheProbeCommandMeasures) {
+  const Outcome run = Play("resize 400x300\nwait idle\nmouse click right 200 240\nwait idle\n");
+  EXPECT_EQ(run.status, 0) << run.err;
+  const std::vector<std::string> lines = Lines(run.out);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_THAT(lines[0], StartsWith("x,y,z,patch,exact_r"));
+  const std::vector<std::string> shown = Fields(lines[1]);
+  ASSERT_EQ(shown.size(), 13U);
+  sandbox.Write("points.csv", "x,y,z,nx,ny,nz\n" + shown[0] + "," + shown[1] + "," + shown[2] + ",0,0,1\n");
+  const Outcome probe =
+      sandbox.Run({"probe", "floating-cube", "--error", "0.2", "--points", sandbox.Path("points.csv")});
+  const std::vector<std::string> wanted = Fields(Lines(probe.out).at(1));
+  EXPECT_EQ(shown[3], wanted[6]);  // patch
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_NEAR(std::stod(shown[4 + i]), std::stod(wanted[7 + i]), 1e-6 * std::stod(wanted[7 + i])) << i;
+}
+
+TEST_F(Window, SurvivesAnySizeAndAnEndAtAnyTime) {
+  for (const char* script :
+       {"resize 1x1\nwait idle\nscreenshot a.png\n", "quit", "", "wait frames 3\nquit",
+        "resize 1400x3\nkey d\nwait frames 3\nresize 3x1000\nwait frames 3\n",
+        "wait frames 5\nkey backspace\nwait idle\nkey c\nwait idle\nkey ctrl+q\nwait seconds 60"}) {
+    const Outcome run = Play(script);
+    EXPECT_EQ(run.status, 0) << script << run.err;
+  }
+  EXPECT_EQ(Load("a.png").width, 1);
+}
+
+TEST_F(Window, ScriptsLeaveNothingBehind) {
+  EXPECT_EQ(Play("wait frames 2").status, 0);
+  EXPECT_FALSE(std::filesystem::exists(sandbox.Path("state")));
+}
+
+TEST_F(Window, ErrorsAreOneLineAndStatusOne) {
+  const Outcome wrong = Play("wait frames 1\nset mode nonsense\n");
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_THAT(wrong.err, HasSubstr("script:2: error: mode: 'nonsense' is none of flat"));
+  const Outcome unwritable = Play("screenshot no/such/folder/a.png");
+  EXPECT_EQ(unwritable.status, 1);
+  EXPECT_THAT(unwritable.err, HasSubstr("a.png"));
+  const Outcome missing = sandbox.Run({"view", "nowhere.obj", "--script", sandbox.Write("s", "quit")});
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_EQ(Lines(missing.err).size(), 1U);
+}
+
+// Last, since it takes the display away.
+TEST_F(Window, WithoutADisplayThereIsOneLine) {
+  const std::string name = std::getenv("DISPLAY");
+  unsetenv("DISPLAY");
+  const Outcome run = sandbox.Run({"view", "floating-cube"});
+  setenv("DISPLAY", name.c_str(), 1);
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(Lines(run.err).size(), 1U) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("no display"));
+}
+
+}  // namespace
+}  // namespace penumbra
