@@ -9,9 +9,11 @@ DiscontinuityList ListDiscontinuities(const LightState& light, const ExecutionCo
   const Scene& scene = light.scene();
   const std::vector<double> strength = SourceStrengths(light.solution());
   const DiscontinuityFinder finder(scene, light.visibility());
+  DiscontinuityOptions every;
+  every.min_weight = 0;
   std::vector<std::vector<Discontinuity>> found(scene.patches.size());
   ParallelFor(found.size(), 1, [&](std::size_t p) {
-    if (!context.Cancelled()) found[p] = finder.Find(static_cast<PatchId>(p), strength, 0);
+    if (!context.Cancelled()) found[p] = finder.Find(static_cast<PatchId>(p), strength, every);
   });
   DiscontinuityList list;
   for (std::size_t p = 0; p < found.size(); ++p) {

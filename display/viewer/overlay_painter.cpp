@@ -188,8 +188,12 @@ DepthMap::DepthMap(const PixelRays& rays, const RenderedFrame& frame, const Irra
   const std::span<const std::uint32_t> ids = frame.triangle;
   ParallelFor(static_cast<std::size_t>(frame.height), 8, [&](std::size_t row) {
     const int y = static_cast<int>(row);
-    ForEachRun(ids.subspan(row * width, width), frame.width, [&](int x, int n, std::uint32_t id) {
-      if (id == kNoTriangle) return;
+    for (int x = 0; x < frame.width;) {
+      const std::uint32_t id = ids[row * width + static_cast<std::size_t>(x)];
+      if (id == kNoTriangle) {
+        ++x;
+        continue;
+      }
       const auto& at = mesh.triangles[id].vertex;
       const Vec3 p = mesh.positions[at[0]] - rays.eye;
       const Vec3 normal = (mesh.positions[at[1]] - mesh.positions[at[0]])
@@ -197,12 +201,12 @@ DepthMap::DepthMap(const PixelRays& rays, const RenderedFrame& frame, const Irra
       // 1 / depth = (normal . direction) / (normal . p).
       const Vec3 plane = normal / normal.dot(p);
       const double slope = std::abs(plane.dot(rays.dx)) + std::abs(plane.dot(rays.dy));
-      for (int i = x; i < x + n; ++i) {
-        const double inverse = plane.dot(rays.Direction(i + 0.5, y + 0.5));
-        inverse_[Index(i, y)] =
+      for (; x < frame.width && ids[row * width + static_cast<std::size_t>(x)] == id; ++x) {
+        const double inverse = plane.dot(rays.Direction(x + 0.5, y + 0.5));
+        inverse_[Index(x, y)] =
             static_cast<float>(std::max(0.0, inverse * (1 - kRounding) - std::min(slope, 0.5 * inverse)));
       }
-    });
+    }
   });
 }
 

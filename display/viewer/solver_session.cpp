@@ -109,6 +109,8 @@ void SolverSession::Cancel() {
   if (running_) {
     running_->Cancel();
     status_.cancelling = true;
+  } else {
+    status_.busy = false;
   }
 }
 
@@ -235,9 +237,9 @@ void SolverSession::DoBuildMesh(MeshKind kind, const ExecutionContext& context) 
   if (!before->light || before->Mesh(kind)) return;
   const ResolvedOptions resolved = Resolve(*before->scene, options());
   MeshOptions mesh;
-  mesh.discontinuities.enabled = kind == MeshKind::kGouraudMesh || kind == MeshKind::kInterpolant;
-  mesh.discontinuities.min_weight = resolved.min_discontinuity_weight;
-  mesh.discontinuities.max_leaf_dsets = resolved.max_leaf_dsets;
+  mesh.discontinuities = resolved.discontinuities;
+  if (kind != MeshKind::kGouraudMesh && kind != MeshKind::kInterpolant)
+    mesh.discontinuities.choice = DiscontinuityChoice::kNone;
   mesh.order = kind == MeshKind::kInterpolant ? InterpolantOrder::kQuadratic : InterpolantOrder::kLinear;
   MeshResult result = RunLocalPass(before->light->visibility(), before->light->solution(),
                                    SamplerOf(*before->light), mesh, context);

@@ -159,7 +159,8 @@ class Viewer {
   std::optional<ArcballDrag> drag_;
   Camera press_camera_;
   std::set<std::string> held_;  // keys
-  double clock_ = 0, last_click_ = -1;
+  double clock_ = 0;
+  double last_click_ = -1, last_click_x_ = 0, last_click_y_ = 0;
   double seconds_a_frame_ = 0;
   bool fresh_ = false;  // nothing happened since the last frame
 };

@@ -117,8 +117,11 @@ void Viewer::Click(const InputEvent& event) {
     return;
   }
   if (event.button != MouseButton::kLeft || !picture_.frame() || view_.split) return;
-  const bool twice = clock_ - last_click_ < kDoubleClick;
+  const bool twice = clock_ - last_click_ < kDoubleClick &&
+                     std::hypot(event.x - last_click_x_, event.y - last_click_y_) < kDragBegins;
   last_click_ = clock_;
+  last_click_x_ = event.x;
+  last_click_y_ = event.y;
   if (const Selection picked = PickLine(drawing_, *picture_.depth(), event.x, event.y)) {
     view_.selection = SelectLine(view_.selection, picked);
     return;

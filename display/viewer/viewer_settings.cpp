@@ -117,7 +117,7 @@ void Viewer::AddSolveSettings() {
       [this] { return Resolve(*snapshot_->scene, options_.solving).solver.min_area; }, changed));
   s.Add(Optional(
       "min-discontinuity-weight", "Minimum discontinuity weight [W/m^2]", &o.min_discontinuity_weight, 0,
-      [this] { return Resolve(*snapshot_->scene, options_.solving).min_discontinuity_weight; }, changed));
+      [this] { return Resolve(*snapshot_->scene, options_.solving).discontinuities.min_weight; }, changed));
   also(s.Integer("max-leaf-dsets", "Solving", "Max leaf discontinuity segments", &o.max_leaf_dsets, 0,
                  1'000'000));
   s.Add(Optional(

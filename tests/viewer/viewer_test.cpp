@@ -207,7 +207,7 @@ TEST_F(SolvedViewer, ProbesTellWhatTheyFind) {
   Click(viewer, MouseButton::kRight, at.x, at.y, kShift);
   ASSERT_TRUE(Settle(viewer));
   EXPECT_THAT(viewer.Details(),
-              testing::Contains(HasSubstr("backprojection on 1 sources, 0 of them hidden")));
+              testing::Contains(HasSubstr("backprojection on 2 sources, 0 of them hidden")));
   viewer.RunMenu("Geometry/Unselect all");
   ASSERT_TRUE(Settle(viewer));
   EXPECT_TRUE(viewer.Details().empty());

@@ -107,6 +107,7 @@ TEST_F(Window, SolvesAndShowsEveryVisualisation) {
   const Outcome run = Play(R"(
 resize 480x360
 screenshot before.png
+key c
 wait idle
 screenshot solved.png
 set mode flat
@@ -142,7 +143,8 @@ screenshot error.png
 key e
 key f
 screenshot no-faces.png
-)");
+)",
+                           {"--no-solve"});
   EXPECT_EQ(run.status, 0) << run.err;
   const Shot solved = Load("solved.png");
   EXPECT_EQ(solved.width, 480);
