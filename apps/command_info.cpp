@@ -9,7 +9,9 @@
 
 #include "apps/commands.h"
 #include "apps/output.h"
+#include "apps/report.h"
 #include "apps/scene_arguments.h"
+#include "mesh/solution_file.h"
 
 namespace penumbra {
 namespace {
@@ -38,7 +40,25 @@ SceneSummary Summarise(const Scene& scene) {
 
 Json ToJson(const Eigen::Ref<const Vec3>& v) { return {v.x(), v.y(), v.z()}; }
 
-std::string InfoJson(const Scene& scene, const SceneSummary& summary) {
+// What a solution file holds: rows of its tables, how it was solved, what came out.
+Json SolutionJson(const StoredRun& stored) {
+  const PipelineState& state = stored.state;
+  return {{"version", stored.version},
+          {"schema", kSolutionSchema},
+          {"tables",
+           {{"visible_pairs", state.visibility.rows().pairs.size()},
+            {"elements", state.solution.forest.size()},
+            {"links", state.solution.links.links.size()},
+            {"link_blockers", state.solution.links.blockers.size()},
+            {"fragments", state.solution.fragments.size()},
+            {"mesh_positions", state.mesh.positions.size()},
+            {"mesh_triangles", state.mesh.triangles.size()}}},
+          {"options", stored.options},
+          {"report", Json::parse(LastingReportJson(state.report))}};
+}
+
+std::string InfoJson(const LoadedScene& loaded, const SceneSummary& summary) {
+  const Scene& scene = loaded.scene;
   const auto [low, high] = scene.Bounds();
   Json cameras = Json::array(), objects = Json::array();
   for (const Camera& camera : scene.cameras)
@@ -49,24 +69,26 @@ std::string InfoJson(const Scene& scene, const SceneSummary& summary) {
                        {"fov", camera.vertical_fov}});
   for (const Object& object : scene.objects)
     objects.push_back({{"name", object.name}, {"faces", object.faces.size()}});
-  const Json info = {{"name", scene.name},
-                     {"faces", scene.faces.size()},
-                     {"dropped", summary.dropped},
-                     {"patches", scene.patches.size()},
-                     {"triangles", summary.triangles},
-                     {"quadrilaterals", summary.quadrilaterals},
-                     {"emitters", summary.emitters},
-                     {"materials", scene.materials.size()},
-                     {"objects", objects},
-                     {"bounds", {{"min", ToJson(low)}, {"max", ToJson(high)}}},
-                     {"area", summary.area},
-                     {"emitted_power", ToJson(summary.emitted_power.matrix())},
-                     {"cameras", cameras},
-                     {"warnings", scene.warnings}};
+  Json info = {{"name", scene.name},
+               {"faces", scene.faces.size()},
+               {"dropped", summary.dropped},
+               {"patches", scene.patches.size()},
+               {"triangles", summary.triangles},
+               {"quadrilaterals", summary.quadrilaterals},
+               {"emitters", summary.emitters},
+               {"materials", scene.materials.size()},
+               {"objects", objects},
+               {"bounds", {{"min", ToJson(low)}, {"max", ToJson(high)}}},
+               {"area", summary.area},
+               {"emitted_power", ToJson(summary.emitted_power.matrix())},
+               {"cameras", cameras},
+               {"warnings", scene.warnings}};
+  if (loaded.stored) info["solution"] = SolutionJson(*loaded.stored);
   return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string InfoText(const Scene& scene, const SceneSummary& summary) {
+std::string InfoText(const LoadedScene& loaded, const SceneSummary& summary) {
+  const Scene& scene = loaded.scene;
   const auto [low, high] = scene.Bounds();
   std::string text;
   const auto add = [&](const char* what, const std::string& value) {
@@ -87,20 +109,32 @@ std::string InfoText(const Scene& scene, const SceneSummary& summary) {
   for (std::size_t i = 0; i < scene.cameras.size(); ++i)
     add(i == 0 ? "cameras" : "", fmt::format("{} {}", i, scene.cameras[i].name));
   add("warnings", fmt::format("{}", scene.warnings.size()));
+  if (loaded.stored) {
+    const Json solution = SolutionJson(*loaded.stored);
+    add("solved by", fmt::format("penumbra {}, schema {}", loaded.stored->version, kSolutionSchema));
+    for (const auto& [name, rows] : solution["tables"].items())
+      add(name == "visible_pairs" ? "tables" : "", fmt::format("{} {}", name, rows.get<std::size_t>()));
+    const PipelineReport& report = loaded.stored->state.report;
+    add("error", fmt::format("interpolants: p99 {:.3g}; solution, estimated: {:.3g}; asked for {:.3g}: {}",
+                             report.interpolant_error.p99, report.solution_error_estimate, report.error_asked,
+                             report.error_met ? "met" : "not met"));
+  }
   return text;
 }
 
 void Info(const SceneArguments& arguments, bool as_json) {
   const LoadedScene loaded = LoadScene(arguments);
-  if (arguments.verbose) PrintOptionsUsed(OptionsUsed(arguments, nullptr));
+  if (arguments.verbose)
+    PrintOptionsUsed(loaded.stored ? loaded.stored->options : OptionsUsed(arguments, nullptr));
   const SceneSummary summary = Summarise(loaded.scene);
-  WriteResult(std::nullopt, as_json ? InfoJson(loaded.scene, summary) : InfoText(loaded.scene, summary));
+  WriteResult(std::nullopt, as_json ? InfoJson(loaded, summary) : InfoText(loaded, summary));
 }
 
 }  // namespace
 
 Command AddInfoCommand(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("info", "Tell what is in a scene, and what was repaired in it");
+  CLI::App* app =
+      program.add_subcommand("info", "Tell what is in a scene or a solution, and what was repaired in it");
   const auto arguments = std::make_shared<SceneArguments>();
   const auto as_json = std::make_shared<bool>(false);
   AddSceneArguments(*app, arguments.get());

@@ -66,12 +66,12 @@ std::vector<Measurement> MeasureDirect(const ProbeArguments& arguments, const Sc
 void Probe(const ProbeArguments& arguments) {
   if (arguments.output) CheckWritable(*arguments.output);
   if (arguments.scene.report) CheckWritable(*arguments.scene.report);
-  const LoadedScene loaded = LoadScene(arguments.scene);
+  LoadedScene loaded = LoadScene(arguments.scene);
   const std::vector<ProbePoint> points = ReadPointsCsv(arguments.points);
 
   const std::unique_ptr<const OcclusionMethod> method =
       arguments.method == kFastest ? nullptr : MakeOcclusionMethod(arguments.method, arguments.occlusion);
-  PointIrradianceOptions how = arguments.scene.solving.point;
+  PointIrradianceOptions how = loaded.stored ? loaded.stored->solving.point : arguments.scene.solving.point;
   how.method = method.get();
 
   std::vector<Measurement> measurements;

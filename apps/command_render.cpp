@@ -216,7 +216,7 @@ void RenderByRays(const RenderArguments& arguments, const Camera& camera, SolveR
 
 void Render(const RenderArguments& arguments) {
   CheckOutputs(arguments);
-  const LoadedScene loaded = LoadScene(arguments.scene);
+  LoadedScene loaded = LoadScene(arguments.scene);
   const Camera camera = ChooseCamera(loaded.scene, arguments.camera);
   SolveRun run(arguments.scene, loaded, RenderOptionsUsed(arguments));
   // A report tells the interpolants' error even where the picture does without them.

@@ -1,6 +1,10 @@
 // penumbra solve: the light in a scene, and what it took.
 
+#include <fmt/format.h>
+
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "apps/commands.h"
 #include "apps/output.h"
@@ -10,25 +14,37 @@
 namespace penumbra {
 namespace {
 
-void Solve(const SceneArguments& arguments) {
+void Solve(const SceneArguments& arguments, const std::optional<std::string>& output) {
+  if (output) CheckWritable(*output);
   if (arguments.report) CheckWritable(*arguments.report);
-  const LoadedScene loaded = LoadScene(arguments);
+  LoadedScene loaded = LoadScene(arguments);
+  if (loaded.stored)
+    throw UsageError(
+        fmt::format("'{}' is a solution already; give the scene to solve it anew", arguments.scene));
   SolveRun run(arguments, loaded);
   run.Run(MeshKind::kInterpolant, true);
+  if (output) WriteResult(output, run.SolutionFile());
   run.Tell();
-  if (!WantsReport(arguments)) WriteResult(std::nullopt, ReportTable(run.report()));
+  if (!output && !WantsReport(arguments)) WriteResult(std::nullopt, ReportTable(run.report()));
 }
 
 }  // namespace
 
 Command AddSolveCommand(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("solve", "Solve for the light in a scene and report on it");
+  CLI::App* app =
+      program.add_subcommand("solve", "Solve for the light in a scene, keep it, and report on it");
   const auto arguments = std::make_shared<SceneArguments>();
+  const auto output = std::make_shared<std::optional<std::string>>();
   AddSceneArguments(*app, arguments.get());
+  app->add_option(
+         "-o,--output", *output,
+         "Keep the solution here, as HDF5: the commands that take a SCENE take it instead, and need not "
+         "solve again")
+      ->type_name("SOLUTION");
   AddSolveOptions(*app, arguments.get());
   AddReportOption(*app, arguments.get());
-  app->footer("Without --report or -v the report goes to standard output, as a table.");
-  return {app, [arguments] { Solve(*arguments); }};
+  app->footer("Without -o, --report or -v the report goes to standard output, as a table.");
+  return {app, [arguments, output] { Solve(*arguments, *output); }};
 }
 
 }  // namespace penumbra

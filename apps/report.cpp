@@ -4,6 +4,8 @@
 #include <sys/resource.h>
 
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "solver/base/parallel.h"
 
@@ -25,20 +27,30 @@ Json PhasesJson(const RunReport& report) {
   return phases;
 }
 
-Json CountsJson(const PipelineReport::Counts& counts) {
-  return {{"patches", counts.patches},
-          {"emitters", counts.emitters},
-          {"elements", counts.elements},
-          {"leaves", counts.leaves},
-          {"links", counts.links},
-          {"links_visible", counts.links_visible},
-          {"links_partial", counts.links_partial},
-          {"discontinuities", counts.discontinuities},
-          {"dsets_active", counts.dsets_active},
-          {"most_merged", counts.most_merged},
-          {"triangles", counts.triangles},
-          {"interpolants", counts.interpolants},
-          {"point_evaluations", counts.point_evaluations}};
+using Counts = PipelineReport::Counts;
+
+const std::vector<std::pair<const char*, std::size_t Counts::*>>& CountNames() {
+  static const std::vector<std::pair<const char*, std::size_t Counts::*>> names = {
+      {"patches", &Counts::patches},
+      {"emitters", &Counts::emitters},
+      {"elements", &Counts::elements},
+      {"leaves", &Counts::leaves},
+      {"links", &Counts::links},
+      {"links_visible", &Counts::links_visible},
+      {"links_partial", &Counts::links_partial},
+      {"discontinuities", &Counts::discontinuities},
+      {"dsets_active", &Counts::dsets_active},
+      {"most_merged", &Counts::most_merged},
+      {"triangles", &Counts::triangles},
+      {"interpolants", &Counts::interpolants},
+      {"point_evaluations", &Counts::point_evaluations}};
+  return names;
+}
+
+Json CountsJson(const Counts& counts) {
+  Json json;
+  for (const auto& [name, count] : CountNames()) json[name] = counts.*count;
+  return json;
 }
 
 Json IterationsJson(const std::vector<IterationReport>& reports) {
@@ -66,25 +78,66 @@ Json ErrorJson(const PipelineReport& report) {
           {"met", report.error_met}};
 }
 
+Json OutcomeJson(const PipelineReport& report) {
+  return {{"counts", CountsJson(report.counts)},
+          {"iterations", IterationsJson(report.iterations)},
+          {"energy",
+           {{"emitted", report.energy.emitted},
+            {"absorbed", report.energy.absorbed},
+            {"escaped", report.energy.escaped},
+            {"relative_imbalance", report.energy.relative_imbalance}}},
+          {"error", ErrorJson(report)},
+          {"unmet", report.unmet}};
+}
+
+std::string Dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
 }  // namespace
 
 std::string ReportJson(const RunReport& report) {
-  const PipelineReport& pipeline = report.pipeline;
-  const Json json = {{"version", PENUMBRA_VERSION},
-                     {"threads", ThreadCount()},
-                     {"options", report.options},
-                     {"phases", PhasesJson(report)},
-                     {"counts", CountsJson(pipeline.counts)},
-                     {"iterations", IterationsJson(pipeline.iterations)},
-                     {"energy",
-                      {{"emitted", pipeline.energy.emitted},
-                       {"absorbed", pipeline.energy.absorbed},
-                       {"escaped", pipeline.energy.escaped},
-                       {"relative_imbalance", pipeline.energy.relative_imbalance}}},
-                     {"error", ErrorJson(pipeline)},
-                     {"memory_peak_bytes", PeakMemoryBytes()},
-                     {"unmet", pipeline.unmet}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  Json json = {{"version", PENUMBRA_VERSION},
+               {"threads", ThreadCount()},
+               {"options", report.options},
+               {"phases", PhasesJson(report)}};
+  json.update(OutcomeJson(report.pipeline));
+  json["memory_peak_bytes"] = PeakMemoryBytes();
+  return Dump(json);
+}
+
+std::string LastingReportJson(const PipelineReport& report) {
+  Json json = OutcomeJson(report);
+  for (Json& iteration : json["iterations"]) iteration.erase("seconds");
+  return Dump(json);
+}
+
+PipelineReport PipelineReportFrom(const Json& lasting) {
+  PipelineReport report;
+  const Json& counts = lasting.at("counts");
+  for (const auto& [name, count] : CountNames()) counts.at(name).get_to(report.counts.*count);
+  for (const Json& from : lasting.at("iterations")) {
+    IterationReport& iteration = report.iterations.emplace_back();
+    from.at("residual").get_to(iteration.residual);
+    from.at("elements").get_to(iteration.elements);
+    from.at("links").get_to(iteration.links);
+    from.at("sweeps").get_to(iteration.sweeps);
+    from.at("links_split").get_to(iteration.links_split);
+  }
+  const Json& energy = lasting.at("energy");
+  energy.at("emitted").get_to(report.energy.emitted);
+  energy.at("absorbed").get_to(report.energy.absorbed);
+  energy.at("escaped").get_to(report.energy.escaped);
+  energy.at("relative_imbalance").get_to(report.energy.relative_imbalance);
+  const Json &error = lasting.at("error"), &interpolant = error.at("interpolant");
+  interpolant.at("points").get_to(report.interpolant_error.points);
+  interpolant.at("max").get_to(report.interpolant_error.max);
+  interpolant.at("p99").get_to(report.interpolant_error.p99);
+  interpolant.at("p95").get_to(report.interpolant_error.p95);
+  interpolant.at("rms").get_to(report.interpolant_error.rms);
+  error.at("solution").at("estimate").get_to(report.solution_error_estimate);
+  error.at("asked").get_to(report.error_asked);
+  error.at("met").get_to(report.error_met);
+  lasting.at("unmet").get_to(report.unmet);
+  return report;
 }
 
 std::string ReportTable(const RunReport& report) {

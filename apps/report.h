@@ -20,6 +20,11 @@ struct RunReport {
 // The text of REPORT.json; memory, threads and version are those of this process.
 std::string ReportJson(const RunReport& report);
 
+// What of it is the same on every run: no times, threads or memory, and not the options.
+std::string LastingReportJson(const PipelineReport& report);
+// The same read back. Throws nlohmann::json::exception.
+PipelineReport PipelineReportFrom(const nlohmann::ordered_json& lasting);
+
 // Phases with their seconds, counts, energy and error, a line each.
 std::string ReportTable(const RunReport& report);
 

@@ -3,12 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
+#include "apps/commands.h"
 #include "apps/option_values.h"
+#include "apps/report.h"
+#include "mesh/solution_file.h"
+#include "solver/base/check.h"
 #include "solver/base/parallel.h"
+#include "solver/base/stopwatch.h"
 #include "solver/scene/named_scene.h"
 
 namespace penumbra {
@@ -16,6 +22,7 @@ namespace {
 
 constexpr int kMaxThreads = 1024;
 constexpr std::uint64_t kMaxErrorPoints = 100'000'000;
+constexpr const char *kSceneGroup = "Scene", *kSolvingGroup = "Solving";
 constexpr NumberRule kBelowOne{[](double x) { return x >= 0 && x < 1; }, "a number in [0, 1)"};
 
 constexpr std::array<NamedValue<DiscontinuityChoice>, 5> kDiscontinuityChoices = {
@@ -26,22 +33,76 @@ constexpr std::array<NamedValue<DiscontinuityChoice>, 5> kDiscontinuityChoices =
      {"all", DiscontinuityChoice::kAll}}};
 constexpr std::array<NamedValue<DiscontinuityWeight>, 2> kDiscontinuityWeights = {
     {{"thesis", DiscontinuityWeight::kThesis}, {"irradiance", DiscontinuityWeight::kIrradiance}}};
+bool IsFile(const std::string& name) {
+  std::error_code ignored;
+  return std::filesystem::exists(name, ignored) && !std::filesystem::is_directory(name, ignored);
+}
+
+// The first bytes of the file, all of them if there are fewer.
+std::string ReadBytes(const std::string& path, std::size_t count) {
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(count, '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(count));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return bytes;
+}
+
+// Whether the file is, or was meant to be, a solution: its content tells. Nothing tells what an empty file
+// is; one that is named as a scene is a scene without faces.
+bool IsSolution(const std::string& path) {
+  if (!IsFile(path)) return false;
+  const std::string beginning = ReadBytes(path, kSolutionHeaderSize);
+  return beginning.empty() ? std::filesystem::path(path).extension() != ".obj" : LooksLikeSolution(beginning);
+}
+
+// Options that say how a scene is read or solved have no place beside a solution.
+void RefuseSceneOptions(const SceneArguments& arguments) {
+  for (const CLI::Option* option : arguments.app->get_options())
+    if (option->count() > 0 && (option->get_group() == kSceneGroup || option->get_group() == kSolvingGroup))
+      throw UsageError(fmt::format(
+          "{} says how a scene is {}, but '{}' is a solution; give the scene, or leave it out",
+          option->get_name(), option->get_group() == kSceneGroup ? "read" : "solved", arguments.scene));
+}
+
+LoadedScene ReadSolution(const SceneArguments& arguments) {
+  RefuseSceneOptions(arguments);
+  const std::string& path = arguments.scene;
+  std::error_code ignored;
+  const std::string bytes = ReadBytes(path, std::filesystem::file_size(path, ignored));
+  StoredSolution solution = DecodeSolution(bytes, path);
+  LoadedScene loaded{std::move(solution.scene)};
+  StoredRun& stored = loaded.stored.emplace();
+  stored.state = std::move(solution.state);
+  stored.version = std::move(solution.version);
+  try {
+    stored.options = nlohmann::ordered_json::parse(solution.options);
+    stored.solving = SolvingFrom(stored.options);
+    stored.state.report = PipelineReportFrom(nlohmann::ordered_json::parse(solution.report));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(
+        fmt::format("{}: error: its options or its report cannot be read: {}", path, error.what()));
+  }
+  return loaded;
+}
 
 }  // namespace
 
 void AddSceneArguments(CLI::App& app, SceneArguments* arguments) {
-  app.add_option("SCENE", arguments->scene, "An OBJ file or the name of a built-in scene; a file wins")
+  arguments->app = &app;
+  app.add_option(
+         "SCENE", arguments->scene,
+         "An OBJ file, the name of a built-in scene (a file wins), or a solution that `solve -o` wrote")
       ->required()
       ->type_name("");
   app.add_flag("--emission-is-radiance", arguments->reading.emission_is_radiance,
                "Ke is radiance in W/(m^2 sr) instead of emittance in W/m^2: multiply it by pi")
-      ->group("Scene");
+      ->group(kSceneGroup);
   app.add_flag("--two-sided", arguments->reading.two_sided,
                "Repeat every face, reversed, after the last: the back of face i is n + i")
-      ->group("Scene");
+      ->group(kSceneGroup);
   AddNumber(app, "--max-reflectance", &arguments->reading.max_reflectance, kBelowOne,
             "Clamp larger reflectances to X, in [0, 1), instead of refusing those of 1 or more")
-      ->group("Scene");
+      ->group(kSceneGroup);
   AddInteger(app, "--threads", &arguments->threads, 0, kMaxThreads,
              "Threads to work with, 0: all; the result is the same for any number")
       ->group("Running");
@@ -55,7 +116,7 @@ void AddSceneArguments(CLI::App& app, SceneArguments* arguments) {
 
 void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
   PipelineOptions* solving = &arguments->solving;
-  const std::string group = "Solving";
+  const std::string group = kSolvingGroup;
   AddNumber(app, "--error", &solving->error, kPositive,
             "The relative error of what is shown that 99 points in 100 shall not exceed; all below follows "
             "from it unless it is given")
@@ -161,12 +222,35 @@ void PrintOptionsUsed(const nlohmann::ordered_json& options) {
   fmt::print(stderr, "{}", block);
 }
 
+PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
+  PipelineOptions solving;
+  options.at("seed").get_to(solving.seed);
+  options.at("error").get_to(solving.error);
+  solving.eps = options.at("eps").get<double>();
+  solving.min_area = options.at("min_area").get<double>();
+  solving.min_discontinuity_weight = options.at("min_discontinuity_weight").get<double>();
+  options.at("max_leaf_dsets").get_to(solving.max_leaf_dsets);
+  options.at("corrections").get_to(solving.max_corrections);
+  options.at("acceleration").get_to(solving.accelerate);
+  solving.relative_cutoff = options.at("relative_cutoff").get<double>();
+  options.at("iterations").get_to(solving.max_iterations);
+  options.at("nudge").get_to(solving.point.nudge);
+  options.at("source_push_off").get_to(solving.point.source_push_off);
+  options.at("error_points").get_to(solving.error_points);
+  return solving;
+}
+
 LoadedScene LoadScene(const SceneArguments& arguments) {
   SetThreadCount(arguments.threads);
-  const auto begin = std::chrono::steady_clock::now();
-  LoadedScene loaded{ReadNamedScene(arguments.scene, arguments.reading), 0};
-  loaded.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  for (const std::string& warning : loaded.scene.warnings) fmt::print(stderr, "{}\n", warning);
+  const Stopwatch reading;
+  const bool is_solution = IsSolution(arguments.scene);
+  LoadedScene loaded =
+      is_solution
+          ? ReadSolution(arguments)
+          : LoadedScene{std::make_unique<const Scene>(ReadNamedScene(arguments.scene, arguments.reading))};
+  loaded.seconds = reading.Seconds();
+  if (!is_solution)
+    for (const std::string& warning : loaded.scene.warnings) fmt::print(stderr, "{}\n", warning);
   return loaded;
 }
 

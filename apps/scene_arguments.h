@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -17,7 +18,8 @@
 namespace penumbra {
 
 struct SceneArguments {
-  std::string scene;  // a path, or the name of a built-in scene
+  const CLI::App* app = nullptr;  // which options were given
+  std::string scene;              // a path, or the name of a built-in scene
   SceneOptions reading;
   PipelineOptions solving;
   int threads = 0;  // 0: all
@@ -25,7 +27,7 @@ struct SceneArguments {
   std::optional<std::string> report;  // where the report goes
 };
 
-// SCENE, the options of reading it, threads, seed, verbosity.
+// SCENE or SOLUTION, the options of reading it, threads, seed, verbosity.
 void AddSceneArguments(CLI::App& app, SceneArguments* arguments);
 // The options of the method. REQUIRES: AddSceneArguments.
 void AddSolveOptions(CLI::App& app, SceneArguments* arguments);
@@ -34,15 +36,29 @@ CLI::Option* AddReportOption(CLI::App& app, SceneArguments* arguments);
 // What a user could set and what it came to, by option name with '_' for '-'. Without `resolved` nothing is
 // solved, and only what concerns the scene is listed.
 nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const ResolvedOptions* resolved);
+// The same read back: OptionsUsed() of these, resolved, gives `options` again. Throws
+// nlohmann::json::exception.
+PipelineOptions SolvingFrom(const nlohmann::ordered_json& options);
 // The "Options used:" block, to standard error.
 void PrintOptionsUsed(const nlohmann::ordered_json& options);
 
-struct LoadedScene {
-  Scene scene;
-  double seconds = 0;  // that reading it took
+// A solution file's share in a run.
+struct StoredRun {
+  PipelineState state;             // what is left of it once a SolveRun took it is unspecified
+  PipelineOptions solving;         // how it was solved,
+  nlohmann::ordered_json options;  // in the words of OptionsUsed(), without `threads`
+  std::string version;             // of the program that solved it
 };
 
-// Sets the number of threads and reads the scene; its warnings go to standard error. Throws InputError.
+struct LoadedScene {
+  std::unique_ptr<const Scene> owner;
+  const Scene& scene = *owner;
+  double seconds = 0;                              // that reading it took
+  std::optional<StoredRun> stored = std::nullopt;  // of a solution file
+};
+
+// Sets the number of threads and reads the scene, or the solution with its scene; warnings of scenes go to
+// standard error. Throws InputError, and UsageError if options of reading or solving come with a solution.
 LoadedScene LoadScene(const SceneArguments& arguments);
 
 }  // namespace penumbra

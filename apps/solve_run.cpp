@@ -2,27 +2,70 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "apps/interruptible.h"
 #include "apps/output.h"
+#include "mesh/solution_file.h"
+#include "solver/base/check.h"
+#include "solver/base/parallel.h"
 
 namespace penumbra {
 
-SolveRun::SolveRun(const SceneArguments& arguments, const LoadedScene& loaded,
+namespace {
+
+Pipeline StartPipeline(const SceneArguments& arguments, LoadedScene& loaded) {
+  return loaded.stored ? Pipeline(loaded.scene, loaded.stored->solving, std::move(loaded.stored->state))
+                       : Pipeline(loaded.scene, arguments.solving);
+}
+
+// What a file keeps of the options: the same for every number of threads.
+nlohmann::ordered_json LastingOptions(nlohmann::ordered_json options) {
+  options.erase("threads");
+  return options;
+}
+
+nlohmann::ordered_json StartOptions(const SceneArguments& arguments, const LoadedScene& loaded,
+                                    const Pipeline& pipeline) {
+  if (!loaded.stored) return OptionsUsed(arguments, &pipeline.resolved());
+  nlohmann::ordered_json options = loaded.stored->options;
+  // Whatever a solve may be told has to come back out of a file.
+  SceneArguments told = arguments;
+  told.solving = loaded.stored->solving;
+  nlohmann::ordered_json again = options;
+  again.update(OptionsUsed(told, &pipeline.resolved()));
+  for (const char* reading : {"scene", "emission_is_radiance", "two_sided"})
+    again[reading] = options[reading];
+  PENUMBRA_DCHECK(LastingOptions(again) == options);
+  options["solution"] = arguments.scene;
+  options["threads"] = ThreadCount();
+  return options;
+}
+
+}  // namespace
+
+SolveRun::SolveRun(const SceneArguments& arguments, LoadedScene& loaded,
                    const nlohmann::ordered_json& command_options)
     : arguments_(arguments),
       load_seconds_(loaded.seconds),
-      pipeline_(loaded.scene, arguments.solving),
-      options_(OptionsUsed(arguments, &pipeline_.resolved())) {
+      stored_(loaded.stored.has_value()),
+      pipeline_(StartPipeline(arguments, loaded)),
+      options_(StartOptions(arguments, loaded, pipeline_)) {
   options_.update(command_options);
   if (arguments_.verbose) PrintOptionsUsed(options_);
 }
 
 void SolveRun::Run(std::optional<MeshKind> kind, bool measure) {
   RunInterruptible([&](const ExecutionContext& context) {
-    pipeline_.Solve(context);
+    if (!stored_) pipeline_.Solve(context);
     if (!context.Cancelled() && kind) pipeline_.BuildMesh(*kind, context);
-    if (!context.Cancelled() && kind && measure) pipeline_.Measure(context);
+    if (!stored_ && !context.Cancelled() && kind && measure) pipeline_.Measure(context);
   });
+}
+
+std::string SolveRun::SolutionFile() const {
+  return EncodeSolution(pipeline_, LastingOptions(options_).dump(), LastingReportJson(pipeline_.report()),
+                        PENUMBRA_VERSION);
 }
 
 void SolveRun::Tell() const {

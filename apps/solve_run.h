@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "apps/report.h"
 #include "apps/scene_arguments.h"
@@ -16,12 +17,12 @@ namespace penumbra {
 class SolveRun {
  public:
   // Prints the options used, with -v; `command_options` are those of the command itself. The scene and the
-  // arguments must outlive this object.
-  SolveRun(const SceneArguments& arguments, const LoadedScene& loaded,
+  // arguments must outlive this object. What a solution file brought is taken out of `loaded`.
+  SolveRun(const SceneArguments& arguments, LoadedScene& loaded,
            const nlohmann::ordered_json& command_options = nlohmann::ordered_json::object());
 
-  // Solves and builds the mesh, if one is wanted; measures it, too, where someone asked for a report. Throws
-  // Interrupted.
+  // Solves and builds the mesh, if one is wanted; measures it, too, where someone asked for a report. A stored
+  // solution is solved and measured already. Throws Interrupted.
   void Run(std::optional<MeshKind> kind, bool measure);
 
   // Writes the report to its file, if it was asked for, and the table to standard error, with -v.
@@ -29,10 +30,13 @@ class SolveRun {
 
   const Pipeline& pipeline() const { return pipeline_; }
   RunReport report() const;
+  // The bytes of its solution file. REQUIRES: Run(MeshKind::kInterpolant, true).
+  std::string SolutionFile() const;
 
  private:
   const SceneArguments& arguments_;
   double load_seconds_;
+  bool stored_;
   Pipeline pipeline_;
   nlohmann::ordered_json options_;
 };

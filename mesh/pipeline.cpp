@@ -79,11 +79,16 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
 }
 
 struct Pipeline::Impl {
+  Impl(const Scene& the_scene, const PipelineOptions& the_options)
+      : scene(the_scene), options(the_options), resolved(Resolve(the_scene, the_options)) {}
+
   const Scene& scene;
   PipelineOptions options;
   ResolvedOptions resolved;
   PatchVisibility visibility;
   std::unique_ptr<HierarchicalSolver> solver;  // null until the roots are linked
+  std::optional<RadiositySolution> stored;     // that another one made, until a step begins anew
+  std::optional<MeshKind> mesh_kind;           // of a mesh of the present solution
   IrradianceMesh mesh;
   std::unique_ptr<MeshLocator> locator;
   PipelineReport report;
@@ -100,12 +105,16 @@ struct Pipeline::Impl {
       phase->seconds += seconds;
   }
 
+  const RadiositySolution& Solution() const {
+    PENUMBRA_CHECK(solver != nullptr || stored);
+    return stored ? *stored : solver->solution();
+  }
+
   const PointIrradiance& Irradiance() {
-    PENUMBRA_CHECK(solver != nullptr);
     const std::lock_guard<std::mutex> lock(irradiance_making);
     if (!irradiance) {
       const Stopwatch stopwatch;
-      irradiance = std::make_unique<PointIrradiance>(solver->solution(), visibility, options.point);
+      irradiance = std::make_unique<PointIrradiance>(Solution(), visibility, options.point);
       AddPhase("iterate", stopwatch.Seconds());
     }
     return *irradiance;
@@ -121,14 +130,20 @@ struct Pipeline::Impl {
   bool Run(const ExecutionContext& context, const Step& step) {
     const Stopwatch stopwatch;
     const bool done = step(*solver, context);
-    if (done) irradiance.reset();
+    if (done) Forget();
     AddPhase("iterate", stopwatch.Seconds());
     Count();
     return done;
   }
 
+  // What was made of a solution that is no more.
+  void Forget() {
+    irradiance.reset();
+    mesh_kind.reset();
+  }
+
   void Count() {
-    const RadiositySolution& solution = solver->solution();
+    const RadiositySolution& solution = Solution();
     PipelineReport::Counts& counts = report.counts;
     counts.patches = scene.patches.size();
     counts.emitters = 0;
@@ -144,9 +159,18 @@ struct Pipeline::Impl {
   }
 };
 
-Pipeline::Pipeline(const Scene& scene, const PipelineOptions& options)
-    : impl_(new Impl{scene, options, Resolve(scene, options), {}, {}, {}, {}, {}, {}, {}}) {
+Pipeline::Pipeline(const Scene& scene, const PipelineOptions& options) : impl_(new Impl(scene, options)) {
   impl_->report.error_asked = options.error;
+}
+
+Pipeline::Pipeline(const Scene& scene, const PipelineOptions& options, PipelineState state)
+    : impl_(new Impl(scene, options)) {
+  impl_->visibility = std::move(state.visibility);
+  impl_->stored = std::move(state.solution);
+  impl_->mesh_kind = state.mesh_kind;
+  impl_->mesh = std::move(state.mesh);
+  impl_->locator = std::make_unique<MeshLocator>(scene, impl_->mesh);
+  impl_->report = std::move(state.report);
 }
 
 Pipeline::~Pipeline() = default;
@@ -155,6 +179,12 @@ void Pipeline::Link(const ExecutionContext& context) {
   if (impl_->solver) return;
   context.Report("link", 0);
   const Stopwatch linking;
+  if (impl_->stored) {
+    impl_->stored.reset();
+    impl_->Forget();
+    impl_->report = {};
+    impl_->report.error_asked = impl_->options.error;
+  }
   impl_->visibility = PatchVisibility(impl_->scene);
   impl_->solver =
       std::make_unique<HierarchicalSolver>(impl_->scene, impl_->visibility, impl_->resolved.solver);
@@ -213,6 +243,7 @@ void Pipeline::Solve(const ExecutionContext& context) {
 }
 
 void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context) {
+  if (impl_->mesh_kind == kind) return;
   MeshOptions options;
   options.discontinuities = impl_->resolved.discontinuities;
   if (kind != MeshKind::kGouraudMesh && kind != MeshKind::kInterpolant)
@@ -222,6 +253,7 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context) {
                                                    : InterpolantOrder::kLinear;
   MeshResult result = RunLocalPass(impl_->visibility, solution(), impl_->Sampler(), options, context);
   impl_->mesh = std::move(result.mesh);
+  impl_->mesh_kind = context.Cancelled() ? std::nullopt : std::optional(kind);
   impl_->locator = std::make_unique<MeshLocator>(impl_->scene, impl_->mesh);
 
   impl_->AddPhase("discontinuities", result.report.seconds.discontinuities);
@@ -266,14 +298,13 @@ void Pipeline::Measure(const ExecutionContext& context) {
 }
 
 const Scene& Pipeline::scene() const { return impl_->scene; }
+const PipelineOptions& Pipeline::options() const { return impl_->options; }
 const ResolvedOptions& Pipeline::resolved() const { return impl_->resolved; }
-const RadiositySolution& Pipeline::solution() const {
-  PENUMBRA_CHECK(impl_->solver != nullptr);
-  return impl_->solver->solution();
-}
+const RadiositySolution& Pipeline::solution() const { return impl_->Solution(); }
 const PatchVisibility& Pipeline::visibility() const { return impl_->visibility; }
 const PointIrradiance& Pipeline::irradiance() const { return impl_->Irradiance(); }
 const IrradianceMesh& Pipeline::mesh() const { return impl_->mesh; }
+std::optional<MeshKind> Pipeline::mesh_kind() const { return impl_->mesh_kind; }
 const PipelineReport& Pipeline::report() const { return impl_->report; }
 
 std::optional<Rgb> Pipeline::Interpolated(PatchId patch, const Vec3& point, double reach) const {

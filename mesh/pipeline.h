@@ -83,13 +83,26 @@ struct PipelineReport {
   std::vector<std::string> unmet;  // what missed the target, and why; one line each
 };
 
+// What the stages made, apart from what is quickly made anew.
+struct PipelineState {
+  PatchVisibility visibility;
+  RadiositySolution solution;
+  MeshKind mesh_kind = MeshKind::kInterpolant;
+  IrradianceMesh mesh;
+  PipelineReport report;
+};
+
 // Runs the stages and keeps what they made. The scene must outlive it.
 class Pipeline {
  public:
   Pipeline(const Scene& scene, const PipelineOptions& options);
+  // Shows what another one, with this scene and these options, had solved and meshed. BuildMesh() makes other
+  // kinds of it; a step of the solver drops it, and begins anew.
+  Pipeline(const Scene& scene, const PipelineOptions& options, PipelineState state);
   ~Pipeline();
 
   const Scene& scene() const;
+  const PipelineOptions& options() const;
   const ResolvedOptions& resolved() const;
 
   // Stages link and iterate: Link(), Iterate() until Converged() or the most iterations, Correct(). Goes on
@@ -116,7 +129,7 @@ class Pipeline {
   bool Relight(const ExecutionContext& context);
 
   // Stages discontinuities, triangulate, interpolate, for what a display mode needs, from the solution as it
-  // is. REQUIRES: Link() or what begins with it.
+  // is; nothing is done where it is there already. REQUIRES: Link() or what begins with it.
   void BuildMesh(MeshKind kind, const ExecutionContext& context);
   // Measures the energy balance and the error at random points. REQUIRES: BuildMesh() after the last step.
   void Measure(const ExecutionContext& context);
@@ -125,6 +138,7 @@ class Pipeline {
   const PatchVisibility& visibility() const;
   const PointIrradiance& irradiance() const;  // exact, from the solution's leaves; until the next step
   const IrradianceMesh& mesh() const;         // REQUIRES: BuildMesh()
+  std::optional<MeshKind> mesh_kind() const;  // of mesh(); nothing if that is not of the present solution
 
   // The interpolant's irradiance at a point of a patch, or at most `reach` [m] beside it, not
   // below 0 [W/m^2]. REQUIRES:

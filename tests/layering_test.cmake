@@ -8,7 +8,7 @@ cmake_minimum_required(VERSION 3.25)
 
 set(LAYERS solver/base solver/geometry solver/scene solver/visibility solver/transport mesh display apps)
 set(OUTSIDE tests experiments)  # may include every layer; no layer may include them
-set(HEAVY "^(CGAL|embree[0-9]*|tbb|oneapi|GLFW|OpenEXR|stb)/|^Imf|^imgui|^stb_")
+set(HEAVY "^(CGAL|embree[0-9]*|tbb|oneapi|GLFW|OpenEXR|stb)/|^Imf|^imgui|^stb_|^hdf5|^H5")
 
 # The place of the library that `path` belongs to; -1 for none.
 function(layer_of path result)
@@ -94,6 +94,7 @@ expect_faults(1 mesh/planted.h "<CGAL/Constrained_Delaunay_triangulation_2.h>")
 expect_faults(1 solver/visibility/planted.h "<embree3/rtcore.h>")
 expect_faults(1 solver/base/planted.h "<tbb/parallel_for.h>")
 expect_faults(1 display/planted.h "<OpenEXR/ImfRgbaFile.h>")
+expect_faults(1 mesh/planted.h "<hdf5.h>")
 expect_faults(1 display/planted.h "<stb_image_write.h>")
 expect_faults(1 display/viewer/planted.h "<GLFW/glfw3.h>")
 expect_faults(1 tests/display/planted.h "<imgui.h>")

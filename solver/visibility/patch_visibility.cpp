@@ -70,20 +70,20 @@ PatchVisibility::PatchVisibility(const Scene& scene) {
     for (const Found& pair : found[i]) {
       PatchPair entry;
       entry.visibility = pair.blockers.empty() ? Visibility::kVisible : Visibility::kPartial;
-      entry.first_blocker = static_cast<std::uint32_t>(blockers_.size());
+      entry.first_blocker = static_cast<std::uint32_t>(rows_.blockers.size());
       entry.blocker_count = static_cast<std::uint32_t>(pair.blockers.size());
-      blockers_.insert(blockers_.end(), pair.blockers.begin(), pair.blockers.end());
+      rows_.blockers.insert(rows_.blockers.end(), pair.blockers.begin(), pair.blockers.end());
       entry.source = static_cast<PatchId>(i);
       by_receiver[pair.other].push_back(entry);
       entry.source = pair.other;
       by_receiver[i].push_back(entry);
     }
-  first_.assign(1, 0);
+  rows_.first.assign(1, 0);
   for (std::vector<PatchPair>& pairs : by_receiver) {
     std::sort(pairs.begin(), pairs.end(),
               [](const PatchPair& a, const PatchPair& b) { return a.source < b.source; });
-    pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
-    first_.push_back(pairs_.size());
+    rows_.pairs.insert(rows_.pairs.end(), pairs.begin(), pairs.end());
+    rows_.first.push_back(rows_.pairs.size());
   }
 }
 

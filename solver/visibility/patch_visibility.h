@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/scene/scene.h"
@@ -26,26 +27,35 @@ struct PatchPair {
 
 class PatchVisibility {
  public:
+  // The pairs of all receivers in compressed rows.
+  struct Rows {
+    std::vector<std::size_t> first;  // per receiver, into pairs; and the end
+    std::vector<PatchPair> pairs;
+    std::vector<PatchId> blockers;
+  };
+
   PatchVisibility() = default;
   explicit PatchVisibility(const Scene& scene);
+  // What another one gave as rows().
+  explicit PatchVisibility(Rows rows) : rows_(std::move(rows)) {}
 
   // The sources that receiver's front may see, ascending: their fronts and its front each have a part before
   // the other's plane, and no single blocker hides them wholly. Symmetric: s is a source of r just if r is
   // one of s.
   std::span<const PatchPair> SourcesOf(PatchId receiver) const {
-    return {pairs_.data() + first_[receiver], pairs_.data() + first_[receiver + 1]};
+    return {rows_.pairs.data() + rows_.first[receiver], rows_.pairs.data() + rows_.first[receiver + 1]};
   }
 
   // The patches that meet the interior of the tube between the pair, ascending; never a true blocker left
   // out.
   std::span<const PatchId> Blockers(const PatchPair& pair) const {
-    return {blockers_.data() + pair.first_blocker, pair.blocker_count};
+    return {rows_.blockers.data() + pair.first_blocker, pair.blocker_count};
   }
 
+  const Rows& rows() const { return rows_; }
+
  private:
-  std::vector<std::size_t> first_;  // per receiver, into pairs_
-  std::vector<PatchPair> pairs_;
-  std::vector<PatchId> blockers_;
+  Rows rows_;
 };
 
 }  // namespace penumbra

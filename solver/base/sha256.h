@@ -1,0 +1,32 @@
+// solver/base/sha256.h
+//
+// A digest of bytes that tells damaged data from whole ones: SHA-256 (FIPS 180-4).
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace penumbra {
+
+// Digests bytes as they come.
+class Sha256 {
+ public:
+  Sha256& Update(std::string_view bytes);
+  // The digest of everything so far as 64 lower-case hexadecimal digits. Nothing may follow.
+  std::string Finish();
+
+ private:
+  void Process(const unsigned char* block);
+
+  std::array<std::uint32_t, 8> state_ = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
+                                         0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+  std::array<unsigned char, 64> pending_ = {};
+  std::size_t pending_size_ = 0;
+  std::uint64_t length_ = 0;  // bytes
+};
+
+}  // namespace penumbra

@@ -1,0 +1,279 @@
+// Solution files give back what was written, to the bit, and refuse everything else in one line.
+
+#include "mesh/solution_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "mesh/hdf5_image.h"
+#include "mesh/solution_check.h"
+#include "solver/base/check.h"
+#include "solver/base/random.h"
+#include "solver/base/sha256.h"
+#include "solver/scene/builtin_scenes.h"
+
+namespace penumbra {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kVersion = "1.2.3";
+
+PipelineOptions Rough() {
+  PipelineOptions options;
+  options.error = 0.5;
+  options.max_corrections = 1;
+  options.error_points = 0;
+  return options;
+}
+
+struct Solved {
+  Scene scene;
+  std::unique_ptr<Pipeline> pipeline;
+};
+
+std::unique_ptr<Solved> Solve(Scene scene) {
+  auto solved = std::make_unique<Solved>();
+  solved->scene = std::move(scene);
+  solved->pipeline = std::make_unique<Pipeline>(solved->scene, Rough());
+  solved->pipeline->Solve({});
+  solved->pipeline->BuildMesh(MeshKind::kInterpolant, {});
+  return solved;
+}
+
+// A furnished room: fragments, blockers, discontinuities, cameras, warnings.
+const Solved& Cornell() {
+  static const std::unique_ptr<Solved> solved = Solve(LoadBuiltinScene("cornell", {}).value());
+  return *solved;
+}
+
+std::string Encode(const Pipeline& pipeline) {
+  return EncodeSolution(pipeline, "{options}", "{report}", kVersion);
+}
+
+const std::string& CornellFile() {
+  static const std::string bytes = Encode(*Cornell().pipeline);
+  return bytes;
+}
+
+// What the reader says about the bytes; empty if it takes them.
+std::string Refusal(std::string_view bytes) {
+  try {
+    DecodeSolution(bytes, "a.h5");
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+// Corrects the digest, as no accident does.
+std::string WithDigest(std::string bytes) {
+  const std::size_t at = bytes.find("sha256 ") + 7;
+  bytes.replace(at, 64, std::string(64, '0'));
+  return bytes.replace(at, 64, Sha256().Update(bytes).Finish());
+}
+
+bool SameMesh(const IrradianceMesh& a, const IrradianceMesh& b) {
+  bool same = a.positions == b.positions && a.triangles.size() == b.triangles.size();
+  for (std::size_t i = 0; same && i < a.triangles.size(); ++i) {
+    const QuadraticInterpolant &p = a.irradiance[i], &q = b.irradiance[i];
+    same = a.triangles[i].vertex == b.triangles[i].vertex && a.triangles[i].patch == b.triangles[i].patch &&
+           a.triangles[i].discontinuity == b.triangles[i].discontinuity && (p.a == q.a).all() &&
+           (p.b2 == q.b2).all() && (p.c2 == q.c2).all() && (p.d == q.d).all() && (p.e2 == q.e2).all() &&
+           (p.f == q.f).all();
+  }
+  return same;
+}
+
+// Reading and writing again gives the same bytes, at another time too, and what is computed from what was
+// read is what was computed from what was written.
+TEST(SolutionFile, ComesBackToTheBit) {
+  const std::string& bytes = CornellFile();
+  ASSERT_TRUE(LooksLikeSolution(std::string_view(bytes).substr(0, 512)));
+  StoredSolution stored = DecodeSolution(bytes, "a.h5");
+  EXPECT_EQ(stored.options, "{options}");
+  EXPECT_EQ(stored.report, "{report}");
+  EXPECT_EQ(stored.version, kVersion);
+  const Solved& before = Cornell();
+  ASSERT_EQ(stored.scene->patches.size(), before.scene.patches.size());
+  for (std::size_t p = 0; p < before.scene.patches.size(); ++p) {
+    EXPECT_EQ(stored.scene->patches[p].vertex, before.scene.patches[p].vertex);
+    EXPECT_EQ(stored.scene->patches[p].normal, before.scene.patches[p].normal);
+    EXPECT_EQ(stored.scene->patches[p].area, before.scene.patches[p].area);
+    EXPECT_EQ(stored.scene->patches[p].extent, before.scene.patches[p].extent);
+  }
+  EXPECT_EQ(stored.scene->warnings, before.scene.warnings);
+  EXPECT_EQ(stored.scene->name, before.scene.name);
+
+  const auto second = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  std::this_thread::sleep_until(second + std::chrono::milliseconds(1001));
+  const std::unique_ptr<const Scene> scene = std::move(stored.scene);
+  Pipeline pipeline(*scene, Rough(), std::move(stored.state));
+  EXPECT_EQ(Encode(pipeline), bytes);
+
+  pipeline.BuildMesh(MeshKind::kInterpolant, {});
+  EXPECT_TRUE(SameMesh(pipeline.mesh(), before.pipeline->mesh()));
+  pipeline.BuildMesh(MeshKind::kGouraudMesh, {});
+  Pipeline anew(before.scene, Rough());
+  anew.Solve({});
+  anew.BuildMesh(MeshKind::kGouraudMesh, {});
+  EXPECT_TRUE(SameMesh(pipeline.mesh(), anew.mesh()));
+  EXPECT_FALSE(SameMesh(pipeline.mesh(), before.pipeline->mesh()));
+}
+
+// A scene without faces is valid, and names may hold anything.
+TEST(SolutionFile, HoldsAnEmptySceneAndAnyName) {
+  Scene scene;
+  scene.name = "a\"\\\xff\n b";
+  scene.objects = {{"", {}}, {std::string("zero \0 inside\0", 14), {}}, {std::string(3000, 'x'), {}}};
+  const std::unique_ptr<Solved> solved = Solve(scene);
+  const StoredSolution stored = DecodeSolution(Encode(*solved->pipeline), "a.h5");
+  EXPECT_EQ(stored.scene->name, scene.name);
+  ASSERT_EQ(stored.scene->objects.size(), scene.objects.size());
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    EXPECT_EQ(stored.scene->objects[i].name, scene.objects[i].name);
+  EXPECT_TRUE(stored.state.mesh.triangles.empty());
+}
+
+// 1,000 random damages, of one bit, of many bytes, by cutting off and by adding: all refused, in one line.
+TEST(SolutionFile, RefusesEveryDamage) {
+  const std::unique_ptr<Solved> furnace = Solve(LoadBuiltinScene("furnace", {}).value());
+  const std::string whole = Encode(*furnace->pipeline);
+  ASSERT_EQ(Refusal(whole), "");
+  constexpr std::uint64_t kSeed = 7;
+  Random random(kSeed);
+  for (int i = 0; i < 1000; ++i) {
+    std::string bytes = whole;
+    // Half of them within the header.
+    const std::size_t at = random.Index(i % 2 == 0 ? 512 : bytes.size());
+    switch (i % 4) {
+      case 0:
+      case 1:
+        bytes[at] = static_cast<char>(bytes[at] ^ (1 << random.Index(8)));
+        break;
+      case 2:
+        bytes.resize(at);
+        break;
+      default:
+        if (random.Index(2) == 0)
+          bytes.insert(at, 1 + random.Index(100), 'x');
+        else
+          for (std::size_t k = at; k < std::min(bytes.size(), at + 64); ++k)
+            bytes[k] = static_cast<char>(bytes[k] + 1 + static_cast<char>(random.Index(255)));
+    }
+    const std::string refusal = Refusal(bytes);
+    ASSERT_THAT(refusal, testing::StartsWith("a.h5: error: ")) << "seed " << kSeed << ", damage " << i;
+    ASSERT_EQ(refusal.find('\n'), refusal.npos);
+  }
+}
+
+// Files of others and of other versions are told apart.
+TEST(SolutionFile, SaysWhatElseItIs) {
+  const std::string& whole = CornellFile();
+  EXPECT_THAT(Refusal(whole.substr(512)), HasSubstr("it is an HDF5 file, but no solution"));
+  EXPECT_THAT(Refusal(""), HasSubstr("neither a scene nor a solution"));
+  EXPECT_THAT(Refusal(std::string(5000, '\0')), HasSubstr("neither a scene nor a solution"));
+  EXPECT_THAT(Refusal("\x89PNG\r\n\x1a\n rest"), HasSubstr("neither a scene nor a solution"));
+  EXPECT_THAT(Refusal(whole.substr(0, whole.size() - 1)), HasSubstr("damaged or cut off"));
+  for (const auto& [schema, words] :
+       {std::pair("schema 0", "an older version of penumbra, 1.2.3"), {"schema 9", "a newer version"}}) {
+    std::string other = whole;
+    other.replace(other.find("schema "), 8, schema);
+    EXPECT_THAT(Refusal(other), HasSubstr("damaged"));
+    EXPECT_THAT(Refusal(WithDigest(other)), HasSubstr(words));
+  }
+  // Text is left to the reader of scenes.
+  EXPECT_FALSE(LooksLikeSolution("v 0 0 0\nv 1 0 0\n"));
+  EXPECT_TRUE(LooksLikeSolution(std::string_view(whole).substr(0, 5)));
+}
+
+// With a digest that holds, too, nothing is taken that does not make sense.
+TEST(SolutionFile, ChecksWhatItReads) {
+  const Solved& solved = Cornell();
+  const Scene& scene = solved.scene;
+  const RadiositySolution& solution = solved.pipeline->solution();
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+  const auto bad_scene = [&](const auto& spoil) {
+    Scene spoilt = scene;
+    EXPECT_NO_THROW(CheckScene(spoilt));
+    spoil(spoilt);
+    EXPECT_THROW(CheckScene(spoilt), Hdf5Error);
+  };
+  bad_scene([](Scene& s) { s.materials[0].reflectance[1] = 1; });
+  bad_scene([](Scene& s) { s.materials[0].emittance[2] = -1; });
+  bad_scene([](Scene& s) { s.materials.clear(); });
+  bad_scene([](Scene& s) { s.faces[3].vertices[1].x() = kNan; });
+  bad_scene([](Scene& s) { s.faces[3].vertices.resize(2); });
+  bad_scene([](Scene& s) { s.faces[3].object = -1; });
+  bad_scene([](Scene& s) { s.objects[0].faces[0] = 1000; });
+  bad_scene([](Scene& s) { s.patches[2].size = 5; });
+  bad_scene([](Scene& s) { s.patches[2].vertex.fill(Vec3::Zero()); });
+  bad_scene([](Scene& s) { s.patches[2].material = 1000; });
+  bad_scene([](Scene& s) { s.patches[2].faces.clear(); });
+  bad_scene([](Scene& s) { s.cameras[0].eye.y() = kNan; });
+
+  const auto bad_visibility = [&](const auto& spoil) {
+    PatchVisibility::Rows spoilt = solved.pipeline->visibility().rows();
+    EXPECT_NO_THROW(CheckVisibility(scene, spoilt));
+    spoil(spoilt);
+    EXPECT_THROW(CheckVisibility(scene, spoilt), Hdf5Error);
+  };
+  bad_visibility([](auto& rows) { rows.first.pop_back(); });
+  bad_visibility([](auto& rows) { std::swap(rows.first[0], rows.first[1]); });
+  bad_visibility([](auto& rows) { rows.pairs[0].source = -1; });
+  bad_visibility([](auto& rows) { rows.pairs[0].first_blocker = std::numeric_limits<std::uint32_t>::max(); });
+  bad_visibility([](auto& rows) { rows.blockers[0] = 1000; });
+
+  const auto bad_forest = [&](const auto& spoil) {
+    std::vector<Element> spoilt(solution.forest.elements().begin(), solution.forest.elements().end());
+    EXPECT_NO_THROW(RestoreForest(scene, spoilt));
+    spoil(spoilt);
+    EXPECT_THROW(RestoreForest(scene, spoilt), Hdf5Error);
+  };
+  const std::size_t count = scene.patches.size();
+  bad_forest([](auto& elements) { elements.pop_back(); });
+  bad_forest([](auto& elements) { elements.clear(); });
+  bad_forest([&](auto& elements) { elements[count].parent += 1; });
+  bad_forest([&](auto& elements) { elements[count].corner[0].x += 1; });
+  bad_forest([&](auto& elements) { elements.back().first_child = 0; });
+  bad_forest([&](auto& elements) {  // a child above its parent: a circle
+    for (Element& e : elements)
+      if (!e.IsLeaf()) e.first_child = static_cast<ElementId>(count);
+  });
+
+  const auto bad_light = [&](const auto& spoil) {
+    RadiositySolution spoilt = solution;
+    EXPECT_NO_THROW(CheckLight(spoilt));
+    spoil(spoilt);
+    EXPECT_THROW(CheckLight(spoilt), Hdf5Error);
+  };
+  bad_light([](RadiositySolution& s) { s.irradiance.pop_back(); });
+  bad_light([](RadiositySolution& s) { s.radiosity[1][1] = kNan; });
+  bad_light([](RadiositySolution& s) { s.links.links[0].receiver = 100000; });
+  bad_light([](RadiositySolution& s) { s.links.links[0].form_factor = INFINITY; });
+  bad_light([](RadiositySolution& s) { s.links.links[0].blocker_count = 100000; });
+  bad_light([](RadiositySolution& s) { s.links.blockers[0] = -2; });
+  bad_light([](RadiositySolution& s) { s.fragments[0].leaf = -1; });
+  bad_light([](RadiositySolution& s) { s.fragments[0].polygon.clear(); });
+
+  const auto bad_mesh = [&](const auto& spoil) {
+    IrradianceMesh spoilt = solved.pipeline->mesh();
+    EXPECT_NO_THROW(CheckMesh(scene, spoilt));
+    spoil(spoilt);
+    EXPECT_THROW(CheckMesh(scene, spoilt), Hdf5Error);
+  };
+  bad_mesh([](IrradianceMesh& m) { m.triangles[0].vertex[1] = 1 << 30; });
+  bad_mesh([](IrradianceMesh& m) { m.triangles[0].patch = -1; });
+  bad_mesh([](IrradianceMesh& m) { m.irradiance.pop_back(); });
+  bad_mesh([](IrradianceMesh& m) { m.irradiance[0].d[0] = kNan; });
+  bad_mesh([](IrradianceMesh& m) { m.positions[0].z() = INFINITY; });
+}
+
+}  // namespace
+}  // namespace penumbra
