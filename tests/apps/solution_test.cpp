@@ -16,7 +16,7 @@ using nlohmann::json;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr const char* kPoints = "x,y,z,nx,ny,nz\n0.3,-0.2,0,0,0,1\n0.1,-0.5,0.2,0.3,0.2,1\n";
+constexpr const char* kPoints = "x,y,z,nx,ny,nz\n0.3,-0.9,0,0,0,1\n0.1,-0.5,0.2,0.3,0.2,1\n";
 
 // Options that do not follow from the error, so that all of them have to come back.
 std::vector<std::string> Solving(std::vector<std::string> command) {
@@ -44,17 +44,18 @@ std::vector<std::string> Solving(std::vector<std::string> command) {
 TEST(Solution, ServesLikeItsScene) {
   const Sandbox sandbox;
   sandbox.Write("points.csv", kPoints);
-  const Outcome solve = sandbox.Run(Solving({"solve", "cornell", "-o", "a.h5", "--report", "solve.json"}));
+  const Outcome solve =
+      sandbox.Run(Solving({"solve", "floating-cube", "-o", "a.h5", "--report", "solve.json"}));
   ASSERT_EQ(solve.status, 0) << solve.err;
   EXPECT_EQ(solve.out, "");
   // For any number of threads, at any time.
-  ASSERT_EQ(sandbox.Run(Solving({"solve", "cornell", "-o", "b.h5", "--threads", "1"})).status, 0);
+  ASSERT_EQ(sandbox.Run(Solving({"solve", "floating-cube", "-o", "b.h5", "--threads", "1"})).status, 0);
   EXPECT_EQ(ReadBytes(sandbox.Path("a.h5")), ReadBytes(sandbox.Path("b.h5")));
 
-  for (const char* mode : {"interpolant", "gouraud-mesh", "gouraud", "flat", "rho"}) {
-    const std::vector<std::string> picture = {"--mode", mode, "--size", "48x36", "--camera", "blocks"};
+  for (const char* mode : {"interpolant", "gouraud-mesh", "gouraud", "flat", "rho", "exact", "lerp"}) {
+    const std::vector<std::string> picture = {"--mode", mode, "--size", "48x36", "--camera", "low"};
     std::vector<std::string> stored = {"render", "a.h5", "-o", "a.exr"},
-                             anew = {"render", "cornell", "-o", "b.exr"};
+                             anew = {"render", "floating-cube", "-o", "b.exr"};
     stored.insert(stored.end(), picture.begin(), picture.end());
     anew.insert(anew.end(), picture.begin(), picture.end());
     const Outcome from_file = sandbox.Run(stored);
@@ -66,13 +67,14 @@ TEST(Solution, ServesLikeItsScene) {
 
   const Outcome probe = sandbox.Run({"probe", "a.h5", "--points", "points.csv", "--parts"});
   ASSERT_EQ(probe.status, 0) << probe.err;
-  EXPECT_EQ(probe.out, sandbox.Run(Solving({"probe", "cornell", "--points", "points.csv", "--parts"})).out);
+  EXPECT_EQ(probe.out,
+            sandbox.Run(Solving({"probe", "floating-cube", "--points", "points.csv", "--parts"})).out);
   const Outcome direct = sandbox.Run({"probe", "a.h5", "--points", "points.csv", "--direct"});
   EXPECT_EQ(direct.status, 0) << direct.err;
   EXPECT_THAT(direct.out, HasSubstr("nan"));
 
   const json info = json::parse(sandbox.Run({"info", "a.h5", "--json"}).out);
-  json scene = json::parse(sandbox.Run({"info", "cornell", "--json", "--max-reflectance", "0.7"}).out);
+  json scene = json::parse(sandbox.Run({"info", "floating-cube", "--json", "--max-reflectance", "0.7"}).out);
   for (const auto& [key, value] : scene.items()) EXPECT_EQ(info[key], value) << key;
   const json report = json::parse(ReadBytes(sandbox.Path("solve.json")));
   const json& solution = info["solution"];

@@ -150,7 +150,7 @@ TEST(SolutionFile, RefusesEveryDamage) {
   for (int i = 0; i < 1000; ++i) {
     std::string bytes = whole;
     // Half of them within the header.
-    const std::size_t at = random.Index(i % 2 == 0 ? 512 : bytes.size());
+    const std::size_t at = random.Index(i % 2 == 0 ? 512 : static_cast<std::uint32_t>(bytes.size()));
     switch (i % 4) {
       case 0:
       case 1:
