@@ -21,8 +21,8 @@ class SolveRun {
   SolveRun(const SceneArguments& arguments, LoadedScene& loaded,
            const nlohmann::ordered_json& command_options = nlohmann::ordered_json::object());
 
-  // Solves and builds the mesh, if one is wanted; measures it, too, where someone asked for a report. A stored
-  // solution is solved and measured already. Throws Interrupted.
+  // Solves and builds the mesh, if one is wanted; measures it, too, where someone asked for a report. A
+  // stored solution is solved and measured already. Throws Interrupted.
   void Run(std::optional<MeshKind> kind, bool measure);
 
   // Writes the report to its file, if it was asked for, and the table to standard error, with -v.
