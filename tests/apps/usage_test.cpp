@@ -85,7 +85,6 @@ TEST(Usage, BadUsageEndsWithTwo) {
       {"solve", "furnace", "--iterations", "0"},
       {"solve", "furnace", "--error-points", "-1"},
       {"solve", "furnace", "--max-reflectance", "1"},
-      {"solve", "furnace", "-o", "solution"},
       {"render", "furnace"},
       {"render", "furnace", "-o", "image.jpg"},
       {"render", "furnace", "-o", "image"},
