@@ -68,6 +68,14 @@ CLI::Option* AddChoice(CLI::App& app, const std::string& name, Target* target,
   return AddWord(app, name, words, help, [=](std::size_t i) { *target = values[i].value; });
 }
 
+// The value of that name; the first if there is none.
+template <class Value, std::size_t kSize>
+Value ValueOf(std::string_view name, const std::array<NamedValue<Value>, kSize>& values) {
+  for (const NamedValue<Value>& named : values)
+    if (named.name == name) return named.value;
+  return values.front().value;
+}
+
 template <class Value, std::size_t kSize>
 const char* NameOf(Value value, const std::array<NamedValue<Value>, kSize>& values) {
   for (const NamedValue<Value>& named : values)

@@ -230,6 +230,10 @@ PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   solving.min_area = options.at("min_area").get<double>();
   solving.min_discontinuity_weight = options.at("min_discontinuity_weight").get<double>();
   options.at("max_leaf_dsets").get_to(solving.max_leaf_dsets);
+  // Files from before there was a choice are of the thesis's kind.
+  solving.weight = ValueOf(options.value("weight", "thesis"), kDiscontinuityWeights);
+  solving.discontinuities = ValueOf(options.value("discontinuities", "ranked"), kDiscontinuityChoices);
+  solving.keep_hidden_discontinuities = options.value("keep_hidden_discontinuities", false);
   options.at("corrections").get_to(solving.max_corrections);
   options.at("acceleration").get_to(solving.accelerate);
   solving.relative_cutoff = options.at("relative_cutoff").get<double>();
