@@ -34,6 +34,8 @@ Command AddRenderCommand(CLI::App& program);
 Command AddProbeCommand(CLI::App& program);
 Command AddFormFactorCommand(CLI::App& program);
 Command AddViewCommand(CLI::App& program);
+Command AddExportCommand(CLI::App& program);
+Command AddDiffCommand(CLI::App& program);
 Command AddInfoCommand(CLI::App& program);
 Command AddScenesCommand(CLI::App& program);
 

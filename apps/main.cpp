@@ -40,10 +40,10 @@ int Main(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(kFooter);
   program.get_formatter()->column_width(34);
-  const std::vector<Command> commands = {AddSolveCommand(program), AddRenderCommand(program),
-                                         AddProbeCommand(program), AddFormFactorCommand(program),
-                                         AddViewCommand(program),  AddInfoCommand(program),
-                                         AddScenesCommand(program)};
+  const std::vector<Command> commands = {
+      AddSolveCommand(program),      AddRenderCommand(program), AddProbeCommand(program),
+      AddFormFactorCommand(program), AddViewCommand(program),   AddExportCommand(program),
+      AddDiffCommand(program),       AddInfoCommand(program),   AddScenesCommand(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {

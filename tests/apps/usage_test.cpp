@@ -29,6 +29,7 @@ TEST(Help, ListsEveryOption) {
        {"--output", "--mode", "--eye", "--look-at", "--up", "--fov", "--size", "--exposure", "--camera",
         "--benchmark", "--report"}},
       {"probe", {"--points", "--direct", "--output", "--report"}},
+      {"export", {"--output", "--exposure", "--camera", "--report"}},
       {"info", {"--json"}}};
   const Outcome form_factor = sandbox.Run({"form-factor", "--help"});
   EXPECT_EQ(form_factor.status, 0);
@@ -43,7 +44,7 @@ TEST(Help, ListsEveryOption) {
   }
   const Outcome program = sandbox.Run({"--help"});
   EXPECT_EQ(program.status, 0);
-  for (const char* command : {"solve", "render", "probe", "form-factor", "info", "scenes"})
+  for (const char* command : {"solve", "render", "probe", "form-factor", "export", "diff", "info", "scenes"})
     EXPECT_THAT(program.out, HasSubstr(command));
 }
 

@@ -1,0 +1,204 @@
+#include "display/mesh_export.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "display/mesh_nodes.h"
+#include "display/tone_mapping.h"
+
+namespace penumbra {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "all three formats are written little-endian");
+
+template <class T>
+void Append(std::string& bytes, const T& value) {
+  std::array<char, sizeof(T)> raw;
+  std::memcpy(raw.data(), &value, sizeof(T));
+  bytes.append(raw.data(), raw.size());
+}
+
+template <class Scalar>
+void AppendTriple(std::string& bytes, const auto& triple) {
+  for (int i = 0; i < 3; ++i) Append(bytes, static_cast<Scalar>(triple[i]));
+}
+
+std::string Base64(std::string_view bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve(4 * bytes.size() / 3 + 4);
+  for (std::size_t at = 0; at < bytes.size(); at += 3) {
+    std::uint32_t word = 0;
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - at);
+    for (std::size_t i = 0; i < 3; ++i)
+      word = word << 8 | (i < count ? static_cast<unsigned char>(bytes[at + i]) : 0U);
+    for (std::size_t i = 0; i < 4; ++i) text.push_back(i <= count ? kDigits[word >> (18 - 6 * i) & 63] : '=');
+  }
+  return text;
+}
+
+// One array of a VTU file: its length in bytes and itself.
+std::string DataArray(const char* type, const char* name, int components, const std::string& bytes) {
+  std::string raw;
+  Append(raw, static_cast<std::uint64_t>(bytes.size()));
+  return fmt::format(
+      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n", type,
+      name, components, Base64(raw + bytes));
+}
+
+// What a screen shows of a node, linear.
+Rgb Exposed(const Scene& scene, const MeshNodes::Node& node, double exposure) {
+  if ((scene.MaterialOf(node.patch).emittance > 0).any()) return Rgb::Ones();
+  return (exposure * node.radiosity).max(0.0).min(1.0);
+}
+
+constexpr int kQuadraticTriangle = 22;  // VTK_QUADRATIC_TRIANGLE
+
+// The chunk of a GLB file, filled up to a multiple of four bytes.
+std::string Chunk(std::uint32_t type, std::string bytes, char filler) {
+  bytes.append((4 - bytes.size() % 4) % 4, filler);
+  std::string chunk;
+  Append(chunk, static_cast<std::uint32_t>(bytes.size()));
+  Append(chunk, type);
+  return chunk + bytes;
+}
+
+}  // namespace
+
+std::string VtuBytes(const Scene& scene, const IrradianceMesh& mesh) {
+  const MeshNodes nodes = FindMeshNodes(scene, mesh);
+  std::string points, irradiance, radiosity, connectivity, offsets, types, patches;
+  for (const MeshNodes::Node& node : nodes.nodes) {
+    AppendTriple<double>(points, node.position);
+    AppendTriple<double>(irradiance, node.irradiance);
+    AppendTriple<double>(radiosity, node.radiosity);
+  }
+  for (std::size_t i = 0; i < nodes.triangles.size(); ++i) {
+    for (const std::uint32_t node : nodes.triangles[i]) Append(connectivity, static_cast<std::int64_t>(node));
+    Append(offsets, static_cast<std::int64_t>(6 * (i + 1)));
+    types.push_back(static_cast<char>(kQuadraticTriangle));
+    Append(patches, nodes.face[i]);
+  }
+  return fmt::format(
+             "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+             "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n"
+             "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+             nodes.nodes.size(), nodes.triangles.size()) +
+         "<Points>\n" + DataArray("Float64", "Points", 3, points) + "</Points>\n<Cells>\n" +
+         DataArray("Int64", "connectivity", 1, connectivity) + DataArray("Int64", "offsets", 1, offsets) +
+         DataArray("UInt8", "types", 1, types) + "</Cells>\n<PointData Vectors=\"irradiance\">\n" +
+         DataArray("Float64", "irradiance", 3, irradiance) + DataArray("Float64", "radiosity", 3, radiosity) +
+         "</PointData>\n<CellData Scalars=\"patch\">\n" + DataArray("Int32", "patch", 1, patches) +
+         "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+}
+
+std::string PlyBytes(const Scene& scene, const IrradianceMesh& mesh, double exposure) {
+  const MeshNodes nodes = FindMeshNodes(scene, mesh);
+  std::string bytes = fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment irradiance and radiosity in W/m^2, lengths in metres\n"
+      "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "property float irradiance_r\nproperty float irradiance_g\nproperty float irradiance_b\n"
+      "property float radiosity_r\nproperty float radiosity_g\nproperty float radiosity_b\n"
+      "element face {}\nproperty list uchar int vertex_indices\nproperty int patch\nend_header\n",
+      nodes.nodes.size(), 4 * nodes.triangles.size());
+  for (const MeshNodes::Node& node : nodes.nodes) {
+    AppendTriple<float>(bytes, node.position);
+    const Rgb shown = Exposed(scene, node, exposure);
+    for (int c = 0; c < 3; ++c)
+      bytes.push_back(static_cast<char>(std::lround(255 * SrgbFromLinear(shown[c]))));
+    AppendTriple<float>(bytes, node.irradiance);
+    AppendTriple<float>(bytes, node.radiosity);
+  }
+  for (std::size_t i = 0; i < nodes.triangles.size(); ++i)
+    for (const auto& triangle : Quarters(nodes.triangles[i])) {
+      bytes.push_back(3);
+      for (const std::uint32_t node : triangle) Append(bytes, static_cast<std::int32_t>(node));
+      Append(bytes, nodes.face[i]);
+    }
+  return bytes;
+}
+
+std::string GlbBytes(const Scene& scene, const IrradianceMesh& mesh, double exposure) {
+  const MeshNodes nodes = FindMeshNodes(scene, mesh);
+  // Floats about the centre of the scene keep their digits far from the origin.
+  const auto [low, high] = scene.Bounds();
+  const Vec3 centre = 0.5 * (low + high);
+  std::string positions, colours, irradiance, radiosity, indices;
+  Eigen::Array3f least = Eigen::Array3f::Constant(INFINITY), most = -least;
+  for (const MeshNodes::Node& node : nodes.nodes) {
+    const Eigen::Array3f position = (node.position - centre).cast<float>().array();
+    least = least.min(position);
+    most = most.max(position);
+    AppendTriple<float>(positions, position);
+    AppendTriple<float>(colours, Exposed(scene, node, exposure));
+    AppendTriple<float>(irradiance, node.irradiance);
+    AppendTriple<float>(radiosity, node.radiosity);
+  }
+  for (const auto& six : nodes.triangles)
+    for (const auto& triangle : Quarters(six))
+      for (const std::uint32_t node : triangle) Append(indices, node);
+
+  std::string json =
+      "{\"asset\":{\"version\":\"2.0\",\"generator\":\"penumbra\"},"
+      "\"extensionsUsed\":[\"KHR_materials_unlit\"],\"scene\":0,";
+  std::string buffer;
+  if (nodes.nodes.empty()) {
+    json += "\"scenes\":[{}]}";  // nothing may be empty but the scene
+  } else {
+    std::string views, accessors;
+    const auto add = [&](const std::string& bytes, int target, int type, std::size_t count, const char* shape,
+                         const std::string& more) {
+      const char* comma = views.empty() ? "" : ",";
+      const std::size_t number =
+          views.empty() ? 0 : static_cast<std::size_t>(std::count(views.begin(), views.end(), '{'));
+      views += fmt::format("{}{{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{},\"target\":{}}}", comma,
+                           buffer.size(), bytes.size(), target);
+      accessors += fmt::format("{}{{\"bufferView\":{},\"componentType\":{},\"count\":{},\"type\":\"{}\"{}}}",
+                               comma, number, type, count, shape, more);
+      buffer += bytes;
+    };
+    constexpr int kArray = 34962, kElements = 34963, kFloat = 5126, kUint = 5125;
+    const std::size_t count = nodes.nodes.size();
+    add(positions, kArray, kFloat, count, "VEC3",
+        fmt::format(",\"min\":[{},{},{}],\"max\":[{},{},{}]", least[0], least[1], least[2], most[0], most[1],
+                    most[2]));
+    add(colours, kArray, kFloat, count, "VEC3", "");
+    add(irradiance, kArray, kFloat, count, "VEC3", "");
+    add(radiosity, kArray, kFloat, count, "VEC3", "");
+    add(indices, kElements, kUint, 12 * nodes.triangles.size(), "SCALAR", "");
+    // (x, y, z), z up, becomes (x, z, -y): a quarter turn about x.
+    constexpr double kHalf = 0.70710678118654752;
+    json += fmt::format(
+        "\"scenes\":[{{\"nodes\":[0]}}],"
+        "\"nodes\":[{{\"mesh\":0,\"rotation\":[{},0,0,{}],\"translation\":[{},{},{}]}}],"
+        "\"meshes\":[{{\"primitives\":[{{\"attributes\":{{\"POSITION\":0,\"COLOR_0\":1,\"_IRRADIANCE\":2,"
+        "\"_RADIOSITY\":3}},\"indices\":4,\"material\":0}}],\"extras\":{{\"exposure\":{}}}}}],"
+        "\"materials\":[{{\"pbrMetallicRoughness\":{{\"baseColorFactor\":[1,1,1,1],\"metallicFactor\":0,"
+        "\"roughnessFactor\":1}},\"extensions\":{{\"KHR_materials_unlit\":{{}}}}}}],"
+        "\"accessors\":[{}],\"bufferViews\":[{}],\"buffers\":[{{\"byteLength\":{}}}]}}",
+        -kHalf, kHalf, centre.x(), centre.z(), -centre.y(), exposure, accessors, views, buffer.size());
+  }
+  constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942, kVersion = 2;
+  std::string chunks = Chunk(kJsonChunk, json, ' ');
+  if (!buffer.empty()) chunks += Chunk(kBinaryChunk, buffer, '\0');
+  std::string bytes = "glTF";
+  Append(bytes, kVersion);
+  Append(bytes, static_cast<std::uint32_t>(12 + chunks.size()));
+  return bytes + chunks;
+}
+
+double MeterMesh(const Scene& scene, const IrradianceMesh& mesh) {
+  return MeterNodes(scene, mesh, FindMeshNodes(scene, mesh));
+}
+
+}  // namespace penumbra

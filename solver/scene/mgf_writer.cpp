@@ -1,0 +1,74 @@
+#include "solver/scene/mgf_writer.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <array>
+
+namespace penumbra {
+namespace {
+
+// Chromaticities of MGF's monitor: red, green, blue, and its white of equal energy.
+constexpr std::array<std::array<double, 2>, 3> kPrimaries = {
+    {{0.640, 0.330}, {0.290, 0.600}, {0.150, 0.060}}};
+constexpr double kWhite = 1.0 / 3;
+
+// The XYZ of a chromaticity with luminance 1.
+Vec3 XyzOf(double x, double y) { return {x / y, 1, (1 - x - y) / y}; }
+
+Eigen::Matrix3d RgbToXyz() {
+  Eigen::Matrix3d primaries;
+  for (int c = 0; c < 3; ++c) primaries.col(c) = XyzOf(kPrimaries[c][0], kPrimaries[c][1]);
+  // Scaled so that equal amounts of all three are white.
+  const Vec3 amounts = primaries.inverse() * XyzOf(kWhite, kWhite);
+  return primaries * amounts.asDiagonal();
+}
+
+// The lines that set a colour and how much of it there is.
+std::string Amount(const char* keyword, const Rgb& rgb) {
+  const Vec3 xyz = MgfXyz(rgb);
+  const double sum = xyz.sum();
+  const double x = sum > 0 ? xyz.x() / sum : kWhite, y = sum > 0 ? xyz.y() / sum : kWhite;
+  return fmt::format("  c\n    cxy {} {}\n  {} {}\n", x, y, keyword, xyz.y());
+}
+
+// Names end at blanks.
+std::string Word(std::string name) {
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) <= 0x20) c = '_';
+  return name.empty() ? "unnamed" : name;
+}
+
+}  // namespace
+
+Vec3 MgfXyz(const Rgb& rgb) {
+  static const Eigen::Matrix3d matrix = RgbToXyz();
+  return matrix * rgb.matrix();
+}
+
+std::string MgfText(const Scene& scene) {
+  std::string text = fmt::format("# {}: lengths in metres, emittance in W/m^2\n", Word(scene.name));
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    const Material& material = scene.materials[m];
+    text += fmt::format("m m{} =  # {}\n  sides 1\n", m, Word(material.name)) +
+            Amount("rd", material.reflectance);
+    if ((material.emittance > 0).any()) text += Amount("ed", material.emittance);
+  }
+  std::size_t vertices = 0;
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    std::string faces;
+    for (const Patch& patch : scene.patches) {
+      if (patch.object != static_cast<std::int32_t>(o)) continue;
+      std::string line = fmt::format("m m{}\nf", patch.material);
+      for (const Vec3& v : patch.Vertices()) {
+        faces += fmt::format("v v{} =\n  p {} {} {}\n", vertices, v.x(), v.y(), v.z());
+        line += fmt::format(" v{}", vertices++);
+      }
+      faces += line + "\n";
+    }
+    if (!faces.empty()) text += fmt::format("o {}\n", Word(scene.objects[o].name)) + faces + "o\n";
+  }
+  return text;
+}
+
+}  // namespace penumbra

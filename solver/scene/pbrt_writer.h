@@ -1,0 +1,16 @@
+// solver/scene/pbrt_writer.h
+
+#pragma once
+
+#include <string>
+
+#include "solver/scene/scene.h"
+
+namespace penumbra {
+
+// The scene for pbrt, version 4: the patches as triangles, one-sided diffuse area lights of radiance
+// emittance / pi on their fronts, a path tracer and an EXR film of width x height pixels (height <= width)
+// behind the camera. What pbrt cannot be told: backs reflect as fronts do, where they can be seen.
+std::string PbrtText(const Scene& scene, const Camera& camera, int width, int height);
+
+}  // namespace penumbra

@@ -1,0 +1,101 @@
+// `export` and `diff` from outside. What other programs make of the files is asked in tests/foreign.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "display/image_io.h"
+#include "tests/apps/run_program.h"
+
+namespace penumbra {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// A scene written as OBJ is the same scene: probes give the same bytes. pbrt and MGF need no solve either.
+TEST(Export, ScenesComeBack) {
+  const Sandbox sandbox;
+  sandbox.Write("points.csv", "x,y,z,nx,ny,nz\n0.3,-0.9,0,0,0,1\n0.1,-0.5,0.2,0.3,0.2,1\n");
+  ASSERT_EQ(sandbox.Run({"export", "floating-cube", "-o", "a.obj"}).status, 0);
+  const std::vector<std::string> rest = {"--points", "points.csv", "--error", "0.3"};
+  std::vector<std::string> from_file = {"probe", "a.obj"}, built_in = {"probe", "floating-cube"};
+  from_file.insert(from_file.end(), rest.begin(), rest.end());
+  built_in.insert(built_in.end(), rest.begin(), rest.end());
+  const Outcome outcome = sandbox.Run(from_file);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, sandbox.Run(built_in).out);
+  ASSERT_EQ(sandbox.Run({"export", "cornell", "-o", "a.pbrt", "--camera", "blocks"}).status, 0);
+  EXPECT_THAT(ReadBytes(sandbox.Path("a.pbrt")), HasSubstr("\"float fov\" 50\n"));
+  ASSERT_EQ(sandbox.Run({"export", "cornell", "-o", "a.mgf"}).status, 0);
+  EXPECT_THAT(sandbox.Files(), ElementsAre("a.mgf", "a.mtl", "a.obj", "a.pbrt", "points.csv"));
+}
+
+// Meshes have the same bytes for every number of threads, and of a scene without faces there is a file as
+// well.
+TEST(Export, MeshesAreTheSameForAnyThreads) {
+  const Sandbox sandbox;
+  sandbox.Write("empty.obj", "# nothing\n");
+  for (const char* format : {".vtu", ".ply", ".glb"}) {
+    const std::string one = std::string("one") + format, two = std::string("two") + format;
+    ASSERT_EQ(sandbox.Run({"export", "furnace", "--error", "0.5", "-o", one, "--threads", "1"}).status, 0);
+    ASSERT_EQ(sandbox.Run({"export", "furnace", "--error", "0.5", "-o", two, "--threads", "2"}).status, 0);
+    EXPECT_EQ(ReadBytes(sandbox.Path(one)), ReadBytes(sandbox.Path(two)));
+    EXPECT_EQ(sandbox.Run({"export", "empty.obj", "-o", one}).status, 0);
+  }
+}
+
+// What cannot be written is bad usage, and nothing is written.
+TEST(Export, RefusesOtherEndings) {
+  const Sandbox sandbox;
+  EXPECT_EQ(sandbox.Run({"export", "furnace", "-o", "a.stl"}).status, 2);
+  EXPECT_EQ(sandbox.Run({"export", "furnace"}).status, 2);
+  EXPECT_EQ(sandbox.Run({"export", "furnace", "-o", "nowhere/a.ply"}).status, 1);
+  EXPECT_EQ(sandbox.Run({"diff", "a.exr"}).status, 2);
+  EXPECT_THAT(sandbox.Files(), ElementsAre());
+}
+
+// A picture is no different from itself; one of twice the values is off by 1 in every channel; sizes have to
+// agree.
+TEST(Diff, TellsHowFarPicturesAre) {
+  const Sandbox sandbox;
+  RgbImage a(20, 10);
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 20; ++x)
+      a.Set(x, y, {1, 0.5F + 0.01F * static_cast<float>(x), 0.25F + 0.01F * static_cast<float>(y)});
+  RgbImage b = a;
+  for (auto& plane : b.channel)
+    for (float& value : plane) value *= 2;
+  WriteExr(sandbox.Path("a.exr"), a);
+  WriteExr(sandbox.Path("b.exr"), b);
+  WriteExr(sandbox.Path("c.exr"), RgbImage(20, 11));
+  const json same = json::parse(sandbox.Run({"diff", "a.exr", "a.exr", "--json"}).out);
+  EXPECT_EQ(same["flip"]["max"], 0);
+  EXPECT_EQ(same["relative"]["red"]["max"], 0);
+  EXPECT_EQ(same["relative"]["blue"]["mean_ratio"], 1);
+  const Outcome twice = sandbox.Run({"diff", "a.exr", "b.exr", "--json", "-o", "map.png"});
+  ASSERT_EQ(twice.status, 0) << twice.err;
+  const json other = json::parse(twice.out);
+  for (const char* channel : {"red", "green", "blue"}) {
+    for (const char* measure : {"max", "p99", "p95", "rms"})
+      EXPECT_NEAR(other["relative"][channel][measure].get<double>(), 1, 1e-12);
+    EXPECT_NEAR(other["relative"][channel]["mean_ratio"].get<double>(), 2, 1e-12);
+  }
+  EXPECT_GT(other["flip"]["mean"], 0.05);
+  EXPECT_LE(other["flip"]["max"], 1);
+  EXPECT_EQ(ReadBytes(sandbox.Path("map.png")).substr(1, 3), "PNG");
+  EXPECT_THAT(sandbox.Run({"diff", "a.exr", "b.exr"}).out, HasSubstr("visible difference"));
+
+  const Outcome sizes = sandbox.Run({"diff", "a.exr", "c.exr"});
+  EXPECT_EQ(sizes.status, 1);
+  EXPECT_THAT(sizes.err, HasSubstr("c.exr: error: it has 20x11 pixels, but a.exr has 20x10"));
+  b.Set(3, 4, {NAN, 0, 0});
+  WriteExr(sandbox.Path("b.exr"), b);
+  EXPECT_EQ(sandbox.Run({"diff", "a.exr", "b.exr"}).status, 1);
+}
+
+}  // namespace
+}  // namespace penumbra
