@@ -74,6 +74,12 @@ Json ErrorJson(const PipelineReport& report) {
             {"p95", error.p95},
             {"rms", error.rms}}},
           {"solution", {{"estimate", report.solution_error_estimate}}},
+          {"whole",
+           {{"points", report.whole_error.points},
+            {"max", report.whole_error.max},
+            {"p99", report.whole_error.p99},
+            {"p95", report.whole_error.p95},
+            {"rms", report.whole_error.rms}}},
           {"asked", report.error_asked},
           {"met", report.error_met}};
 }
@@ -134,6 +140,12 @@ PipelineReport PipelineReportFrom(const Json& lasting) {
   interpolant.at("p95").get_to(report.interpolant_error.p95);
   interpolant.at("rms").get_to(report.interpolant_error.rms);
   error.at("solution").at("estimate").get_to(report.solution_error_estimate);
+  const Json& whole = error.at("whole");
+  whole.at("points").get_to(report.whole_error.points);
+  whole.at("max").get_to(report.whole_error.max);
+  whole.at("p99").get_to(report.whole_error.p99);
+  whole.at("p95").get_to(report.whole_error.p95);
+  whole.at("rms").get_to(report.whole_error.rms);
   error.at("asked").get_to(report.error_asked);
   error.at("met").get_to(report.error_met);
   lasting.at("unmet").get_to(report.unmet);
@@ -170,7 +182,8 @@ std::string ReportTable(const RunReport& report) {
   if (error.points > 0)
     table += fmt::format("   interpolants, at {} points: p99 {:.3g}, p95 {:.3g}, rms {:.3g}, max {:.3g}\n",
                          error.points, error.p99, error.p95, error.rms, error.max);
-  table += fmt::format("   solution, estimated: {:.3g}\n", pipeline.solution_error_estimate);
+  table += fmt::format("   solution, estimated: {:.3g}; both together: p99 {:.3g}, p95 {:.3g}\n",
+                       pipeline.solution_error_estimate, pipeline.whole_error.p99, pipeline.whole_error.p95);
   table +=
       fmt::format("   asked for {:.3g}: {}\n", pipeline.error_asked, pipeline.error_met ? "met" : "not met");
   for (const std::string& line : pipeline.unmet) table += fmt::format("   {}\n", line);

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "apps/commands.h"
 #include "apps/option_values.h"
@@ -23,6 +25,7 @@ namespace {
 constexpr int kMaxThreads = 1024;
 constexpr std::uint64_t kMaxErrorPoints = 100'000'000;
 constexpr const char *kSceneGroup = "Scene", *kSolvingGroup = "Solving";
+constexpr int kMaxErrorSamples = 100;
 constexpr NumberRule kBelowOne{[](double x) { return x >= 0 && x < 1; }, "a number in [0, 1)"};
 
 constexpr std::array<NamedValue<DiscontinuityChoice>, 5> kDiscontinuityChoices = {
@@ -83,7 +86,11 @@ LoadedScene ReadSolution(const SceneArguments& arguments) {
         fmt::format("{}: error: its options or its report cannot be read: {}", path, error.what()));
   }
   return loaded;
-}
+  std::map<std::string, RefineBy> RefineNames() {
+    return {{"transport", RefineBy::kTransport},
+            {"representation", RefineBy::kRepresentation},
+            {"both", RefineBy::kBoth}};
+  }
 
 }  // namespace
 
@@ -148,6 +155,15 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
   AddInteger(app, "--max-leaf-dsets", &solving->max_leaf_dsets, 0, 1'000'000,
              "Most discontinuity lines in a leaf of the mesh")
       ->group(group);
+  AddInteger(app, "--error-samples", &solving->error_samples, 1, kMaxErrorSamples,
+             "Measure a triangle of the mesh at N x N points to decide whether it is fine enough")
+      ->group(group);
+  app.add_option("--refine", solving->refine,
+                 "Refine by the error of links alone (transport), by that of what is shown over a coarse "
+                 "solution (representation), or by both (default)")
+      ->transform(CLI::CheckedTransformer(RefineNames(), CLI::ignore_case))
+      ->type_name("transport|representation|both")
+      ->group(group);
   AddNumber(app, "--relative-cutoff", &solving->relative_cutoff, kPositive,
             "Iterate until no radiosity is farther off, relative to the largest (default: follows from "
             "--error)")
@@ -201,6 +217,9 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["min_discontinuity_weight"] = mesh.min_weight;
     options["max_leaf_dsets"] = mesh.max_leaf_dsets;
     options["keep_hidden_discontinuities"] = mesh.keep_hidden;
+    options["error_samples"] = arguments.solving.error_samples;
+    for (const auto& [name, refine] : RefineNames())
+      if (refine == arguments.solving.refine) options["refine"] = name;
     options["corrections"] = resolved->solver.max_corrections;
     options["acceleration"] = resolved->solver.accelerate;
     options["relative_cutoff"] = resolved->solver.relative_cutoff;
@@ -234,6 +253,8 @@ PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   solving.weight = ValueOf(options.value("weight", "thesis"), kDiscontinuityWeights);
   solving.discontinuities = ValueOf(options.value("discontinuities", "ranked"), kDiscontinuityChoices);
   solving.keep_hidden_discontinuities = options.value("keep_hidden_discontinuities", false);
+  options.at("error_samples").get_to(solving.error_samples);
+  solving.refine = RefineNames().at(options.at("refine").get<std::string>());
   options.at("corrections").get_to(solving.max_corrections);
   options.at("acceleration").get_to(solving.accelerate);
   solving.relative_cutoff = options.at("relative_cutoff").get<double>();

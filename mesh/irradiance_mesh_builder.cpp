@@ -77,31 +77,45 @@ Nodes NumberNodes(const IrradianceMesh& mesh, bool midpoints) {
 class Sampling {
  public:
   Sampling(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
-           const ExecutionContext& context)
-      : mesh_(mesh), sampler_(sampler), context_(context), scene_(scene) {
+           SampleCache* cache, const ExecutionContext& context)
+      : mesh_(mesh), sampler_(sampler), cache_(cache), context_(context), scene_(scene) {
     // What comes within the contact gap touches the node. This holds for all nodes, not only those on
     // contacts: where a shadow's edge starts at a foot, vertices lie within the gap beside it.
     for (const Patch& patch : scene.patches)
       uncertainty_.push_back(std::max(kOnLine * SnapDistance(patch), ContactGap(scene)));
   }
 
-  // Evaluates the nodes from the triangles that they name.
+  // The nodes' samples, from the triangles that they name.
   std::vector<PointIrradianceResult> Evaluate(std::span<const Node> nodes, double done_before,
-                                              double done_after) const {
+                                              double done_after) {
     std::vector<PointIrradianceResult> results(nodes.size());
+    std::vector<std::size_t> unknown;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const PointIrradianceResult* known = cache_ ? cache_->Find(nodes[i].patch, At(nodes[i])) : nullptr;
+      if (known)
+        results[i] = *known;
+      else
+        unknown.push_back(i);
+    }
     constexpr std::size_t kNodesATask = 64;
     // In batches, so that progress is told from one thread and a cancelled run ends soon.
     constexpr std::size_t kBatch = 1 << 14;
-    for (std::size_t begin = 0; begin < nodes.size() && !context_.Cancelled(); begin += kBatch) {
-      const std::size_t size = std::min(kBatch, nodes.size() - begin);
+    for (std::size_t begin = 0; begin < unknown.size() && !context_.Cancelled(); begin += kBatch) {
+      const std::size_t size = std::min(kBatch, unknown.size() - begin);
       context_.Report("interpolate", done_before + (done_after - done_before) * static_cast<double>(begin) /
-                                                       static_cast<double>(nodes.size()));
-      ParallelFor(size, kNodesATask, [&](std::size_t i) {
-        results[begin + i] = sampler_(nodes[begin + i].patch, At(nodes[begin + i]));
+                                                       static_cast<double>(unknown.size()));
+      ParallelFor(size, kNodesATask, [&](std::size_t k) {
+        const std::size_t i = unknown[begin + k];
+        results[i] = sampler_(nodes[i].patch, At(nodes[i]));
       });
+      evaluations_ += size;
     }
+    if (cache_ && !context_.Cancelled())
+      for (const std::size_t i : unknown) cache_->Insert(nodes[i].patch, At(nodes[i]), results[i]);
     return results;
   }
+
+  std::size_t evaluations() const { return evaluations_; }
 
  private:
   ReceiverPoint At(const Node& node) const {
@@ -124,23 +138,25 @@ class Sampling {
 
   const IrradianceMesh& mesh_;
   const IrradianceSampler& sampler_;
+  SampleCache* cache_;
   const ExecutionContext& context_;
   const Scene& scene_;
   std::vector<double> uncertainty_;  // per patch [m]
+  std::size_t evaluations_ = 0;
 };
 
 }  // namespace
 
 BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangulation> patches,
                               InterpolantOrder order, const IrradianceSampler& sampler,
-                              const ExecutionContext& context) {
+                              const ExecutionContext& context, SampleCache* cache) {
   PENUMBRA_CHECK(order != InterpolantOrder::kConstant);
   BuiltMesh built;
   built.mesh = JoinPatches(patches);
   IrradianceMesh& mesh = built.mesh;
   const bool quadratic = order == InterpolantOrder::kQuadratic;
   Nodes nodes = NumberNodes(mesh, quadratic);
-  const Sampling sampling(scene, mesh, sampler, context);
+  Sampling sampling(scene, mesh, sampler, cache, context);
 
   // Each node from its first triangle; then, where the side matters, from every other triangle as well.
   constexpr double kFirstShare = 0.8;
@@ -157,7 +173,7 @@ BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangula
     }
   const std::vector<PointIrradianceResult> more = sampling.Evaluate(again, kFirstShare, 1);
   values.insert(values.end(), more.begin(), more.end());
-  built.point_evaluations = values.size();
+  built.point_evaluations = sampling.evaluations();
 
   mesh.irradiance.resize(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -16,6 +16,7 @@
 #include "mesh/irradiance_mesh.h"
 #include "mesh/leaf_triangulation.h"
 #include "mesh/mesh_options.h"
+#include "mesh/sample_cache.h"
 #include "solver/base/progress.h"
 #include "solver/transport/element_forest.h"
 #include "solver/transport/point_irradiance.h"
@@ -27,15 +28,16 @@ using IrradianceSampler = std::function<PointIrradianceResult(PatchId, const Rec
 
 struct BuiltMesh {
   IrradianceMesh mesh;
-  std::size_t point_evaluations = 0;
+  std::size_t point_evaluations = 0;  // those of the sampler; what the cache knew is not counted
 };
 
 // The mesh of all patches, with linear or quadratic interpolants. Patches ascend, triangles keep their order.
 // The result does not depend on the number of threads. REQUIRES: patches[i] belongs to patch i of the scene;
-// order is not kConstant.
+// order is not kConstant. With a cache, samples that it knows are not evaluated again, and new ones are
+// added.
 BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangulation> patches,
                               InterpolantOrder order, const IrradianceSampler& sampler,
-                              const ExecutionContext& context);
+                              const ExecutionContext& context, SampleCache* cache = nullptr);
 
 // The same triangles with the irradiance of their leaves in the solution [W/m^2], indexed by ElementId: flat
 // shading of the constant basis.

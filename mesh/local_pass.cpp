@@ -51,6 +51,7 @@ std::size_t SplitCrowded(ElementForest& forest, PatchId patch, std::span<const E
 
 std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibility,
                                                    const RadiositySolution& solution,
+                                                   const ElementForest& given,
                                                    const DiscontinuityOptions& options,
                                                    const ExecutionContext& context, MeshReport& report) {
   const Scene& scene = solution.forest.scene();
@@ -66,8 +67,8 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
     if (options.enabled() && !context.Cancelled())
       found[p] = finder.Find(static_cast<PatchId>(p), strength, options);
   });
-  // The mesh may be finer than the solution: it has quadtrees of its own.
-  ElementForest forest = solution.forest;
+  // Crowded leaves are split in quadtrees of the mesh's own.
+  ElementForest forest = given;
   std::vector<std::size_t> patches_to_do(count);
   std::iota(patches_to_do.begin(), patches_to_do.end(), std::size_t{0});
   for (int round = 0; !patches_to_do.empty() && !context.Cancelled(); ++round) {
@@ -100,7 +101,7 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
     context.Report("triangulate", static_cast<double>(p) / static_cast<double>(count));
     patches[p] = TriangulateLeaves(forest, static_cast<PatchId>(p), dsets[p], std::move(borders[p]));
     for (ElementId& leaf : patches[p].leaves)
-      while (static_cast<std::size_t>(leaf) >= solution.forest.size()) leaf = forest[leaf].parent;
+      while (static_cast<std::size_t>(leaf) >= given.size()) leaf = forest[leaf].parent;
     report.counts.discontinuities += found[p].size();
     report.counts.activated += dsets[p].activated;
     report.counts.dsets_active += dsets[p].dsets_active;
@@ -118,9 +119,10 @@ MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySoluti
                         const IrradianceSampler& sampler, const MeshOptions& options,
                         const ExecutionContext& context) {
   MeshResult result;
-  const std::vector<PatchTriangulation> patches =
-      TriangulatePatches(visibility, solution, options.discontinuities, context, result.report);
+  result.triangulations = TriangulatePatches(visibility, solution, solution.forest, options.discontinuities,
+                                             context, result.report);
   if (context.Cancelled()) return result;
+  const std::vector<PatchTriangulation>& patches = result.triangulations;
   Stopwatch interpolating;
   if (options.order == InterpolantOrder::kConstant) {
     result.mesh = BuildConstantMesh(patches, solution.irradiance);

@@ -20,17 +20,19 @@ namespace penumbra {
 
 struct MeshResult {
   IrradianceMesh mesh;
+  std::vector<PatchTriangulation> triangulations;  // that the mesh was made of
   MeshReport report;
 };
 
 // The largest radiosity of each patch, over its leaves and the channels [W/m^2].
 std::vector<double> SourceStrengths(const RadiositySolution& solution);
 
-// Triangulates all patches of the solution; counts and seconds are added to the report. The mesh may split
-// leaves of the solution further: the `leaves` of a triangulation name for each of its leaves the solution's
-// that it is part of. REQUIRES: the quadtrees are balanced.
+// Triangulates all patches along the leaves of `forest`, the solution's or one that was grown from it; counts
+// and seconds are added to the report. The mesh may split leaves further: the `leaves` of a triangulation
+// name for each of its leaves that of `forest` that it is part of. REQUIRES: the quadtrees are balanced.
 std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibility,
                                                    const RadiositySolution& solution,
+                                                   const ElementForest& forest,
                                                    const DiscontinuityOptions& options,
                                                    const ExecutionContext& context, MeshReport& report);
 

@@ -8,10 +8,11 @@
 
 #include "mesh/local_pass.h"
 #include "mesh/mesh_locator.h"
-#include "mesh/source_error.h"
+#include "mesh/mesh_refinement.h"
+#include "mesh/source_cells.h"
+#include "mesh/source_cut.h"
 #include "solver/base/check.h"
 #include "solver/base/stopwatch.h"
-#include "solver/transport/solution_error.h"
 
 namespace penumbra {
 namespace {
@@ -27,6 +28,16 @@ constexpr double kWeightOfMeanIrradiance = 0.5;
 constexpr int kCrowdedSplits = 3;         // DiscontinuityOptions::crowded_splits
 constexpr double kMinAreaOfScene = 1e-7;  // of the fronts' total area
 constexpr double kCutoffOfError = 0.005;
+// With representation refinement alone links are refined to this times the eps of transport.
+constexpr double kCoarseEps = 4;
+
+// The shares of the error that the interpolants and their sources may make, each at its 99th percentile:
+// seldom both at one point.
+constexpr double kInterpolantShare = 0.65, kSourceShare = 0.4;
+// Cells of sources are divided while their score is above this times the error.
+constexpr double kFinestScore = 1;
+// Random points that choose the sources, and at most that measure them.
+constexpr std::size_t kCutPoints = 300, kMostSourcePoints = 400;
 
 struct SceneTotals {
   double area = 0, flux = 0, reflectance = 0, strongest = 0;  // of the brightest channel
@@ -55,7 +66,8 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   // What the walls would receive if all light stayed in and spread evenly.
   const double mean = totals.area > 0 ? totals.flux / totals.area / (1 - totals.reflectance) : 0;
   ResolvedOptions resolved;
-  resolved.solver.eps = options.eps.value_or(kEpsOfMeanIrradiance * options.error * mean);
+  const double coarse = options.refine == RefineBy::kRepresentation ? kCoarseEps : 1;
+  resolved.solver.eps = options.eps.value_or(coarse * kEpsOfMeanIrradiance * options.error * mean);
   resolved.solver.min_area = options.min_area.value_or(kMinAreaOfScene * totals.area);
   resolved.solver.relative_cutoff = options.relative_cutoff.value_or(kCutoffOfError * options.error);
   resolved.solver.max_iterations = options.max_iterations;
@@ -90,6 +102,9 @@ struct Pipeline::Impl {
   std::optional<RadiositySolution> stored;     // that another one made, until a step begins anew
   std::optional<MeshKind> mesh_kind;           // of a mesh of the present solution
   IrradianceMesh mesh;
+  std::vector<PatchTriangulation> triangulations;  // of the mesh
+  ElementForest mesh_forest;                       // whose leaves they are
+  std::vector<TriangleError> triangle_errors;      // of the mesh, where they were measured
   std::unique_ptr<MeshLocator> locator;
   PipelineReport report;
   std::mutex irradiance_making;
@@ -118,6 +133,62 @@ struct Pipeline::Impl {
       AddPhase("iterate", stopwatch.Seconds());
     }
     return *irradiance;
+  }
+
+  SourceCells Cells() {
+    return SourceCells(Solution(), mesh_forest, triangulations, mesh, Irradiance(),
+                       kFinestScore * options.error);
+  }
+
+  // Exact irradiance from the finest sources that the interpolants give.
+  PointIrradiance BetterIrradiance() {
+    const SourceCells cells = Cells();
+    return Irradiance().WithSources(
+        SourceSet::FromSolution(solver->solution(), cells.Fragments(cells.Cut(0), /*whole_leaves=*/true)));
+  }
+
+  // Gives the leaves the means of the interpolants, and cuts those whose light varies too much for where it
+  // arrives. False if it was cancelled.
+  bool RefineSources(const ExecutionContext& context) {
+    const Stopwatch stopwatch;
+    context.Report("refine sources", 0);
+    const SourceCells cells = Cells();
+    const SourceCut cut =
+        ChooseSourceCut(solver->solution(), cells, Irradiance(), kFinestScore * options.error,
+                        kSourceShare * options.error, kCutPoints, options.seed + 1);
+    const bool done = solver->CorrectTo(cells.LeafIrradiance(),
+                                        cells.Fragments(cut.cells, /*whole_leaves=*/false), context);
+    irradiance.reset();
+    AddPhase("iterate", stopwatch.Seconds());
+    return done;
+  }
+
+  // Sources, then leaves of the mesh, as fine as the error asked for wants them. Adds to the report.
+  void RefineShown(const MeshOptions& mesh_options, MeshReport& done, const ExecutionContext& context) {
+    if (!RefineSources(context)) return;
+    MeshRefinementOptions refinement;
+    refinement.error = kInterpolantShare * options.error;
+    refinement.min_area = resolved.solver.min_area;
+    refinement.samples = options.error_samples;
+    RefinedMesh refined =
+        RefineMesh(visibility, solver->solution(), Sampler(), mesh_options, refinement, context);
+    if (context.Cancelled()) return;
+    mesh = std::move(refined.mesh);
+    triangulations = std::move(refined.triangulations);
+    mesh_forest = std::move(refined.forest);
+    triangle_errors = std::move(refined.errors);
+    refined.report.counts.point_evaluations += done.counts.point_evaluations;
+    refined.report.seconds.discontinuities += done.seconds.discontinuities;
+    refined.report.seconds.triangulate += done.seconds.triangulate;
+    refined.report.seconds.interpolate += done.seconds.interpolate;
+    done = refined.report;
+    if (refined.share_above <= kShareAbove) return;
+    double area = 0;
+    for (const ElementId leaf : refined.unmet) area += mesh_forest[leaf].area;
+    report.unmet.push_back(fmt::format(
+        "interpolants: triangles on {:.2g} of the area err by more than {:.3g}; {} leaves of {:.3g} m^2 "
+        "together have the smallest area",
+        refined.share_above, refinement.error, refined.unmet.size(), area));
   }
 
   IrradianceSampler Sampler() {
@@ -253,6 +324,12 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context) {
                                                    : InterpolantOrder::kLinear;
   MeshResult result = RunLocalPass(impl_->visibility, solution(), impl_->Sampler(), options, context);
   impl_->mesh = std::move(result.mesh);
+  impl_->triangulations = std::move(result.triangulations);
+  impl_->mesh_forest = solution().forest;
+  impl_->triangle_errors.clear();
+  if (kind == MeshKind::kInterpolant && impl_->solver && impl_->options.refine != RefineBy::kTransport &&
+      !impl_->mesh.triangles.empty())
+    impl_->RefineShown(options, result.report, context);
   impl_->mesh_kind = context.Cancelled() ? std::nullopt : std::optional(kind);
   impl_->locator = std::make_unique<MeshLocator>(impl_->scene, impl_->mesh);
 
@@ -275,26 +352,29 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context) {
 
 void Pipeline::Measure(const ExecutionContext& context) {
   PENUMBRA_CHECK(impl_->locator != nullptr);
+  PENUMBRA_CHECK(impl_->triangulations.size() == impl_->scene.patches.size());  // the mesh was made here
   context.Report("measure", 0);
   PipelineReport& report = impl_->report;
   report.energy = MeasureEnergy(solution());
   const std::size_t points = impl_->options.error_points;
   const std::uint64_t seed = impl_->options.seed;
-  const RepresentationError error =
+  report.interpolant_error =
       MeasureRepresentationError(impl_->scene, impl_->mesh, impl_->Sampler(), points, seed);
-  report.interpolant_error = error;
-  report.solution_error_estimate =
-      EstimateSolutionError(solution(), irradiance(), points, seed) +
-      EstimateSourceError(solution(), impl_->mesh, impl_->Sampler(), points, seed);
-  report.error_met = error.p99 + report.solution_error_estimate <= report.error_asked;
+  const PointIrradiance better = impl_->BetterIrradiance();
+  const auto better_sampler = [&](PatchId patch, const ReceiverPoint& at) {
+    return better.OnPatch(patch, at);
+  };
+  const MeasuredError error = MeasureError(impl_->scene, impl_->mesh, impl_->Sampler(), better_sampler,
+                                           std::min(points, kMostSourcePoints), seed);
+  report.solution_error_estimate = error.sources.p99;
+  report.whole_error = error.whole;
+  report.error_met = std::max(report.interpolant_error.p99, error.whole.p99) <= report.error_asked;
   if (!report.error_met)
-    report.unmet.push_back(
-        fmt::format("error: {:.3g} of the interpolants (99th percentile) and {:.3g} of the solution "
-                    "(estimated) add up to more than "
-                    "{:.3g}; the worst "
-                    "point is ({:.4g}, {:.4g}, {:.4g})",
-                    error.p99, report.solution_error_estimate, report.error_asked, error.worst_point.x(),
-                    error.worst_point.y(), error.worst_point.z()));
+    report.unmet.push_back(fmt::format(
+        "error: {:.3g} of the interpolants and {:.3g} of their sources (99th percentiles) make {:.3g}; the "
+        "worst point is ({:.4g}, {:.4g}, {:.4g})",
+        report.interpolant_error.p99, error.sources.p99, error.whole.p99, error.whole.worst_point.x(),
+        error.whole.worst_point.y(), error.whole.worst_point.z()));
 }
 
 const Scene& Pipeline::scene() const { return impl_->scene; }
@@ -305,6 +385,7 @@ const PatchVisibility& Pipeline::visibility() const { return impl_->visibility; 
 const PointIrradiance& Pipeline::irradiance() const { return impl_->Irradiance(); }
 const IrradianceMesh& Pipeline::mesh() const { return impl_->mesh; }
 std::optional<MeshKind> Pipeline::mesh_kind() const { return impl_->mesh_kind; }
+std::span<const TriangleError> Pipeline::triangle_errors() const { return impl_->triangle_errors; }
 const PipelineReport& Pipeline::report() const { return impl_->report; }
 
 std::optional<Rgb> Pipeline::Interpolated(PatchId patch, const Vec3& point, double reach) const {

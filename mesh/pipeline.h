@@ -15,6 +15,7 @@
 #include "mesh/irradiance_mesh.h"
 #include "mesh/mesh_options.h"
 #include "mesh/representation_error.h"
+#include "mesh/triangle_error.h"
 #include "solver/base/progress.h"
 #include "solver/scene/scene.h"
 #include "solver/transport/energy.h"
@@ -24,6 +25,13 @@
 #include "solver/visibility/patch_visibility.h"
 
 namespace penumbra {
+
+// What refinement goes by (thesis 4.4).
+enum class RefineBy : std::uint8_t {
+  kTransport,       // the error of links alone; the mesh has the solution's leaves
+  kRepresentation,  // the error of what is shown, over a coarse solution
+  kBoth,
+};
 
 // What a user may set. Everything left out follows from `error` and the scene.
 struct PipelineOptions {
@@ -38,7 +46,9 @@ struct PipelineOptions {
   std::optional<DiscontinuityWeight> weight;
   bool keep_hidden_discontinuities = false;
   std::optional<double> relative_cutoff;  // Appendix A, 7
-  int max_corrections = 2;                // SolverOptions::max_corrections
+  int error_samples = 1;                  // Appendix A, 8: MeasureTriangles()
+  RefineBy refine = RefineBy::kBoth;
+  int max_corrections = 2;  // SolverOptions::max_corrections
   int max_iterations = 100;
   bool accelerate = true;           // SolverOptions::accelerate
   PointIrradianceOptions point;     // Appendix A, 9 and 10
@@ -77,7 +87,10 @@ struct PipelineReport {
   std::vector<IterationReport> iterations;
   EnergyBalance energy;
   RepresentationError interpolant_error;
-  double solution_error_estimate = 0;  // EstimateSolutionError() + EstimateSourceError()
+  // The 99th percentile of the relative error of exact irradiance, from the solution's sources against that
+  // from the interpolants as sources.
+  double solution_error_estimate = 0;
+  RepresentationError whole_error;  // of the interpolants, against the latter
   double error_asked = 0;
   bool error_met = false;
   std::vector<std::string> unmet;  // what missed the target, and why; one line each
@@ -129,7 +142,9 @@ class Pipeline {
   bool Relight(const ExecutionContext& context);
 
   // Stages discontinuities, triangulate, interpolate, for what a display mode needs, from the solution as it
-  // is; nothing is done where it is there already. REQUIRES: Link() or what begins with it.
+  // is. For interpolants, unless transport alone is asked for, they then refine the solution's sources, and
+  // the mesh (RefineMesh), until the error asked for is met. Nothing is done where it is there already.
+  // REQUIRES: Link() or what begins with it.
   void BuildMesh(MeshKind kind, const ExecutionContext& context);
   // Measures the energy balance and the error at random points. REQUIRES: BuildMesh() after the last step.
   void Measure(const ExecutionContext& context);
@@ -139,6 +154,8 @@ class Pipeline {
   const PointIrradiance& irradiance() const;  // exact, from the solution's leaves; until the next step
   const IrradianceMesh& mesh() const;         // REQUIRES: BuildMesh()
   std::optional<MeshKind> mesh_kind() const;  // of mesh(); nothing if that is not of the present solution
+  // One a triangle of the mesh, zero where there was no reason to measure; empty without refinement by it.
+  std::span<const TriangleError> triangle_errors() const;
 
   // The interpolant's irradiance at a point of a patch, or at most `reach` [m] beside it, not
   // below 0 [W/m^2]. REQUIRES:

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "mesh/mesh_locator.h"
 #include "solver/base/check.h"
@@ -12,56 +11,79 @@
 namespace penumbra {
 namespace {
 
-// The value that the fraction q of the ascending list does not pass.
-double Quantile(const std::vector<double>& ascending, double q) {
-  const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(ascending.size())));
-  return ascending[std::clamp<std::size_t>(rank, 1, ascending.size()) - 1];
+RepresentationError Summarise(std::span<const SurfacePoint> at, std::span<const Rgb> shown,
+                              std::span<const Rgb> truth) {
+  RepresentationError error;
+  const std::vector<double> errors = RelativeErrors(shown, truth);
+  double squares = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    squares += errors[i] * errors[i];
+    if (errors[i] <= error.max) continue;
+    error.max = errors[i];
+    error.worst_patch = at[i / 3].patch;
+    error.worst_point = at[i / 3].position;
+  }
+  error.points = at.size();
+  error.p99 = Quantile(errors, 0.99);
+  error.p95 = Quantile(errors, 0.95);
+  error.rms = std::sqrt(squares / static_cast<double>(errors.size()));
+  return error;
 }
 
 }  // namespace
 
-RepresentationError MeasureRepresentationError(const Scene& scene, const IrradianceMesh& mesh,
-                                               const IrradianceSampler& sampler, std::size_t points,
-                                               std::uint64_t seed) {
-  RepresentationError error;
+std::vector<double> RelativeErrors(std::span<const Rgb> shown, std::span<const Rgb> truth) {
+  Rgb mean = Rgb::Zero();
+  for (const Rgb& e : truth) mean += e / static_cast<double>(truth.size());
+  constexpr double kFloor = 0.01;  // of the mean
+  std::vector<double> errors;
+  errors.reserve(3 * truth.size());
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const double difference = std::abs(shown[i][c] - truth[i][c]);
+      errors.push_back(difference == 0 ? 0 : difference / std::max(truth[i][c], kFloor * mean[c]));
+    }
+  return errors;
+}
+
+double Quantile(std::vector<double> values, double q) {
+  PENUMBRA_CHECK(!values.empty());
+  const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size())));
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(rank, 1, values.size()) - 1);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
+                           const IrradianceSampler& better, std::size_t points, std::uint64_t seed) {
+  MeasuredError error;
   if (scene.patches.empty() || points == 0) return error;
   const std::vector<SurfacePoint> at = SpreadPoints(scene, points, seed);
   const MeshLocator locator(scene, mesh);
-  std::vector<Rgb> shown(points), truth(points);
-  constexpr std::size_t kPointsATask = 32;
+  std::vector<Rgb> shown(points), exact(points), truth(points);
+  constexpr std::size_t kPointsATask = 16;
   ParallelFor(points, kPointsATask, [&](std::size_t i) {
     const auto place = locator.Find(at[i].patch, at[i].position);
     PENUMBRA_CHECK(place.has_value());
     shown[i] = IrradianceAt(mesh, *place).max(0.0);
     ReceiverPoint receiver;
     receiver.position = at[i].position;
-    receiver.normal = scene.patches[at[i].patch].normal;
-    truth[i] = sampler(at[i].patch, receiver).irradiance;
+    receiver.normal = scene.patches[static_cast<std::size_t>(at[i].patch)].normal;
+    exact[i] = sampler(at[i].patch, receiver).irradiance;
+    if (better) truth[i] = better(at[i].patch, receiver).irradiance;
   });
-
-  Rgb mean = Rgb::Zero();
-  for (const Rgb& e : truth) mean += e / static_cast<double>(points);
-  constexpr double kFloor = 0.01;  // of the mean
-  std::vector<double> errors;
-  double squares = 0;
-  for (std::size_t i = 0; i < points; ++i)
-    for (int c = 0; c < 3; ++c) {
-      const double difference = std::abs(shown[i][c] - truth[i][c]);
-      const double relative = difference == 0 ? 0 : difference / std::max(truth[i][c], kFloor * mean[c]);
-      errors.push_back(relative);
-      squares += relative * relative;
-      if (relative > error.max) {
-        error.max = relative;
-        error.worst_patch = at[i].patch;
-        error.worst_point = at[i].position;
-      }
-    }
-  std::sort(errors.begin(), errors.end());
-  error.points = points;
-  error.p99 = Quantile(errors, 0.99);
-  error.p95 = Quantile(errors, 0.95);
-  error.rms = std::sqrt(squares / static_cast<double>(errors.size()));
+  error.interpolant = Summarise(at, shown, exact);
+  if (!better) return error;
+  error.sources = Summarise(at, exact, truth);
+  error.whole = Summarise(at, shown, truth);
   return error;
+}
+
+RepresentationError MeasureRepresentationError(const Scene& scene, const IrradianceMesh& mesh,
+                                               const IrradianceSampler& sampler, std::size_t points,
+                                               std::uint64_t seed) {
+  return MeasureError(scene, mesh, sampler, {}, points, seed).interpolant;
 }
 
 }  // namespace penumbra

@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "mesh/irradiance_mesh.h"
 #include "mesh/irradiance_mesh_builder.h"
@@ -22,8 +24,25 @@ struct RepresentationError {
   Vec3 worst_point = Vec3::Zero();  // [m]
 };
 
+// Point by point, the channels of a point in turn. The means are those of `truth`.
+std::vector<double> RelativeErrors(std::span<const Rgb> shown, std::span<const Rgb> truth);
+
+// The value that the fraction q of them does not pass. REQUIRES: some.
+double Quantile(std::vector<double> values, double q);
+
+struct MeasuredError {
+  RepresentationError interpolant;  // of the interpolants, against exact irradiance under the same sources
+  RepresentationError sources;      // of that, against exact irradiance under better sources
+  RepresentationError whole;        // of the interpolants, against the latter
+};
+
 // Measures at `points` random points that spread evenly by area over the fronts of all patches. The same seed
-// gives the same points. Points are offset from all interpolation nodes with probability one.
+// gives the same points. Points are offset from all interpolation nodes with probability one. Without
+// `better` sources the other two are left empty.
+MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
+                           const IrradianceSampler& better, std::size_t points, std::uint64_t seed);
+
+// The first of these.
 RepresentationError MeasureRepresentationError(const Scene& scene, const IrradianceMesh& mesh,
                                                const IrradianceSampler& sampler, std::size_t points,
                                                std::uint64_t seed);

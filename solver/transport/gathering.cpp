@@ -228,6 +228,7 @@ void Gathering::AddGradientOfPieces(const ImageFrame& frame) {
 
 void Gathering::Add(std::int32_t leaf, double factor) {
   factor_ += factor;
+  if (!factors_.empty()) factors_[static_cast<std::size_t>(leaf)] += factor;
   irradiance_ += factor * sources_.LeafRadiosities()[static_cast<std::size_t>(leaf)];
 }
 

@@ -55,6 +55,9 @@ class Gathering {
   // The same past whatever of the hierarchy stands before it. Some of what may hide much is known as screens.
   void AddSource(PatchId source, const PatchHierarchy& patches, std::span<const Screen> screens);
 
+  // Adds the form factors of the set's leaves to these, by their number.
+  void RecordFactors(std::span<double> factors) { factors_ = factors; }
+
   const Rgb& irradiance() const { return irradiance_; }
   bool one_sided() const { return view_.one_sided(); }
 
@@ -84,6 +87,7 @@ class Gathering {
   Clipper& clipper_;
   double factor_ = 0;  // of the source at hand, so far
   Rgb irradiance_ = Rgb::Zero();
+  std::span<double> factors_;  // per leaf of the set; empty: not asked for
 };
 
 }  // namespace penumbra

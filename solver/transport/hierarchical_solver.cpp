@@ -474,6 +474,25 @@ std::optional<double> HierarchicalSolver::Correct(LeafSampling sampling, const E
   return mean > 0 ? std::sqrt(squares / area) / (mean / area) : 0;
 }
 
+bool HierarchicalSolver::CorrectTo(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
+                                   const ExecutionContext& context) {
+  Snapshot before = TakeSnapshot();
+  for (const ElementId leaf : solution_.forest.AllLeaves())
+    correction_[leaf] += irradiance[static_cast<std::size_t>(leaf)] - solution_.irradiance[leaf];
+  solution_.fragments = std::move(fragments);
+  fragment_offset_.clear();
+  for (const Fragment& fragment : solution_.fragments)
+    fragment_offset_.push_back(fragment.irradiance - irradiance[static_cast<std::size_t>(fragment.leaf)]);
+  IterationReport ignored;
+  SweepToCutoff(ignored, context);
+  if (context.Cancelled()) {
+    Restore(std::move(before));
+    return false;
+  }
+  LightFragments();
+  return true;
+}
+
 // The light of fragments: their leaf's, and what sets them apart from it.
 void HierarchicalSolver::LightFragments() {
   for (std::size_t i = 0; i < solution_.fragments.size(); ++i) {

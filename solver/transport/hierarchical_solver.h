@@ -72,6 +72,12 @@ class HierarchicalSolver {
   // One pass of deferred correction. Returns the root mean square change of the leaves' irradiance, relative
   // to its mean; nothing if cancelled. An iteration that refines takes corrections back.
   std::optional<double> Correct(LeafSampling sampling, const ExecutionContext& context);
+  // Takes the leaves' irradiance, by element, and that of fragments for exact, and gathers the bounces of
+  // what this changes over the links: a pass of deferred correction whose means somebody else has computed.
+  // The fragments replace the solution's. False if cancelled. REQUIRES: they ascend by leaf, tile theirs, and
+  // average to its irradiance.
+  bool CorrectTo(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
+                 const ExecutionContext& context);
   // All passes that the options ask for. False if cancelled, which leaves those that were done.
   bool CorrectAll(const ExecutionContext& context);
 

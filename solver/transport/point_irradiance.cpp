@@ -1,9 +1,11 @@
 #include "solver/transport/point_irradiance.h"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "solver/base/check.h"
 #include "solver/transport/gathering.h"
 #include "solver/transport/solution.h"
 
@@ -26,7 +28,7 @@ PointIrradiance::PointIrradiance(const RadiositySolution& solution, const PatchV
       visibility_(visibility),
       forest_(&solution.forest),
       sources_(SourceSet::FromSolution(solution)),
-      leaves_(solution.forest, visibility),
+      leaves_(std::make_shared<LeafVisibility>(solution.forest, visibility)),
       options_(options) {
   BuildHierarchies();
 }
@@ -57,18 +59,39 @@ ReceiverPoint PointIrradiance::Nudged(const ReceiverPoint& at) const {
   return moved;
 }
 
-PointIrradianceResult PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given,
-                                               IrradianceParts* parts) const {
-  const ReceiverPoint at = Nudged(given);
-  Gathering gathering(scene_, sources_, at, options_, parts);
+PointIrradiance PointIrradiance::WithSources(SourceSet sources) const {
+  PointIrradiance other(scene_, visibility_, std::move(sources), options_);
+  other.forest_ = forest_;
+  other.leaves_ = leaves_;
+  return other;
+}
+
+void PointIrradiance::GatherOnPatch(PatchId patch, const ReceiverPoint& at, Gathering& gathering) const {
   if (forest_ != nullptr) {
-    for (const PatchPair& pair : leaves_.SourcesOf(forest_->LeafAt(patch, at.position)))
-      gathering.AddSource(pair.source, leaves_.Blockers(pair), patch);
+    for (const PatchPair& pair : leaves_->SourcesOf(forest_->LeafAt(patch, at.position)))
+      gathering.AddSource(pair.source, leaves_->Blockers(pair), patch);
   } else {
     for (const PatchPair& pair : visibility_.SourcesOf(patch))
       gathering.AddSource(pair.source, visibility_.Blockers(pair), patch);
   }
+}
+
+PointIrradianceResult PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given,
+                                               IrradianceParts* parts) const {
+  const ReceiverPoint at = Nudged(given);
+  Gathering gathering(scene_, sources_, at, options_, parts);
+  GatherOnPatch(patch, at, gathering);
   return {gathering.irradiance(), gathering.one_sided()};
+}
+
+Rgb PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given, std::span<double> factors) const {
+  PENUMBRA_CHECK(factors.size() == sources_.LeafRadiosities().size());
+  std::fill(factors.begin(), factors.end(), 0.0);
+  const ReceiverPoint at = Nudged(given);
+  Gathering gathering(scene_, sources_, at, options_, nullptr);
+  gathering.RecordFactors(factors);
+  GatherOnPatch(patch, at, gathering);
+  return gathering.irradiance();
 }
 
 PointIrradianceResult PointIrradiance::Anywhere(const ReceiverPoint& given, IrradianceParts* parts) const {

@@ -8,6 +8,9 @@
 
 #pragma once
 
+#include <memory>
+#include <span>
+
 #include "solver/geometry/vec.h"
 #include "solver/scene/scene.h"
 #include "solver/transport/gathering.h"
@@ -36,11 +39,22 @@ class PointIrradiance {
   PointIrradiance(const Scene& scene, const PatchVisibility& visibility, SourceSet sources,
                   const PointIrradianceOptions& options = {});
 
+  // The same view of the scene with other sources.
+  PointIrradiance WithSources(SourceSet sources) const;
+
   // At a point on the front of a patch: only the sources of its leaf (or patch) and their blockers are looked
   // at, and the patch itself neither lights nor blocks. Safe from any thread.
   // If `parts` is not null it gets what the irradiance is made of.
   PointIrradianceResult OnPatch(PatchId patch, const ReceiverPoint& at,
                                 IrradianceParts* parts = nullptr) const;
+
+  // The same, and what each leaf of the source set contributes to it: `factors` gets their form factors, seen
+  // parts only, by their number. REQUIRES: it has as many as there are leaves.
+  Rgb OnPatch(PatchId patch, const ReceiverPoint& at, std::span<double> factors) const;
+
+  const SourceSet& sources() const { return sources_; }
+  // The patches that a leaf of the solution sees. REQUIRES: made from a solution.
+  std::span<const PatchPair> SeenFrom(ElementId leaf) const { return leaves_->SourcesOf(leaf); }
 
   // Anywhere, in free space too: every patch may light and block, and a hierarchy finds those that do. Safe
   // from any thread.
@@ -48,13 +62,14 @@ class PointIrradiance {
 
  private:
   void BuildHierarchies();
+  void GatherOnPatch(PatchId patch, const ReceiverPoint& at, Gathering& gathering) const;
   ReceiverPoint Nudged(const ReceiverPoint& at) const;
 
   const Scene& scene_;
   const PatchVisibility& visibility_;
   const ElementForest* forest_ = nullptr;  // whose leaves leaves_ knows; null without a solution
   SourceSet sources_;
-  LeafVisibility leaves_;
+  std::shared_ptr<const LeafVisibility> leaves_;
   PointIrradianceOptions options_;
   PatchHierarchy patches_;         // all of them
   PatchHierarchy source_patches_;  // those that send light

@@ -4,12 +4,13 @@
 
 namespace penumbra {
 
-std::span<const Fragment> RadiositySolution::FragmentsOf(ElementId leaf) const {
+std::span<const Fragment> FragmentsOf(std::span<const Fragment> fragments, ElementId leaf) {
   const auto first = std::partition_point(fragments.begin(), fragments.end(),
                                           [&](const Fragment& fragment) { return fragment.leaf < leaf; });
   const auto last =
       std::find_if(first, fragments.end(), [&](const Fragment& fragment) { return fragment.leaf != leaf; });
-  return {first, last};
+  return fragments.subspan(static_cast<std::size_t>(first - fragments.begin()),
+                           static_cast<std::size_t>(last - first));
 }
 
 Rgb RadiositySolution::RadiosityAt(PatchId patch, const Vec3& point) const {

@@ -40,8 +40,9 @@ struct LinkSet {
   }
 };
 
-// A convex piece of a leaf that contacts cut: furniture stands on it, and its light on either side has
-// nothing to do with that on the other.
+// A convex piece of a leaf with a radiosity of its own. Contacts cut leaves: furniture stands on them, and
+// the light on either side has nothing to do with that on the other. So does light that varies where others
+// are near enough to see it.
 struct Fragment {
   ElementId leaf = kNoElement;
   Polygon3 polygon;                                       // [m], counter-clockwise from the front
@@ -49,10 +50,14 @@ struct Fragment {
   Rgb irradiance = Rgb::Zero(), radiosity = Rgb::Zero();  // [W/m^2]
 };
 
+// The fragments of a leaf, of a list that ascends by leaf.
+std::span<const Fragment> FragmentsOf(std::span<const Fragment> fragments, ElementId leaf);
+
 struct RadiositySolution {
   ElementForest forest;
   LinkSet links;
-  // Of the leaves that contacts cut, by leaf; the leaf's light is their area-weighted mean.
+  // Of the leaves that are cut, by contacts or because light varies on them, by leaf; the leaf's light is
+  // their area-weighted mean.
   std::vector<Fragment> fragments;
   // Per element [W/m^2]. A parent's is the area-weighted mean of its children's.
   std::vector<Rgb> irradiance, radiosity;
@@ -62,7 +67,9 @@ struct RadiositySolution {
   // The same of each child about its own mean: what the children's radiosities leave out.
   std::vector<double> spread_below;
 
-  std::span<const Fragment> FragmentsOf(ElementId leaf) const;
+  std::span<const Fragment> FragmentsOf(ElementId leaf) const {
+    return penumbra::FragmentsOf(fragments, leaf);
+  }
 
   // The radiosity of the leaf, or fragment, that contains a point of the patch [W/m^2].
   Rgb RadiosityAt(PatchId patch, const Vec3& point) const;

@@ -16,26 +16,30 @@ SourceSet::Node MakeNode(std::span<const Vec3> vertices, const Rgb& radiosity) {
 }
 
 // Appends the fragment as triangles and quadrilaterals.
-void AppendFan(const Fragment& fragment, std::vector<SourceSet::Node>& nodes) {
+void AppendFan(const Fragment& fragment, std::size_t number, std::vector<SourceSet::Node>& nodes) {
   const Polygon3& p = fragment.polygon;
   for (std::size_t i = 2; i < p.size(); i += 2) {
     const std::array<Vec3, 4> quadrilateral = {p[0], p[i - 1], p[i], p[std::min(i + 1, p.size() - 1)]};
     nodes.push_back(MakeNode({quadrilateral.data(), i + 1 < p.size() ? 4U : 3U}, fragment.radiosity));
+    nodes.back().fragment = static_cast<std::int32_t>(number);
   }
 }
 
 // Appends the subtree below `id`; one whose leaves all have the same radiosity becomes a single node.
-void Append(const RadiositySolution& solution, ElementId id, std::vector<SourceSet::Node>& nodes) {
+void Append(const RadiositySolution& solution, std::span<const Fragment> fragments, ElementId id,
+            std::vector<SourceSet::Node>& nodes) {
   const Element& element = solution.forest[id];
   const std::size_t at = nodes.size();
   nodes.push_back(MakeNode(element.Vertices(), solution.radiosity[id]));
   if (element.IsLeaf()) {
-    for (const Fragment& fragment : solution.FragmentsOf(id)) AppendFan(fragment, nodes);
+    const std::span<const Fragment> own = FragmentsOf(fragments, id);
+    const std::size_t first = own.empty() ? 0 : static_cast<std::size_t>(own.data() - fragments.data());
+    for (std::size_t f = 0; f < own.size(); ++f) AppendFan(own[f], first + f, nodes);
     nodes[at].skip = static_cast<std::int32_t>(nodes.size() - at);
     return;
   }
   for (ElementId child = element.first_child; child < element.first_child + 4; ++child)
-    Append(solution, child, nodes);
+    Append(solution, fragments, child, nodes);
   const Rgb& first = nodes[at + 1].radiosity;
   const bool uniform =
       nodes.size() == at + 5 &&
@@ -52,12 +56,16 @@ void Append(const RadiositySolution& solution, ElementId id, std::vector<SourceS
 }  // namespace
 
 SourceSet SourceSet::FromSolution(const RadiositySolution& solution) {
+  return FromSolution(solution, solution.fragments);
+}
+
+SourceSet SourceSet::FromSolution(const RadiositySolution& solution, std::span<const Fragment> fragments) {
   SourceSet set;
   for (std::size_t p = 0; p < solution.forest.scene().patches.size(); ++p) {
     set.first_.push_back(set.nodes_.size());
     set.emittance_.push_back(solution.forest.scene().MaterialOf(static_cast<PatchId>(p)).emittance);
     const ElementId root = ElementForest::Root(static_cast<PatchId>(p));
-    if ((solution.radiosity[root] != 0).any()) Append(solution, root, set.nodes_);
+    if ((solution.radiosity[root] != 0).any()) Append(solution, fragments, root, set.nodes_);
   }
   set.first_.push_back(set.nodes_.size());
   set.NumberLeaves();

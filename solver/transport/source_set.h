@@ -17,6 +17,7 @@
 
 namespace penumbra {
 
+struct Fragment;
 struct RadiositySolution;
 
 class SourceSet {
@@ -29,10 +30,13 @@ class SourceSet {
     std::int32_t skip = 1;                        // nodes in this subtree, this one counted: a leaf has 1
     std::int32_t first_leaf = 0, leaf_count = 1;  // the subtree's leaves, among all of the set
     Rgb radiosity = Rgb::Zero();                  // [W/m^2]; of a leaf
+    std::int32_t fragment = -1;                   // that the node is a part of; -1: of none
   };
 
   // What the leaves of the solution emit and reflect.
   static SourceSet FromSolution(const RadiositySolution& solution);
+  // The same with other fragments than the solution's. REQUIRES: they ascend by leaf.
+  static SourceSet FromSolution(const RadiositySolution& solution, std::span<const Fragment> fragments);
   // What surfaces emit of themselves: direct light.
   static SourceSet Emitters(const Scene& scene);
 
@@ -47,6 +51,11 @@ class SourceSet {
   std::span<const Vec3> LeafVertices(std::int32_t leaf) const {
     const Node& node = nodes_[static_cast<std::size_t>(leaf_node_[static_cast<std::size_t>(leaf)])];
     return {node.vertex.data(), static_cast<std::size_t>(node.size)};
+  }
+
+  // The fragment that a leaf of the set is a part of, by its place in the list; -1: of none.
+  std::int32_t FragmentOf(std::int32_t leaf) const {
+    return nodes_[static_cast<std::size_t>(leaf_node_[static_cast<std::size_t>(leaf)])].fragment;
   }
 
   // What the patch emits of itself [W/m^2].

@@ -1,0 +1,54 @@
+// mesh/mesh_refinement.h
+//
+// Representation-based refinement (thesis 4.4.2) of what is shown: leaves on which the interpolants are too
+// far from the irradiance are divided, for the mesh only. The sources and their links stay as they are, so
+// that a finer picture costs samples and nothing else.
+
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "mesh/irradiance_mesh.h"
+#include "mesh/irradiance_mesh_builder.h"
+#include "mesh/leaf_triangulation.h"
+#include "mesh/mesh_options.h"
+#include "mesh/sample_cache.h"
+#include "mesh/triangle_error.h"
+#include "solver/base/progress.h"
+#include "solver/transport/element_forest.h"
+#include "solver/transport/solution.h"
+#include "solver/visibility/patch_visibility.h"
+
+namespace penumbra {
+
+struct MeshRefinementOptions {
+  double error = 0.02;  // the relative error that all but kShareAbove of the fronts' area shall keep to
+  double min_area = 0;  // no leaf becomes smaller [m^2]
+  int samples = 1;      // a triangle is measured at samples x samples points (thesis, Appendix A)
+  int max_rounds = 8;
+};
+
+// Of the fronts' area: what the 99th percentile leaves, less what measuring at single points overlooks.
+inline constexpr double kShareAbove = 0.006;
+
+struct RefinedMesh {
+  ElementForest forest;  // the solution's, and the leaves that were divided for the mesh
+  std::vector<PatchTriangulation> triangulations;
+  IrradianceMesh mesh;
+  // One a triangle; zero where the interpolants' gradients give no reason to measure.
+  std::vector<TriangleError> errors;
+  MeshReport report;
+  double share_above = 0;        // of the area, on triangles found to err by more than asked
+  std::vector<ElementId> unmet;  // leaves that err by more than asked and cannot be divided
+};
+
+// Refines until the share is small enough, nothing is left to divide, or the most rounds are done. A round
+// divides the leaves that promise most for what they cost, and no more than it takes. Cancelled, it returns
+// an empty mesh. REQUIRES: the solution's quadtrees are balanced.
+RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolution& solution,
+                       const IrradianceSampler& sampler, const MeshOptions& mesh_options,
+                       const MeshRefinementOptions& options, const ExecutionContext& context);
+
+}  // namespace penumbra

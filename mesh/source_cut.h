@@ -1,0 +1,32 @@
+// mesh/source_cut.h
+//
+// How fine the sources must be for the light that they send to be right.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "mesh/source_cells.h"
+#include "solver/transport/point_irradiance.h"
+#include "solver/transport/solution.h"
+
+namespace penumbra {
+
+struct SourceCut {
+  std::vector<std::int32_t> cells;  // SourceCells::Cut()
+  double score = 0;
+  // The 99th percentile of the relative error that sources of these cells make, against all that the trees
+  // have (RelativeErrors).
+  double p99 = 0;
+};
+
+// The coarsest cut by score whose p99 is at most `error` at random points that spread evenly over the fronts;
+// the finest there is if none is good enough. Every point is looked at once, with the finest sources: what
+// coarser ones would make of it follows from the same form factors.
+SourceCut ChooseSourceCut(const RadiositySolution& solution, const SourceCells& cells,
+                          const PointIrradiance& exact, double finest, double error, std::size_t points,
+                          std::uint64_t seed);
+
+}  // namespace penumbra

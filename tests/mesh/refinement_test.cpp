@@ -1,0 +1,241 @@
+// Refinement by what is shown: sources out of interpolants, mesh leaves by measured errors.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <map>
+
+#include "mesh/local_pass.h"
+#include "mesh/mesh_refinement.h"
+#include "mesh/pipeline.h"
+#include "mesh/source_cells.h"
+#include "mesh/source_cut.h"
+#include "solver/base/parallel.h"
+#include "solver/scene/surface_points.h"
+#include "tests/visibility/test_scenes.h"
+
+namespace penumbra::scene_test {
+namespace {
+
+Scene Room() {
+  Scene scene;
+  const std::int32_t grey = AddMaterial(scene, 0.5, 0), lamp = AddMaterial(scene, 0, 40);
+  AddBox(scene, Vec3::Zero(), {4, 3, 2.5}, true, grey);
+  AddBox(scene, {1, 1, 0}, {2, 2, 1}, false, grey);
+  Add(scene, {{2.5, 1, 2.25}, {2.5, 2, 2.25}, {3.5, 2, 2.25}, {3.5, 1, 2.25}}, lamp);
+  return scene;
+}
+
+PipelineOptions Options(double error) {
+  PipelineOptions options;
+  options.error = error;
+  options.error_points = 500;
+  return options;
+}
+
+// A solved room with a mesh, to look at piece by piece.
+struct Solved {
+  explicit Solved(double error) : scene(Room()), pipeline(scene, Transport(error)) {
+    pipeline.Solve({});
+    MeshReport report;
+    triangulations = TriangulatePatches(pipeline.visibility(), pipeline.solution(),
+                                        pipeline.solution().forest, {}, {}, report);
+    mesh = BuildIrradianceMesh(scene, triangulations, InterpolantOrder::kQuadratic, Sampler(), {}).mesh;
+  }
+  static PipelineOptions Transport(double error) {
+    PipelineOptions options = Options(error);
+    options.refine = RefineBy::kTransport;
+    return options;
+  }
+  IrradianceSampler Sampler() {
+    return
+        [this](PatchId patch, const ReceiverPoint& at) { return pipeline.irradiance().OnPatch(patch, at); };
+  }
+  SourceCells Cells(double finest) {
+    return {
+        pipeline.solution(), pipeline.solution().forest, triangulations, mesh, pipeline.irradiance(), finest};
+  }
+
+  Scene scene;
+  Pipeline pipeline;
+  std::vector<PatchTriangulation> triangulations;
+  IrradianceMesh mesh;
+};
+
+// Every cut tiles the leaves and keeps their mean, so that the light that leaves them is the same.
+TEST(SourceCells, CutsTileTheLeaves) {
+  Solved solved(0.1);
+  const SourceCells cells = solved.Cells(0.05);
+  const std::vector<Rgb> mean = cells.LeafIrradiance();
+  std::size_t before = 0;
+  for (const double score : {1.0, 0.2, 0.1, 0.0}) {
+    const std::vector<std::int32_t> cut = cells.Cut(score);
+    EXPECT_GE(cut.size(), before) << "a lower score is a finer cut";
+    before = cut.size();
+    std::map<ElementId, double> area;
+    std::map<ElementId, Rgb> light;
+    for (const Fragment& fragment : cells.Fragments(cut, true)) {
+      area[fragment.leaf] += VectorArea(fragment.polygon).norm();
+      const Rgb light_here = fragment.area * fragment.irradiance;
+      light.try_emplace(fragment.leaf, Rgb::Zero()).first->second += light_here;
+    }
+    for (const auto& [leaf, sum] : area) {
+      const double whole = solved.pipeline.solution().forest[leaf].area;
+      EXPECT_NEAR(sum, whole, 1e-9 * whole);
+      // Interpolants that dip below zero are cut off there.
+      const Rgb& want = mean[static_cast<std::size_t>(leaf)];
+      EXPECT_LE((light[leaf] / whole - want).abs().maxCoeff(), 1e-3 * want.maxCoeff() + 1e-12);
+    }
+  }
+  EXPECT_GT(before, solved.pipeline.solution().forest.AllLeaves().size());
+}
+
+// What a cut costs is told from one look at each point with the finest sources; solved with that cut, the
+// irradiance at fresh points is as near as it says.
+TEST(SourceCut, CostsWhatItSays) {
+  Solved solved(0.1);
+  constexpr double kFinest = 0.02, kError = 0.02;
+  constexpr std::size_t kPoints = 600;
+  const SourceCells cells = solved.Cells(kFinest);
+  const PointIrradiance& exact = solved.pipeline.irradiance();
+  const RadiositySolution& solution = solved.pipeline.solution();
+  const SourceCut cut = ChooseSourceCut(solution, cells, exact, kFinest, kError, kPoints, 7);
+  EXPECT_LE(cut.p99, kError);
+  EXPECT_LT(cut.cells.size(), cells.Cut(0).size());
+  const auto irradiance = [&](std::span<const std::int32_t> some) {
+    const PointIrradiance from =
+        exact.WithSources(SourceSet::FromSolution(solution, cells.Fragments(some, true)));
+    std::vector<Rgb> values;
+    for (const SurfacePoint& p : SpreadPoints(solved.scene, kPoints, 7)) {
+      ReceiverPoint at;
+      at.position = p.position;
+      at.normal = solved.scene.patches[static_cast<std::size_t>(p.patch)].normal;
+      values.push_back(from.OnPatch(p.patch, at).irradiance);
+    }
+    return values;
+  };
+  const double p99 = Quantile(RelativeErrors(irradiance(cut.cells), irradiance(cells.Cut(0))), 0.99);
+  std::printf("p99 %.6g, told %.6g\n", p99, cut.p99);
+  EXPECT_NEAR(p99, cut.p99, 1e-9);
+}
+
+// The error that is asked for is the error that comes out, for the whole light, at points that were not used
+// before; and no less by far.
+TEST(Refinement, ReachesTheErrorAskedFor) {
+  const Scene scene = Room();
+  for (const double error : {0.1, 0.03}) {
+    Pipeline pipeline(scene, Options(error));
+    pipeline.Solve({});
+    pipeline.BuildMesh(MeshKind::kInterpolant, {});
+    pipeline.Measure({});
+    const PipelineReport& report = pipeline.report();
+    std::printf("asked %.3g: interpolants %.3g, sources %.3g, whole %.3g; %zu triangles, %zu evaluations\n",
+                error, report.interpolant_error.p99, report.solution_error_estimate, report.whole_error.p99,
+                report.counts.triangles, report.counts.point_evaluations);
+    EXPECT_TRUE(report.error_met);
+    EXPECT_LE(report.whole_error.p99, error);
+    EXPECT_EQ(pipeline.triangle_errors().size(), pipeline.mesh().triangles.size());
+  }
+}
+
+// Dividing leaves for the mesh evaluates new nodes only, leaves the solution alone, and lowers the share of
+// the area that errs.
+TEST(Refinement, KeepsSamplesAndSolution) {
+  Solved solved(0.1);
+  const RadiositySolution before = solved.pipeline.solution();
+  std::atomic<std::size_t> calls = 0;
+  const IrradianceSampler exact = solved.Sampler();
+  const IrradianceSampler counting = [&](PatchId patch, const ReceiverPoint& at) {
+    ++calls;
+    return exact(patch, at);
+  };
+  MeshRefinementOptions options;
+  options.error = 0.01;
+  options.max_rounds = 0;
+  const RefinedMesh coarse =
+      RefineMesh(solved.pipeline.visibility(), before, exact, {}, options, ExecutionContext());
+  options.max_rounds = 3;
+  const RefinedMesh fine =
+      RefineMesh(solved.pipeline.visibility(), before, counting, {}, options, ExecutionContext());
+  EXPECT_LT(fine.share_above, coarse.share_above);
+  EXPECT_GT(fine.mesh.triangles.size(), coarse.mesh.triangles.size());
+  EXPECT_EQ(fine.report.counts.point_evaluations, calls);
+  EXPECT_EQ(before.forest.size(), coarse.forest.size());
+  // From nothing, the final mesh alone takes this many: the rounds before it shared nearly all of theirs.
+  SampleCache cache;
+  const BuiltMesh once =
+      BuildIrradianceMesh(solved.scene, fine.triangulations, InterpolantOrder::kQuadratic, exact, {}, &cache);
+  EXPECT_LT(calls, 2 * once.point_evaluations);
+  const BuiltMesh again =
+      BuildIrradianceMesh(solved.scene, fine.triangulations, InterpolantOrder::kQuadratic, exact, {}, &cache);
+  EXPECT_EQ(again.point_evaluations, 0U);
+  EXPECT_EQ(std::memcmp(once.mesh.irradiance.data(), again.mesh.irradiance.data(),
+                        once.mesh.irradiance.size() * sizeof(QuadraticInterpolant)),
+            0);
+  EXPECT_EQ(std::memcmp(once.mesh.irradiance.data(), fine.mesh.irradiance.data(),
+                        once.mesh.irradiance.size() * sizeof(QuadraticInterpolant)),
+            0);
+}
+
+// The same bytes for any number of threads.
+TEST(Refinement, SameOnAnyNumberOfThreads) {
+  const Scene scene = Room();
+  std::vector<QuadraticInterpolant> first;
+  for (const int threads : {1, 3}) {
+    SetThreadCount(threads);
+    Pipeline pipeline(scene, Options(0.1));
+    pipeline.Solve({});
+    pipeline.BuildMesh(MeshKind::kInterpolant, {});
+    const std::vector<QuadraticInterpolant>& got = pipeline.mesh().irradiance;
+    if (threads == 1) {
+      first = got;
+      continue;
+    }
+    ASSERT_EQ(first.size(), got.size());
+    EXPECT_EQ(std::memcmp(first.data(), got.data(), got.size() * sizeof(QuadraticInterpolant)), 0);
+  }
+  SetThreadCount(0);
+}
+
+// A quadratic has no error anywhere on a triangle, another has the error of its cubic part: at the points of
+// any number of samples.
+TEST(TriangleErrors, AreThoseOfTheInterpolants) {
+  Scene scene;
+  AddMaterial(scene, 0.5, 0);
+  Add(scene, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 0);
+  const ElementForest forest(scene);
+  const std::vector<PatchTriangulation> patches = {
+      TriangulateLeaves(forest, 0, ActivateDiscontinuities(forest, 0, {}, {}))};
+  for (const double cubic : {0.0, 1.0}) {
+    const IrradianceSampler sampler = [&](PatchId, const ReceiverPoint& at) {
+      const double x = at.position.x();
+      return PointIrradianceResult{Rgb::Constant(10 + x * x + cubic * x * (x - 0.5) * (x - 1)), false};
+    };
+    const IrradianceMesh mesh =
+        BuildIrradianceMesh(scene, patches, InterpolantOrder::kQuadratic, sampler, {}).mesh;
+    for (const int samples : {1, 2, 5}) {
+      std::atomic<std::size_t> calls = 0;
+      const IrradianceSampler counting = [&](PatchId patch, const ReceiverPoint& at) {
+        ++calls;
+        return sampler(patch, at);
+      };
+      const std::vector<std::uint32_t> all = {0};
+      const MeasuredTriangles measured =
+          MeasureTriangles(scene, mesh, all, samples, Rgb::Constant(10), counting);
+      EXPECT_EQ(calls, static_cast<std::size_t>(samples * samples));
+      EXPECT_EQ(measured.point_evaluations, calls);
+      // The cubic vanishes at all nodes along x; its largest value in [0, 1] is sqrt(3) / 36.
+      EXPECT_LE(measured.errors[0].max, cubic * std::sqrt(3.0) / 36 / 10 + 1e-13);
+      if (cubic > 0) {
+        EXPECT_GE(measured.errors[0].max, 0.5 * std::sqrt(3.0) / 36 / 10.2);
+        EXPECT_LE(measured.errors[0].rms, measured.errors[0].max);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::scene_test
