@@ -106,6 +106,12 @@ std::string ReportJson(const RunReport& report) {
                {"options", report.options},
                {"phases", PhasesJson(report)}};
   json.update(OutcomeJson(report.pipeline));
+  if (const auto& dense = report.pipeline.dense)
+    json["dense"] = {{"unknowns", dense->unknowns},
+                     {"least_row_sum", dense->closure.least_row_sum},
+                     {"largest_row_sum", dense->closure.largest_row_sum},
+                     {"reciprocity_residual", dense->closure.reciprocity},
+                     {"form_factor_error", dense->form_factor_error}};
   json["memory_peak_bytes"] = PeakMemoryBytes();
   return Dump(json);
 }
@@ -172,6 +178,13 @@ std::string ReportTable(const RunReport& report) {
       "   {} discontinuities, {} DSets active; {} triangles, {} point evaluations\n",
       counts.patches, counts.emitters, counts.elements, counts.leaves, counts.links, counts.links_partial,
       counts.discontinuities, counts.dsets_active, counts.triangles, counts.point_evaluations);
+
+  if (const auto& dense = pipeline.dense)
+    table += fmt::format(
+        "Dense system\n   {} unknowns; rows add up to {:.12g} ... {:.12g}, form factors within {:.2g}, "
+        "reciprocity within {:.2g}\n",
+        dense->unknowns, dense->closure.least_row_sum, dense->closure.largest_row_sum,
+        dense->form_factor_error, dense->closure.reciprocity);
 
   const EnergyBalance& energy = pipeline.energy;
   table += fmt::format("Energy [W]\n   emitted {:.6g}, absorbed {:.6g}, escaped {:.6g}; imbalance {:.2g}\n",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -186,6 +187,50 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
   AddNumber(app, "--source-push-off", &solving->point.source_push_off, kNonNegative,
             "Lift sources this far off each receiver [m], as the thesis does where they touch it; 0: not")
       ->group(group);
+  app.add_option_function<std::string>(
+         "--form-factors",
+         [solving](const std::string& name) {
+           solving->form_factors = name == "exact" ? LinkFormFactors::kExact : LinkFormFactors::kCubature;
+         },
+         "Of links: `cubature`, the mean of exact point factors over a few points of the receiver, or "
+         "`exact`, "
+         "between areas to 1e-7: slower, and closed rooms then close")
+      ->check(CLI::IsMember(std::vector<std::string>{"cubature", "exact"}))
+      ->default_str("cubature")
+      ->group(group);
+  const std::map<std::string, BasisDegree> degrees = {{"constant", BasisDegree::kConstant},
+                                                      {"linear", BasisDegree::kLinear},
+                                                      {"quadratic", BasisDegree::kQuadratic}};
+  app.add_option_function<std::string>(
+         "--solver",
+         [solving](const std::string& name) {
+           if (name == "dense" && !solving->dense) solving->dense.emplace();
+         },
+         "How to solve: `hierarchical`, or `dense`, which solves the linear system of a uniform mesh "
+         "directly "
+         "with exact form factors: a reference for small scenes")
+      ->check(CLI::IsMember(std::vector<std::string>{"hierarchical", "dense"}))
+      ->default_str("hierarchical")
+      ->group(group);
+  app.add_option_function<std::string>(
+         "--basis",
+         [solving, degrees](const std::string& name) {
+           if (!solving->dense) solving->dense.emplace();
+           solving->dense->degree = degrees.at(name);
+         },
+         "Of the dense solver's elements: `constant` (Galerkin), `linear` or `quadratic` (collocation; their "
+         "means are shown)")
+      ->check(CLI::IsMember(std::vector<std::string>{"constant", "linear", "quadratic"}))
+      ->default_str("constant")
+      ->needs("--solver")
+      ->group(group);
+  app.add_option("--divisions", solving->divisions,
+                 "The dense solver cuts every patch into N x N elements, N a power of two")
+      ->type_name("N")
+      ->check(CLI::IsMember(std::vector<int>{1, 2, 4, 8, 16, 32, 64}))
+      ->capture_default_str()
+      ->needs("--solver")
+      ->group(group);
   AddInteger(app, "--error-points", &solving->error_points, std::uint64_t{0}, kMaxErrorPoints,
              "Random points at which a report measures the error of the interpolants; 0 leaves that out")
       ->group(group);
@@ -226,6 +271,14 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["iterations"] = resolved->solver.max_iterations;
     options["nudge"] = arguments.solving.point.nudge;
     options["source_push_off"] = arguments.solving.point.source_push_off;
+    options["form_factors"] =
+        arguments.solving.form_factors == LinkFormFactors::kExact ? "exact" : "cubature";
+    options["solver"] = arguments.solving.dense ? "dense" : "hierarchical";
+    if (arguments.solving.dense) {
+      constexpr std::array<const char*, 3> kDegrees = {"constant", "linear", "quadratic"};
+      options["basis"] = kDegrees[static_cast<std::size_t>(arguments.solving.dense->degree)];
+      options["divisions"] = arguments.solving.divisions;
+    }
     options["error_points"] = arguments.solving.error_points;
   }
   return options;

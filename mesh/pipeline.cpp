@@ -73,6 +73,7 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   resolved.solver.max_iterations = options.max_iterations;
   resolved.solver.max_corrections = options.max_corrections;
   resolved.solver.accelerate = options.accelerate;
+  resolved.solver.form_factors = options.form_factors;
   DiscontinuityOptions& mesh = resolved.discontinuities;
   mesh.choice = options.discontinuities;
   mesh.weight = options.weight.value_or(options.min_discontinuity_weight ? DiscontinuityWeight::kThesis
@@ -109,6 +110,25 @@ struct Pipeline::Impl {
   PipelineReport report;
   std::mutex irradiance_making;
   std::unique_ptr<PointIrradiance> irradiance;  // of the present solution; null until someone asks
+
+  // What is cancelled leaves no solver.
+  void SolveDenseSystem(const ExecutionContext& context) {
+    const Stopwatch stopwatch;
+    const ElementForest forest = UniformForest(scene, options.divisions);
+    const std::size_t unknowns = CountUnknowns(forest, options.dense->degree);
+    if (unknowns > kMostDenseUnknowns)
+      throw InputError(
+          fmt::format("{}:0: error: the dense solver would have {} unknowns and can take {}; ask for "
+                      "fewer divisions or a basis of lower degree",
+                      scene.name, unknowns, kMostDenseUnknowns));
+    const DenseSystem system = AssembleDense(forest, visibility, *options.dense, context);
+    if (context.Cancelled()) return;
+    solver = std::make_unique<HierarchicalSolver>(scene, visibility, resolved.solver,
+                                                  ToRadiositySolution(system, SolveDense(system)));
+    report.dense = {system.size(), MeasureClosure(system), system.form_factor_error};
+    AddPhase("iterate", stopwatch.Seconds());
+    Count();
+  }
 
   // Adds to the phase of that name.
   void AddPhase(const std::string& name, double seconds) {
@@ -257,6 +277,10 @@ void Pipeline::Link(const ExecutionContext& context) {
     impl_->report.error_asked = impl_->options.error;
   }
   impl_->visibility = PatchVisibility(impl_->scene);
+  if (impl_->options.dense) {
+    impl_->AddPhase("link", linking.Seconds());
+    return impl_->SolveDenseSystem(context);
+  }
   impl_->solver =
       std::make_unique<HierarchicalSolver>(impl_->scene, impl_->visibility, impl_->resolved.solver);
   impl_->AddPhase("link", linking.Seconds());
@@ -299,6 +323,7 @@ bool Pipeline::Relight(const ExecutionContext& context) {
 
 void Pipeline::Solve(const ExecutionContext& context) {
   Link(context);
+  if (impl_->options.dense) return;
   const int most = impl_->resolved.solver.max_iterations;
   for (int i = 0; i < most && !Converged() && !context.Cancelled(); ++i) {
     context.Report("iterate", static_cast<double>(i) / most);

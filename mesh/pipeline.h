@@ -18,6 +18,7 @@
 #include "mesh/triangle_error.h"
 #include "solver/base/progress.h"
 #include "solver/scene/scene.h"
+#include "solver/transport/dense_solver.h"
 #include "solver/transport/energy.h"
 #include "solver/transport/hierarchical_solver.h"
 #include "solver/transport/point_irradiance.h"
@@ -50,11 +51,19 @@ struct PipelineOptions {
   RefineBy refine = RefineBy::kBoth;
   int max_corrections = 2;  // SolverOptions::max_corrections
   int max_iterations = 100;
-  bool accelerate = true;           // SolverOptions::accelerate
-  PointIrradianceOptions point;     // Appendix A, 9 and 10
+  bool accelerate = true;                                     // SolverOptions::accelerate
+  LinkFormFactors form_factors = LinkFormFactors::kCubature;  // SolverOptions::form_factors
+  PointIrradianceOptions point;                               // Appendix A, 9 and 10
   std::size_t error_points = 1000;  // random points that measure the interpolants' error; 0 leaves it out
   std::uint64_t seed = 1;
+  // Solves the dense system of a uniform mesh directly instead. Linear and quadratic elements hand on their
+  // means.
+  std::optional<DenseOptions> dense;
+  int divisions = 4;  // of each patch's sides for that: a power of two
 };
+
+// Unknowns that a dense solve may have: 4 GB with the copy that is factored.
+inline constexpr std::size_t kMostDenseUnknowns = 16'000;
 
 // The values that a solve works with.
 struct ResolvedOptions {
@@ -85,6 +94,12 @@ struct PipelineReport {
                 interpolants = 0, point_evaluations = 0;
   } counts;
   std::vector<IterationReport> iterations;
+  struct Dense {
+    std::size_t unknowns = 0;
+    DenseClosure closure;
+    double form_factor_error = 0;  // DenseSystem::form_factor_error
+  };
+  std::optional<Dense> dense;
   EnergyBalance energy;
   RepresentationError interpolant_error;
   // The 99th percentile of the relative error of exact irradiance, from the solution's sources against that
@@ -119,7 +134,9 @@ class Pipeline {
   const ResolvedOptions& resolved() const;
 
   // Stages link and iterate: Link(), Iterate() until Converged() or the most iterations, Correct(). Goes on
-  // from wherever the steps below have led. Cancelled, it leaves the solution of the last whole step.
+  // from wherever the steps below have led. Cancelled, it leaves the solution of the last whole step. Dense
+  // systems are assembled and solved in the first of them, and have no others. Throws InputError if such a
+  // system is too large.
   void Solve(const ExecutionContext& context);
 
   // The same step by step, for who wants to look at what each one made. A step that is cancelled leaves

@@ -7,10 +7,12 @@ extern const Study kOffsetStudy;
 extern const Study kFormFactorStudy;
 extern const Study kWholeSystemStudy;
 extern const Study kStabilityStudy;
+extern const Study kContinuousRadiosityStudy;
 
 const std::vector<const Study*>& Studies() {
-  static const std::vector<const Study*> studies = {&kPointIrradianceStudy, &kOffsetStudy, &kFormFactorStudy,
-                                                    &kWholeSystemStudy, &kStabilityStudy};
+  static const std::vector<const Study*> studies = {&kPointIrradianceStudy, &kOffsetStudy,
+                                                    &kFormFactorStudy,      &kWholeSystemStudy,
+                                                    &kStabilityStudy,       &kContinuousRadiosityStudy};
   return studies;
 }
 

@@ -99,7 +99,8 @@ HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility
     std::vector<LinkCandidate> candidates;
     for (const PatchPair& pair : visibility.SourcesOf(static_cast<PatchId>(p)))
       candidates.push_back({ElementForest::Root(pair.source), visibility.Blockers(pair)});
-    roots[p] = FormLinks(solution_.forest, ElementForest::Root(static_cast<PatchId>(p)), candidates);
+    roots[p] = FormLinks(solution_.forest, ElementForest::Root(static_cast<PatchId>(p)), candidates,
+                         options_.form_factors);
   });
   Install(std::move(roots), {});
   ResizeLight();
@@ -170,7 +171,8 @@ bool HierarchicalSolver::Relink(std::span<const Group> groups, const std::vector
   std::vector<LinkSet> formed(groups.size());
   ParallelFor(groups.size(), kLinkGrain, [&](std::size_t g) {
     if (!context.Cancelled())
-      formed[g] = FormLinks(solution_.forest, groups[g].receiver, groups[g].candidates);
+      formed[g] =
+          FormLinks(solution_.forest, groups[g].receiver, groups[g].candidates, options_.form_factors);
   });
   if (context.Cancelled()) return false;
   LinkSet replaced = Install(std::move(formed), dropped);

@@ -18,6 +18,7 @@
 
 #include "solver/base/progress.h"
 #include "solver/transport/leaf_irradiance.h"
+#include "solver/transport/link_former.h"
 #include "solver/transport/oracle.h"
 #include "solver/transport/solution.h"
 #include "solver/visibility/patch_visibility.h"
@@ -32,6 +33,7 @@ struct SolverOptions {
   int max_iterations = 100;  // each gathers until it settles, then refines
   // Guess ahead from one sweep to the next (AndersonAcceleration); plain Jacobi sweeps otherwise.
   bool accelerate = true;
+  LinkFormFactors form_factors = LinkFormFactors::kCubature;
   int max_corrections = 2;  // passes of exact irradiance over the leaves; 0: links alone, as in the thesis
 };
 

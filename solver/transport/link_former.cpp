@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "solver/transport/cubature.h"
+#include "solver/visibility/area_form_factor.h"
 #include "solver/visibility/point_view.h"
 #include "solver/visibility/tube_blockers.h"
 
@@ -37,8 +38,9 @@ double Radius(const Element& element, const Vec3& centre) {
 
 class Former {
  public:
-  Former(const ElementForest& forest, ElementId receiver)
+  Former(const ElementForest& forest, ElementId receiver, LinkFormFactors form_factors)
       : forest_(forest),
+        form_factors_(form_factors),
         receiver_(forest[receiver]),
         id_(receiver),
         patch_(forest.scene().patches[receiver_.patch]),
@@ -105,6 +107,7 @@ class Former {
     link.form_factor = pending.lit_fraction * total;
     link.variation = std::sqrt(
         std::max(0.0, pending.lit_fraction * pending.mean_square - link.form_factor * link.form_factor));
+    if (form_factors_ == LinkFormFactors::kExact) link.form_factor = ExactFactor(link);
     if (pending.uniform || total <= 0) return;
     const double area = forest_[link.source].area;
     for (std::size_t q = 0; q < 4; ++q) {
@@ -115,6 +118,19 @@ class Former {
       unevenness += fraction * (share / fraction - 1) * (share / fraction - 1);
     }
     link.source_variation = static_cast<float>(std::sqrt(unevenness));
+  }
+
+  double ExactFactor(const Link& link) const {
+    const Element& source = forest_[link.source];
+    const auto part = [](const Element& element) {
+      return AreaPart{element.patch, {element.Vertices().begin(), element.Vertices().end()}};
+    };
+    const std::span<const PatchId> blockers = set_.Blockers(link);
+    AreaFormFactorOptions options;
+    options.tolerance = kExactLinkTolerance;
+    options.max_points = kExactLinkPoints;
+    const PatchHierarchy between(forest_.scene(), {blockers.begin(), blockers.end()});
+    return AreaFormFactor(forest_.scene(), between, part(receiver_), part(source), options).factor;
   }
 
   // Adds the means and the mean squares of the point form factors of the given links.
@@ -160,6 +176,7 @@ class Former {
   }
 
   const ElementForest& forest_;
+  LinkFormFactors form_factors_;
   const Element& receiver_;
   ElementId id_;
   const Patch& patch_;
@@ -171,9 +188,9 @@ class Former {
 
 }  // namespace
 
-LinkSet FormLinks(const ElementForest& forest, ElementId receiver,
-                  std::span<const LinkCandidate> candidates) {
-  return Former(forest, receiver).Form(candidates);
+LinkSet FormLinks(const ElementForest& forest, ElementId receiver, std::span<const LinkCandidate> candidates,
+                  LinkFormFactors form_factors) {
+  return Former(forest, receiver, form_factors).Form(candidates);
 }
 
 }  // namespace penumbra

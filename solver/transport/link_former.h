@@ -12,6 +12,16 @@
 
 namespace penumbra {
 
+// How the form factor of a link is found. Its variation and the shares of the source's quarters come from the
+// points of the cubature either way.
+enum class LinkFormFactors {
+  kCubature,  // the mean over a few points of the receiver
+  kExact,     // between areas (AreaFormFactor), to kExactLinkTolerance: sums and reciprocity hold to that
+};
+inline constexpr double kExactLinkTolerance = 1e-7;  // of the factor, where something stands between
+// Points that an exact link past blockers may cost.
+inline constexpr std::size_t kExactLinkPoints = 100'000;
+
 // A source to be linked to a receiver, with what may block: the blockers of the parent link.
 struct LinkCandidate {
   ElementId source = kNoElement;
@@ -22,6 +32,7 @@ struct LinkCandidate {
 // there. Candidates whose fronts do not face the receiver or which one blocker hides wholly get no link.
 // Points of the receiver behind the source's plane count as dark, so that the form factor is that of the
 // whole receiver.
-LinkSet FormLinks(const ElementForest& forest, ElementId receiver, std::span<const LinkCandidate> candidates);
+LinkSet FormLinks(const ElementForest& forest, ElementId receiver, std::span<const LinkCandidate> candidates,
+                  LinkFormFactors form_factors = LinkFormFactors::kCubature);
 
 }  // namespace penumbra

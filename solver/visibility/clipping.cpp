@@ -407,27 +407,60 @@ void Clipper::List(const Candidates& candidates, std::vector<Occluder>& occluder
 
 ImageEdges& Clipper::Visible() { return impl_->visible; }
 
-double Clipping::VisibleFormFactor(const DirectionPolygon& source, std::span<const Occluder> occluders,
-                                   const Vec3& normal) const {
+namespace {
+
+// Calls use(frame) for each image of the source, with what is visible of it in the clipper.
+template <class Use>
+void ForEachImage(Clipper& clipper, const DirectionPolygon& source, std::span<const Occluder> occluders,
+                  const Vec3& normal, const Use& use) {
   thread_local std::vector<ImagePart> parts;
-  thread_local Clipper clipper;
   parts.clear();
   SplitForImages(source, normal, parts);
-  double factor = 0;
   for (const ImagePart& part : parts) {
     const ImageFrame frame(part.polygon, part.axis);
     const Clipper::Candidates all = clipper.Begin(frame, part.polygon, occluders);
     Clipper::Candidates own;
     if (clipper.Narrow(part.polygon, all, &own) == Overlap::kAll) continue;
     clipper.CutOut(part.polygon, own, 0, part.label);
+    use(frame);
+  }
+}
+
+Clipper& ThreadClipper() {
+  thread_local Clipper clipper;
+  return clipper;
+}
+
+}  // namespace
+
+void ForEachVisiblePiece(const DirectionPolygon& source, std::span<const Occluder> occluders,
+                         const Vec3& normal, const std::function<void(std::span<const Vec3>)>& visit) {
+  Clipper& clipper = ThreadClipper();
+  std::vector<Vec3> directions;
+  ForEachImage(clipper, source, occluders, normal, [&](const ImageFrame& frame) {
+    const ImageEdges& visible = clipper.Visible();
+    for (std::size_t p = 0; p < visible.Pieces(); ++p) {
+      directions.clear();
+      for (std::size_t e = visible.Begin(p); e < visible.Begin(p + 1); ++e)
+        directions.push_back(frame.Direction(visible.Start(e)));
+      visit(directions);
+    }
+  });
+}
+
+double Clipping::VisibleFormFactor(const DirectionPolygon& source, std::span<const Occluder> occluders,
+                                   const Vec3& normal) const {
+  Clipper& clipper = ThreadClipper();
+  double factor = 0;
+  ForEachImage(clipper, source, occluders, normal, [&](const ImageFrame& frame) {
     ImageEdges& visible = clipper.Visible();
     const ImageEdges::Sum sum = visible.FormFactorSum(frame, normal);
     if (sum.angles <= kFormFactorCancellation * std::abs(sum.value)) {
       factor += std::max(0.0, sum.value * (0.5 * std::numbers::inv_pi));
-      continue;
+      return;
     }
     for (std::size_t p = 0; p < visible.Pieces(); ++p) factor += visible.PieceByQuadrature(frame, normal, p);
-  }
+  });
   return factor;
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -57,6 +58,12 @@ class Clipper {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+// Calls visit(directions) for every convex piece of `source` that none of the occluders covers; the pieces do
+// not overlap. For a point with unit normal `normal`; the source lies above its horizon, the occluders before
+// the source.
+void ForEachVisiblePiece(const DirectionPolygon& source, std::span<const Occluder> occluders,
+                         const Vec3& normal, const std::function<void(std::span<const Vec3>)>& visit);
 
 class Clipping final : public OcclusionMethod {
  public:

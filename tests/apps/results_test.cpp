@@ -263,6 +263,31 @@ TEST(Solve, ReportHoldsEveryField) {
   EXPECT_TRUE(report.at("unmet").is_array());
 }
 
+// The dense solver finds the furnace's irradiance with every basis, and reports how well its matrix closes.
+TEST(Solve, DenseFurnace) {
+  const Sandbox sandbox;
+  sandbox.Write("points.csv", "x,y,z,nx,ny,nz\n0.5,0.25,0,0,0,1\n0.3,0.6,0.4,1,0,0\n");
+  for (const std::string basis : {"constant", "linear", "quadratic"}) {
+    const Outcome probe = sandbox.Run({"probe", "furnace", "--points", "points.csv", "--solver", "dense",
+                                       "--basis", basis, "--divisions", "2", "--report", "report.json"});
+    ASSERT_EQ(probe.status, 0) << probe.err;
+    const json dense = json::parse(ReadBytes(sandbox.Path("report.json"))).at("dense");
+    EXPECT_EQ(dense.at("unknowns"), basis == "constant" ? 24 : basis == "linear" ? 96 : 216);
+    EXPECT_NEAR(dense.at("least_row_sum").get<double>(), 1, 1e-11);
+    EXPECT_NEAR(dense.at("largest_row_sum").get<double>(), 1, 1e-11);
+    EXPECT_LE(dense.at("form_factor_error").get<double>(), 1e-11);
+    EXPECT_THAT(probe.out, HasSubstr(kProbeHeader));
+    const std::string rows = probe.out.substr(probe.out.find('\n') + 1);
+    for (std::size_t begin = 0; begin < rows.size();) {
+      const std::size_t end = rows.find('\n', begin);
+      EXPECT_NEAR(Numbers(rows.substr(begin, end - begin)).at(7), 1, 1e-10) << basis;
+      begin = end + 1;
+    }
+  }
+  EXPECT_EQ(sandbox.Run({"solve", "furnace", "--solver", "dense", "--divisions", "3"}).status, 2);
+  EXPECT_EQ(sandbox.Run({"solve", "furnace", "--solver", "dense", "--divisions", "64"}).status, 1);
+}
+
 // Without a report file, solve prints the phases and the error.
 TEST(Solve, PrintsATable) {
   const Outcome solve = Sandbox().Run({"solve", "furnace", "--error", "0.1", "--error-points", "10"});

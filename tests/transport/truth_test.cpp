@@ -1,45 +1,23 @@
-// Irradiance at points against reference values with 12 to 30 digits, where they are at hand: a folder
-// `shared/truth` beside the checkout, or the one that PENUMBRA_TRUTH names.
+// Irradiance at points against reference values with 12 to 30 digits.
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "solver/scene/patch_builder.h"
 #include "solver/scene/surface_points.h"
 #include "solver/visibility/area_form_factor.h"
 #include "solver/visibility/form_factor.h"
-#include "test_paths.h"
 #include "tests/transport/transport_test_tools.h"
+#include "tests/transport/truth_files.h"
 
 namespace penumbra {
 namespace {
 
-using nlohmann::json;
-
-std::filesystem::path TruthFolder() {
-  if (const char* folder = std::getenv("PENUMBRA_TRUTH")) return folder;
-  return std::filesystem::path(PENUMBRA_SOURCE_DIR) / ".." / "shared" / "truth";
-}
-
-json Load(const std::string& name) {
-  std::ifstream file(TruthFolder() / name);
-  return file ? json::parse(file) : json();
-}
-
-Vec3 ToVec3(const json& j) { return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()}; }
-
-Polygon3 ToPolygon(const json& j) {
-  Polygon3 polygon;
-  for (const json& v : j) polygon.push_back(ToVec3(v));
-  return polygon;
-}
+using namespace truth;
 
 Polygon3 FacingTowards(Polygon3 polygon, const Vec3& point) {
   const Vec3 area = VectorArea(polygon);
@@ -57,8 +35,6 @@ void AddPolygon(Scene& scene, const Polygon3& polygon, std::int32_t material) {
   BuildPatches(one);
   scene.patches.insert(scene.patches.end(), one.patches.begin(), one.patches.end());
 }
-
-double ToDouble(const json& j) { return std::stod(j.get<std::string>()); }
 
 // Every case of occluded.json, by every exact method, to the tolerance that it states.
 TEST(Truth, OccludedLights) {
@@ -305,15 +281,7 @@ TEST(Truth, Furnaces) {
   int tested = 0;
   for (const json& c : truth["cases"]) {
     if (!c.contains("faces")) continue;
-    Scene scene;
-    scene.objects.resize(1);
-    for (const json& face : c["faces"]) {
-      const std::int32_t material =
-          scene_test::AddMaterial(scene, face["rho"].get<double>(), face["E"].get<double>());
-      scene.faces.push_back({ToPolygon(face["polygon"]), material, 0});
-    }
-    BuildPatches(scene);
-    ExpectFurnace(scene, c["id"]);
+    ExpectFurnace(FacesOf(c), c["id"]);
     ++tested;
   }
   EXPECT_EQ(tested, 6);
@@ -327,12 +295,7 @@ TEST(Truth, ContinuousCubes) {
   int tested = 0;
   for (const json& c : truth["cases"]) {
     if (!c["rho"].contains("ceiling")) continue;
-    Scene scene;
-    const json& rho = c["rho"];
-    const std::int32_t floor = scene_test::AddMaterial(scene, rho["floor"].get<double>(), 0),
-                       ceiling = scene_test::AddMaterial(scene, rho["ceiling"].get<double>(), 1),
-                       wall = scene_test::AddMaterial(scene, rho["walls"].get<double>(), 0);
-    scene_test::AddBox(scene, Vec3::Zero(), Vec3::Ones(), true, {floor, ceiling, wall, wall, wall, wall});
+    const Scene scene = UnitScene(c);
     const RadiositySolution solution = scene_test::Solved(scene, 0.02);
     const SourceSet sources = SourceSet::FromSolution(solution);
     const PatchVisibility visibility(scene);
@@ -341,8 +304,7 @@ TEST(Truth, ContinuousCubes) {
     for (const auto& [name, points] : c["irradiance"].items())
       for (const json& p : points) {
         const double a = p["a"].get<double>(), b = p["b"].get<double>(), want = ToDouble(p["H"]);
-        const PatchId patch = name == "floor" ? 0 : name == "ceiling" ? 1 : 4;
-        const Vec3 at = patch == 0 ? Vec3(a, b, 0) : patch == 1 ? Vec3(a, b, 1) : Vec3(0, a, b);
+        const auto [patch, at] = UnitPoint(c, name, a, b);
         const double got =
             irradiance.OnPatch(patch, scene_test::Receiver(at, scene.patches[patch].normal)).irradiance[0];
         EXPECT_NEAR(got, want, 0.05 * want) << c["id"] << " " << name << " " << p["name"];

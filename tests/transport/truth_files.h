@@ -1,0 +1,86 @@
+// tests/transport/truth_files.h
+//
+// Reference values with 12 to 30 digits, where they are at hand: a folder `shared/truth` beside the checkout,
+// or the one that PENUMBRA_TRUTH names.
+
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "solver/scene/patch_builder.h"
+#include "test_paths.h"
+#include "tests/visibility/test_scenes.h"
+
+namespace penumbra::truth {
+
+using nlohmann::json;
+
+// The file, or null where it is not at hand.
+inline json Load(const std::string& name) {
+  const char* given = std::getenv("PENUMBRA_TRUTH");
+  const std::filesystem::path folder =
+      given ? given : std::filesystem::path(PENUMBRA_SOURCE_DIR) / ".." / "shared" / "truth";
+  std::ifstream file(folder / name);
+  return file ? json::parse(file) : json();
+}
+
+inline Vec3 ToVec3(const json& j) { return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()}; }
+
+inline Polygon3 ToPolygon(const json& j) {
+  Polygon3 polygon;
+  for (const json& v : j) polygon.push_back(ToVec3(v));
+  return polygon;
+}
+
+inline double ToDouble(const json& j) { return std::stod(j.get<std::string>()); }
+
+// The scene of a case with `faces` that have a reflectance and an emittance.
+inline Scene FacesOf(const json& c) {
+  Scene scene;
+  scene.objects.resize(1);
+  for (const json& face : c["faces"])
+    scene.faces.push_back({ToPolygon(face["polygon"]),
+                           scene_test::AddMaterial(scene, face["rho"].get<double>(), face["E"].get<double>()),
+                           0});
+  BuildPatches(scene);
+  return scene;
+}
+
+// The unit cube of a case of radiosity_constant_basis.json or radiosity_continuous.json, or its pair of unit
+// squares.
+inline Scene UnitScene(const json& c) {
+  Scene scene;
+  const json& rho = c["rho"];
+  if (rho.is_object()) {
+    const std::int32_t floor = scene_test::AddMaterial(scene, rho["floor"].get<double>(), 0),
+                       ceiling = scene_test::AddMaterial(scene, rho["ceiling"].get<double>(), 1),
+                       wall = scene_test::AddMaterial(scene, rho["walls"].get<double>(), 0);
+    scene_test::AddBox(scene, Vec3::Zero(), Vec3::Ones(), true, {floor, ceiling, wall, wall, wall, wall});
+    return scene;
+  }
+  for (int i : {0, 1}) scene_test::AddMaterial(scene, rho[i].get<double>(), c["E"][i].get<double>());
+  scene_test::Add(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, 0);
+  if (c["id"].get<std::string>().starts_with("perp"))
+    scene_test::Add(scene, {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}, 1);
+  else
+    scene_test::Add(scene, {{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, 1);
+  return scene;
+}
+
+// A point of such a scene by the coordinates of radiosity_continuous.json: on which patch, and where.
+inline std::pair<PatchId, Vec3> UnitPoint(const json& c, const std::string& surface, double a, double b) {
+  if (surface == "floor") return {0, {a, b, 0}};
+  if (surface == "ceiling") return {1, {a, b, 1}};
+  if (surface == "wall") return {4, {0, a, b}};
+  if (!c["id"].get<std::string>().starts_with("perp"))
+    return surface == "square1" ? std::pair(0, Vec3(a, b, 0)) : std::pair(1, Vec3(a, b, 1));
+  return surface == "square1" ? std::pair(0, Vec3(b, a, 0)) : std::pair(1, Vec3(0, a, b));
+}
+
+}  // namespace penumbra::truth
