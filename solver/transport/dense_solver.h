@@ -24,7 +24,7 @@ DenseLight SolveDense(const DenseSystem& system, std::span<const Rgb> emittance,
                       std::span<const Rgb> reflectance);
 
 // The irradiance at a point on the front of a patch from the solution as it is, linear or quadratic over each
-// element [W/m^2]. Exact past whatever blocks, but for kBlockedSourceQuadratureError. Safe from any thread.
+// element [W/m^2]. Exact past whatever blocks, but for kSourceQuadratureError. Safe from any thread.
 Rgb DenseIrradiance(const DenseSystem& system, const DenseLight& light, const PatchVisibility& visibility,
                     PatchId patch, const ReceiverPoint& at);
 

@@ -135,11 +135,7 @@ void AssembleCollocated(DenseSystem& system, const PatchVisibility& visibility,
         system.transport(static_cast<Eigen::Index>(element.first + k), static_cast<Eigen::Index>(j)) = row[j];
     }
   });
-  bool blocked = false;
-  for (std::size_t p = 0; p + 1 < system.first_of_patch.size(); ++p)
-    for (const PatchPair& pair : visibility.SourcesOf(static_cast<PatchId>(p)))
-      blocked = blocked || pair.blocker_count > 0;
-  system.form_factor_error = blocked ? kBlockedSourceQuadratureError : kSourceQuadratureError;
+  system.form_factor_error = kSourceQuadratureError;
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ DenseSystem AssembleDense(const ElementForest& forest, const PatchVisibility& vi
                           const DenseOptions& options, const ExecutionContext& context);
 
 // Adds to `row`, an entry an unknown, the irradiance at a point on the front of a patch from unit radiosity
-// of each unknown [1]: exact past whatever blocks, but for kBlockedSourceQuadratureError. Safe from any
+// of each unknown [1]: exact past whatever blocks, but for kSourceQuadratureError. Safe from any
 // thread.
 void AddTransport(const DenseSystem& system, const PatchVisibility& visibility, PatchId patch,
                   const ReceiverPoint& at, std::span<double> row);

@@ -17,7 +17,7 @@ namespace penumbra {
 using RadiosityField = std::function<Rgb(PatchId patch, const Vec3& position)>;
 
 // The irradiance that the field sends to a point on the front of a patch [W/m^2]: for fields that are smooth
-// on the scale of a patch, exact past whatever blocks but for kBlockedSourceQuadratureError.
+// on the scale of a patch, exact past whatever blocks but for kSourceQuadratureError.
 Rgb FieldIrradiance(const Scene& scene, const PatchVisibility& visibility, const RadiosityField& field,
                     PatchId patch, const ReceiverPoint& at);
 

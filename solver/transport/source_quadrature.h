@@ -17,10 +17,13 @@
 
 namespace penumbra {
 
-// Largest error of the sum of the weights against the form factor of the same part [1]: where nothing blocks
-// that of ten Gauss nodes on some hundred pieces, and past blockers that of the shadows' corners, which go
-// through an image (kOcclusionError) and back onto a source that may be seen as flatly as 0.1.
-inline constexpr double kSourceQuadratureError = 1e-13, kBlockedSourceQuadratureError = 1e-11;
+// Bound of SourceQuadratureError() for points that are at least 1e-3 of their coordinates above the source's plane.
+inline constexpr double kSourceQuadratureError = 1e-11;
+
+// Largest error of the sum of the weights against the form factor of the same part [1], past blockers or not:
+// that of ten Gauss nodes on some hundred pieces, and what the rounding of the point's height above the
+// source makes of the weights, all of which are in proportion to it.
+double SourceQuadratureError(const ReceiverPoint& at, const Patch& source);
 
 struct SourceNode {
   Vec3 position;      // on the source [m]
