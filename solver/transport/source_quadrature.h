@@ -17,7 +17,8 @@
 
 namespace penumbra {
 
-// Bound of SourceQuadratureError() for points that are at least 1e-3 of their coordinates above the source's plane.
+// Bound of SourceQuadratureError() for points that are at least 1e-3 of their coordinates above the source's
+// plane.
 inline constexpr double kSourceQuadratureError = 1e-11;
 
 // Largest error of the sum of the weights against the form factor of the same part [1], past blockers or not:
