@@ -40,6 +40,16 @@ bool ReadNumber(const std::string& text, const NumberRule& rule, Target* target)
   return true;
 }
 
+}  // namespace
+
+std::optional<double> ParseNumber(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
 std::optional<Vec3> ParseVector(std::string_view text) {
   Vec3 vector;
   for (int i = 0; i < 3; ++i) {
@@ -51,16 +61,6 @@ std::optional<Vec3> ParseVector(std::string_view text) {
     if (i < 2) text.remove_prefix(comma + 1);
   }
   return vector;
-}
-
-}  // namespace
-
-std::optional<double> ParseNumber(std::string_view text) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
 }
 
 CLI::Option* AddNumber(CLI::App& app, const std::string& name, double* target, const NumberRule& rule,

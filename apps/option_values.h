@@ -16,12 +16,16 @@
 #include <string_view>
 #include <vector>
 
+#include "solver/base/check.h"
 #include "solver/geometry/vec.h"
 
 namespace penumbra {
 
 // The number that the whole text is; nothing if it is none, or not finite.
 std::optional<double> ParseNumber(std::string_view text);
+
+// The three numbers of `x,y,z`; nothing if the text is anything else.
+std::optional<Vec3> ParseVector(std::string_view text);
 
 // What a number may be, with the words for it.
 struct NumberRule {
@@ -43,6 +47,43 @@ CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<dou
 template <class Integer>
 CLI::Option* AddInteger(CLI::App& app, const std::string& name, Integer* target, Integer low, Integer high,
                         const std::string& help);
+
+// A name and what it stands for.
+template <class Value>
+struct Choice {
+  const char* name;
+  Value value;
+};
+template <class Value, std::size_t kCount>
+const char* ChoiceName(const Choice<Value> (&choices)[kCount], Value value) {
+  for (const Choice<Value>& choice : choices)
+    if (choice.value == value) return choice.name;
+  return "";
+}
+
+// The value of that name. Throws InputError if there is none.
+template <class Value, std::size_t kCount>
+Value ChoiceValue(const Choice<Value> (&choices)[kCount], const std::string& name) {
+  for (const Choice<Value>& choice : choices)
+    if (name == choice.name) return choice.value;
+  throw InputError("no such choice: " + name);
+}
+
+// `NAME A|B|...`, one of the choices.
+template <class Value, std::size_t kCount>
+CLI::Option* AddChoice(CLI::App& app, const std::string& name, Value* target,
+                       const Choice<Value> (&choices)[kCount], const std::string& help) {
+  std::string names;
+  for (const Choice<Value>& choice : choices) names += (names.empty() ? "" : "|") + std::string(choice.name);
+  const auto read = [=, first = &choices[0]](const std::string& text) {
+    for (const Choice<Value>* choice = first; choice != first + kCount; ++choice)
+      if (text == choice->name) return void(*target = choice->value);
+    throw CLI::ValidationError(name, "'" + text + "' is not one of " + names);
+  };
+  return app.add_option_function<std::string>(name, read, help)
+      ->type_name(names)
+      ->default_str(ChoiceName(choices, *target));
+}
 
 // `NAME x,y,z`, three numbers.
 CLI::Option* AddVector(CLI::App& app, const std::string& name, std::optional<Vec3>* target,

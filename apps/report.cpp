@@ -57,12 +57,32 @@ Json IterationsJson(const std::vector<IterationReport>& reports) {
   Json iterations = Json::array();
   for (const IterationReport& i : reports)
     iterations.push_back({{"residual", i.residual},
+                          {"eps", i.eps},
                           {"elements", i.elements},
                           {"links", i.links},
                           {"sweeps", i.sweeps},
                           {"links_split", i.links_split},
                           {"seconds", i.seconds}});
   return iterations;
+}
+
+Json RgbJson(const Rgb& rgb) { return {rgb[0], rgb[1], rgb[2]}; }
+
+Json DiagnosticsJson(const PipelineReport& report) {
+  const LinkDiagnostics& links = report.links;
+  Json bounces = Json::array();
+  for (const Rgb& bounce : report.bounces) bounces.push_back(RgbJson(bounce));
+  Json json = {
+      {"closure", {{"min", links.closure_min}, {"max", links.closure_max}, {"mean", links.closure_mean}}},
+      {"reciprocity",
+       {{"link_pairs", links.link_pairs},
+        {"link_worst", links.link_reciprocity},
+        {"patch_pairs", links.patch_pairs},
+        {"patch_worst", links.patch_reciprocity}}},
+      {"open", {{"rays", report.views.rays}, {"escaping", report.views.escaping}}},
+      {"reversed_faces", report.views.reversed_faces}};
+  if (!bounces.empty()) json["bounces"] = bounces;
+  return json;
 }
 
 Json ErrorJson(const PipelineReport& report) {
@@ -106,6 +126,7 @@ std::string ReportJson(const RunReport& report) {
                {"options", report.options},
                {"phases", PhasesJson(report)}};
   json.update(OutcomeJson(report.pipeline));
+  json["diagnostics"] = DiagnosticsJson(report.pipeline);
   if (const auto& dense = report.pipeline.dense)
     json["dense"] = {{"unknowns", dense->unknowns},
                      {"least_row_sum", dense->closure.least_row_sum},
@@ -189,6 +210,27 @@ std::string ReportTable(const RunReport& report) {
   const EnergyBalance& energy = pipeline.energy;
   table += fmt::format("Energy [W]\n   emitted {:.6g}, absorbed {:.6g}, escaped {:.6g}; imbalance {:.2g}\n",
                        energy.emitted, energy.absorbed, energy.escaped, energy.relative_imbalance);
+
+  const LinkDiagnostics& links = pipeline.links;
+  table += fmt::format(
+      "Form factors\n   sums of patches {:.6g} to {:.6g}, mean {:.6g}; reciprocity of {} patch pairs: worst "
+      "{:.2g}\n"
+      "   {:.3g} % of what surfaces send out evenly leaves the scene; {} faces see nothing but backs\n",
+      links.closure_min, links.closure_max, links.closure_mean, links.patch_pairs, links.patch_reciprocity,
+      100 * pipeline.views.escaping, pipeline.views.reversed_faces.size());
+  if (!pipeline.iterations.empty()) {
+    table += "Iterations\n";
+    for (const IterationReport& i : pipeline.iterations)
+      table +=
+          fmt::format("   eps {:<9.3g} {:>9} elements {:>9} links {:>4} sweeps  residual {:<9.2g} {:.3f} s\n",
+                      i.eps, i.elements, i.links, i.sweeps, i.residual, i.seconds);
+  }
+  if (!pipeline.bounces.empty()) {
+    table += "Mean irradiance by bounce [W/m^2]\n";
+    for (std::size_t k = 0; k < pipeline.bounces.size(); ++k)
+      table += fmt::format("   {:>4} {:>12.6g} {:>12.6g} {:>12.6g}\n", k + 1, pipeline.bounces[k][0],
+                           pipeline.bounces[k][1], pipeline.bounces[k][2]);
+  }
 
   const RepresentationError& error = pipeline.interpolant_error;
   table += "Relative error\n";

@@ -28,6 +28,12 @@ constexpr std::uint64_t kMaxErrorPoints = 100'000'000;
 constexpr const char *kSceneGroup = "Scene", *kSolvingGroup = "Solving";
 constexpr int kMaxErrorSamples = 100;
 constexpr NumberRule kBelowOne{[](double x) { return x >= 0 && x < 1; }, "a number in [0, 1)"};
+constexpr Choice<IterationScheme> kSchemes[] = {{"jacobi", IterationScheme::kJacobi},
+                                                {"gauss-seidel", IterationScheme::kGaussSeidel}};
+constexpr Choice<OracleKind> kOracles[] = {{"transport", OracleKind::kTransport},
+                                           {"visibility", OracleKind::kVisibility},
+                                           {"gradient", OracleKind::kGradient},
+                                           {"thesis", OracleKind::kThesis}};
 
 constexpr std::array<NamedValue<DiscontinuityChoice>, 5> kDiscontinuityChoices = {
     {{"ranked", DiscontinuityChoice::kRanked},
@@ -82,7 +88,7 @@ LoadedScene ReadSolution(const SceneArguments& arguments) {
     stored.options = nlohmann::ordered_json::parse(solution.options);
     stored.solving = SolvingFrom(stored.options);
     stored.state.report = PipelineReportFrom(nlohmann::ordered_json::parse(solution.report));
-  } catch (const nlohmann::json::exception& error) {
+  } catch (const std::exception& error) {
     throw InputError(
         fmt::format("{}: error: its options or its report cannot be read: {}", path, error.what()));
   }
@@ -110,6 +116,12 @@ void AddSceneArguments(CLI::App& app, SceneArguments* arguments) {
       ->group(kSceneGroup);
   AddNumber(app, "--max-reflectance", &arguments->reading.max_reflectance, kBelowOne,
             "Clamp larger reflectances to X, in [0, 1), instead of refusing those of 1 or more")
+      ->group(kSceneGroup);
+  AddMaterialChange(app, "--emittance", &arguments->emittance, kNonNegative,
+                    "Another emittance for a material [W/m^2]; may be repeated")
+      ->group(kSceneGroup);
+  AddMaterialChange(app, "--reflectance", &arguments->reflectance, kBelowOne,
+                    "Another reflectance for a material, in [0, 1); may be repeated")
       ->group(kSceneGroup);
   AddInteger(app, "--threads", &arguments->threads, 0, kMaxThreads,
              "Threads to work with, 0: all; the result is the same for any number")
@@ -173,11 +185,34 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
       app, "--corrections", &solving->max_corrections, 0, 100,
       "Passes that correct the converged solution by exact irradiance; 0: links alone, as in the thesis")
       ->group(group);
-  app.add_flag("!--no-acceleration", solving->accelerate,
-               "Plain Jacobi sweeps, as in the thesis, instead of guessing ahead (Anderson 1965)")
+  app.add_flag_callback(
+         "--no-acceleration", [solving] { solving->acceleration = Acceleration::kNone; },
+         "Sweep after sweep, as in the thesis, instead of guessing ahead (Anderson 1965)")
+      ->group(group);
+  AddChoice(
+      app, "--scheme", &solving->scheme, kSchemes,
+      "Order of a sweep: all elements from the light before it (the thesis), or patch after patch, each "
+      "from the light as it is then")
+      ->group(group);
+  AddChoice(app, "--oracle", &solving->oracle, kOracles,
+            "What splits links: their transport error, by its deviation over the receiver; the same, partial "
+            "links counting twice; by the gradient of the form factor; or as printed in the thesis, without "
+            "regard to area")
+      ->group(group);
+  app.add_flag("--multigrid", solving->multigrid,
+               "Refine by a larger --eps first, lowered from one iteration to the next")
       ->group(group);
   AddInteger(app, "--iterations", &solving->max_iterations, 1, 1'000'000,
              "Most iterations of gathering and refining")
+      ->group(group);
+  AddNumber(app, "--time-limit", &solving->time_limit, kPositive,
+            "End linking, iterating and correcting after this many seconds, with the last whole step's light")
+      ->group(group);
+  AddNumber(app, "--memory-limit", &solving->memory_limit, kPositive,
+            "End them in the same way when the program takes this many bytes of memory")
+      ->group(group);
+  AddInteger(app, "--bounces", &solving->bounces, 0, 1000,
+             "Report the mean irradiance of so many bounces, from the links")
       ->group(group);
   AddNumber(
       app, "--nudge", &solving->point.nudge, kNonNegative,
@@ -250,6 +285,10 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
   options["emission_is_radiance"] = arguments.reading.emission_is_radiance;
   options["two_sided"] = arguments.reading.two_sided;
   if (arguments.reading.max_reflectance) options["max_reflectance"] = *arguments.reading.max_reflectance;
+  for (const auto& [name, changes] :
+       {std::pair("emittance", &arguments.emittance), std::pair("reflectance", &arguments.reflectance)})
+    for (const MaterialChange& change : *changes)
+      options[name][change.material] = {change.value[0], change.value[1], change.value[2]};
   options["threads"] = ThreadCount();
   options["seed"] = arguments.solving.seed;
   if (resolved) {
@@ -266,9 +305,15 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     for (const auto& [name, refine] : RefineNames())
       if (refine == arguments.solving.refine) options["refine"] = name;
     options["corrections"] = resolved->solver.max_corrections;
-    options["acceleration"] = resolved->solver.accelerate;
+    options["acceleration"] = resolved->solver.acceleration == Acceleration::kAnderson;
+    options["scheme"] = ChoiceName(kSchemes, resolved->solver.scheme);
+    options["oracle"] = ChoiceName(kOracles, resolved->solver.oracle);
+    options["multigrid"] = resolved->solver.multigrid;
     options["relative_cutoff"] = resolved->solver.relative_cutoff;
     options["iterations"] = resolved->solver.max_iterations;
+    if (arguments.solving.time_limit) options["time_limit"] = *arguments.solving.time_limit;
+    if (arguments.solving.memory_limit) options["memory_limit"] = *arguments.solving.memory_limit;
+    options["bounces"] = arguments.solving.bounces;
     options["nudge"] = arguments.solving.point.nudge;
     options["source_push_off"] = arguments.solving.point.source_push_off;
     options["form_factors"] =
@@ -309,23 +354,37 @@ PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   options.at("error_samples").get_to(solving.error_samples);
   solving.refine = RefineNames().at(options.at("refine").get<std::string>());
   options.at("corrections").get_to(solving.max_corrections);
-  options.at("acceleration").get_to(solving.accelerate);
+  solving.acceleration =
+      options.at("acceleration").get<bool>() ? Acceleration::kAnderson : Acceleration::kNone;
   solving.relative_cutoff = options.at("relative_cutoff").get<double>();
   options.at("iterations").get_to(solving.max_iterations);
+  solving.scheme = ChoiceValue(kSchemes, options.at("scheme").get<std::string>());
+  solving.oracle = ChoiceValue(kOracles, options.at("oracle").get<std::string>());
+  options.at("multigrid").get_to(solving.multigrid);
+  if (options.contains("time_limit")) solving.time_limit = options["time_limit"].get<double>();
+  if (options.contains("memory_limit")) solving.memory_limit = options["memory_limit"].get<double>();
+  options.at("bounces").get_to(solving.bounces);
+  if (options.at("form_factors") == "exact") solving.form_factors = LinkFormFactors::kExact;
   options.at("nudge").get_to(solving.point.nudge);
   options.at("source_push_off").get_to(solving.point.source_push_off);
   options.at("error_points").get_to(solving.error_points);
   return solving;
 }
 
+// The scene that was named, with the materials that were changed.
+static Scene ReadChangedScene(const SceneArguments& arguments) {
+  Scene scene = ReadNamedScene(arguments.scene, arguments.reading);
+  ChangeMaterials(arguments.emittance, &Material::emittance, scene);
+  ChangeMaterials(arguments.reflectance, &Material::reflectance, scene);
+  return scene;
+}
+
 LoadedScene LoadScene(const SceneArguments& arguments) {
   SetThreadCount(arguments.threads);
   const Stopwatch reading;
   const bool is_solution = IsSolution(arguments.scene);
-  LoadedScene loaded =
-      is_solution
-          ? ReadSolution(arguments)
-          : LoadedScene{std::make_unique<const Scene>(ReadNamedScene(arguments.scene, arguments.reading))};
+  LoadedScene loaded = is_solution ? ReadSolution(arguments)
+                                   : LoadedScene{std::make_unique<const Scene>(ReadChangedScene(arguments))};
   loaded.seconds = reading.Seconds();
   if (!is_solution)
     for (const std::string& warning : loaded.scene.warnings) fmt::print(stderr, "{}\n", warning);

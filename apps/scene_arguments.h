@@ -10,7 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "apps/material_change.h"
 #include "mesh/pipeline.h"
 #include "solver/scene/scene.h"
 #include "solver/scene/scene_options.h"
@@ -21,6 +23,7 @@ struct SceneArguments {
   const CLI::App* app = nullptr;  // which options were given
   std::string scene;              // a path, or the name of a built-in scene
   SceneOptions reading;
+  std::vector<MaterialChange> emittance, reflectance;
   PipelineOptions solving;
   int threads = 0;  // 0: all
   bool verbose = false;

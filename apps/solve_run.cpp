@@ -69,6 +69,7 @@ std::string SolveRun::SolutionFile() const {
 }
 
 void SolveRun::Tell() const {
+  for (const std::string& warning : pipeline_.report().warnings) fmt::print(stderr, "{}\n", warning);
   if (arguments_.report) WriteResult(arguments_.report, ReportJson(report()));
   if (arguments_.verbose) fmt::print(stderr, "{}", ReportTable(report()));
 }

@@ -9,6 +9,7 @@
 #include "mesh/local_pass.h"
 #include "mesh/mesh_locator.h"
 #include "mesh/mesh_refinement.h"
+#include "mesh/run_limits.h"
 #include "mesh/source_cells.h"
 #include "mesh/source_cut.h"
 #include "solver/base/check.h"
@@ -72,8 +73,11 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   resolved.solver.relative_cutoff = options.relative_cutoff.value_or(kCutoffOfError * options.error);
   resolved.solver.max_iterations = options.max_iterations;
   resolved.solver.max_corrections = options.max_corrections;
-  resolved.solver.accelerate = options.accelerate;
   resolved.solver.form_factors = options.form_factors;
+  resolved.solver.scheme = options.scheme;
+  resolved.solver.acceleration = options.acceleration;
+  resolved.solver.oracle = options.oracle;
+  resolved.solver.multigrid = options.multigrid;
   DiscontinuityOptions& mesh = resolved.discontinuities;
   mesh.choice = options.discontinuities;
   mesh.weight = options.weight.value_or(options.min_discontinuity_weight ? DiscontinuityWeight::kThesis
@@ -322,20 +326,25 @@ bool Pipeline::Relight(const ExecutionContext& context) {
 }
 
 void Pipeline::Solve(const ExecutionContext& context) {
-  Link(context);
+  const RunLimits limits(context, impl_->options.time_limit, impl_->options.memory_limit);
+  const ExecutionContext& running = limits.context();
+  Link(running);
   if (impl_->options.dense) return;
   const int most = impl_->resolved.solver.max_iterations;
-  for (int i = 0; i < most && !Converged() && !context.Cancelled(); ++i) {
-    context.Report("iterate", static_cast<double>(i) / most);
-    Iterate(context);
+  for (int i = 0; i < most && !Converged() && !running.Cancelled(); ++i) {
+    running.Report("iterate", static_cast<double>(i) / most);
+    Iterate(running);
   }
-  if (context.Cancelled()) return;
   const std::vector<IterationReport>& iterations = impl_->report.iterations;
-  if (!Converged())
-    impl_->report.unmet.push_back(fmt::format("iterate: {} iterations left a residual of {:.2g}",
-                                              iterations.size(),
-                                              iterations.empty() ? INFINITY : iterations.back().residual));
-  Correct(context);
+  const double residual = iterations.empty() ? INFINITY : iterations.back().residual;
+  if (!Converged() && !running.Cancelled())
+    impl_->report.unmet.push_back(
+        fmt::format("iterate: {} iterations left a residual of {:.2g}", iterations.size(), residual));
+  const bool corrected = Correct(running);
+  if (const std::optional<std::string> limit = limits.Exceeded(); limit && (!Converged() || !corrected))
+    impl_->report.unmet.push_back(fmt::format("iterate: ended by {} after {} iterations, {} and {}", *limit,
+                                              iterations.size(), Converged() ? "converged" : "not converged",
+                                              corrected ? "corrected" : "not corrected"));
 }
 
 void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context) {
@@ -381,6 +390,15 @@ void Pipeline::Measure(const ExecutionContext& context) {
   context.Report("measure", 0);
   PipelineReport& report = impl_->report;
   report.energy = MeasureEnergy(solution());
+  report.links = DiagnoseLinks(solution());
+  report.views = DiagnoseViews(impl_->scene);
+  if (impl_->solver) report.bounces = impl_->solver->MeanIrradianceByBounce(impl_->options.bounces);
+  report.warnings.clear();
+  if (!report.views.reversed_faces.empty())
+    report.warnings.push_back(fmt::format(
+        "{}: warning: the fronts of {} faces see nothing but backs, the first is face {} (counted "
+        "from 0); if it is reversed, give its vertices in the other order",
+        impl_->scene.name, report.views.reversed_faces.size(), report.views.reversed_faces[0]));
   const std::size_t points = impl_->options.error_points;
   const std::uint64_t seed = impl_->options.seed;
   report.interpolant_error =

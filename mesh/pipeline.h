@@ -19,6 +19,7 @@
 #include "solver/base/progress.h"
 #include "solver/scene/scene.h"
 #include "solver/transport/dense_solver.h"
+#include "solver/transport/diagnostics.h"
 #include "solver/transport/energy.h"
 #include "solver/transport/hierarchical_solver.h"
 #include "solver/transport/point_irradiance.h"
@@ -51,10 +52,19 @@ struct PipelineOptions {
   RefineBy refine = RefineBy::kBoth;
   int max_corrections = 2;  // SolverOptions::max_corrections
   int max_iterations = 100;
-  bool accelerate = true;                                     // SolverOptions::accelerate
   LinkFormFactors form_factors = LinkFormFactors::kCubature;  // SolverOptions::form_factors
-  PointIrradianceOptions point;                               // Appendix A, 9 and 10
-  std::size_t error_points = 1000;  // random points that measure the interpolants' error; 0 leaves it out
+  // SolverOptions of these names.
+  IterationScheme scheme = IterationScheme::kJacobi;
+  Acceleration acceleration = Acceleration::kAnderson;
+  OracleKind oracle = OracleKind::kTransport;
+  bool multigrid = false;
+  // Limits to linking, iterating and correcting in Solve(), which then ends with the last whole step. Linking
+  // the roots is one step that does not end early.
+  std::optional<double> time_limit;    // [s]
+  std::optional<double> memory_limit;  // [bytes] of the whole process
+  int bounces = 0;                     // whose mean irradiance is reported
+  PointIrradianceOptions point;        // Appendix A, 9 and 10
+  std::size_t error_points = 1000;     // random points that measure the interpolants' error; 0 leaves it out
   std::uint64_t seed = 1;
   // Solves the dense system of a uniform mesh directly instead. Linear and quadratic elements hand on their
   // means.
@@ -101,6 +111,9 @@ struct PipelineReport {
   };
   std::optional<Dense> dense;
   EnergyBalance energy;
+  LinkDiagnostics links;
+  ViewDiagnostics views;
+  std::vector<Rgb> bounces;  // mean irradiance by bounce, if it was asked for [W/m^2]
   RepresentationError interpolant_error;
   // The 99th percentile of the relative error of exact irradiance, from the solution's sources against that
   // from the interpolants as sources.
@@ -108,7 +121,8 @@ struct PipelineReport {
   RepresentationError whole_error;  // of the interpolants, against the latter
   double error_asked = 0;
   bool error_met = false;
-  std::vector<std::string> unmet;  // what missed the target, and why; one line each
+  std::vector<std::string> unmet;     // what missed the target, and why; one line each
+  std::vector<std::string> warnings;  // what looks wrong in the scene; one line each
 };
 
 // What the stages made, apart from what is quickly made anew.
@@ -163,7 +177,8 @@ class Pipeline {
   // the mesh (RefineMesh), until the error asked for is met. Nothing is done where it is there already.
   // REQUIRES: Link() or what begins with it.
   void BuildMesh(MeshKind kind, const ExecutionContext& context);
-  // Measures the energy balance and the error at random points. REQUIRES: BuildMesh() after the last step.
+  // Measures the energy balance, the soundness of scene and links, and the error at random points. REQUIRES:
+  // BuildMesh() after the last step.
   void Measure(const ExecutionContext& context);
 
   const RadiositySolution& solution() const;  // REQUIRES: Link()

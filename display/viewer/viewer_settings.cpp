@@ -125,7 +125,14 @@ void Viewer::AddSolveSettings() {
       [this] { return Resolve(*snapshot_->scene, options_.solving).solver.relative_cutoff; }, changed));
   also(s.Integer("corrections", "Solving", "Corrections by exact irradiance", &o.max_corrections, 0, 100));
   also(s.Integer("iterations", "Solving", "Most iterations", &o.max_iterations, 1, 1'000'000));
-  also(s.Toggle("acceleration", "Solving", "Guess ahead between sweeps", &o.accelerate));
+  also(s.Choice("scheme", "Solving", "Sweeps", &o.scheme, {"jacobi", "gauss-seidel"}));
+  also(s.Choice("acceleration", "Solving", "Guess ahead between sweeps", &o.acceleration,
+                {"none", "anderson"}));
+  also(s.Choice("oracle", "Solving", "Refinement of links", &o.oracle,
+                {"transport", "visibility", "gradient", "thesis"}));
+  also(s.Toggle("multigrid", "Solving", "Coarse links first", &o.multigrid));
+  also(s.Choice("refine", "Solving", "Refinement of the mesh", &o.refine,
+                {"transport", "representation", "both"}));
   also(s.Number("nudge", "Solving", "Nudge of points in contact [m]", &o.point.nudge, 0, 1e6, false));
   also(s.Number("source-push-off", "Solving", "Push-off of sources [m]", &o.point.source_push_off, 0, 1e6,
                 false));

@@ -25,7 +25,10 @@ class AndersonAcceleration {
  private:
   struct Step {
     std::vector<Rgb> residual, value;  // differences to the step after
+    std::deque<Rgb> product;           // of the residuals, with each step up to this one
   };
+
+  Rgb Product(const std::vector<Rgb>& a, const std::vector<Rgb>& b) const;
 
   std::vector<double> weight_;
   std::vector<Rgb> last_residual_, last_value_;

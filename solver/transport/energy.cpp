@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "solver/base/parallel.h"
-#include "solver/base/random.h"
-#include "solver/scene/surface_points.h"
 #include "solver/scene/tolerances.h"
+#include "solver/transport/diffuse_rays.h"
 #include "solver/transport/source_set.h"
 #include "solver/visibility/ray_caster.h"
 
@@ -22,32 +20,13 @@ struct Sender {
   const SourceSet::Node* node;
 };
 
-struct Ray {
-  PatchId patch;
-  Vec3 origin, direction;
-};
-
-Vec3 CosineDirection(const Vec3& normal, double s, double t) {
-  const Frame frame = MakeFrame(Vec3::Zero(), normal);
-  const double radius = std::sqrt(s), angle = 2 * std::numbers::pi * t;
-  return radius * std::cos(angle) * frame.u + radius * std::sin(angle) * frame.v + std::sqrt(1 - s) * normal;
-}
-
-// The i-th ray of `count`, leaving the sender whose share of the flux covers (i + 1/2) / count.
-Ray MakeRay(const Scene& scene, const std::vector<Sender>& senders, const std::vector<double>& cumulative,
-            std::size_t i, std::size_t count, std::uint64_t seed, double lift) {
+// The sender whose share of the flux covers (i + 1/2) / count.
+const Sender& SenderOfRay(const std::vector<Sender>& senders, const std::vector<double>& cumulative,
+                          std::size_t i, std::size_t count) {
   const double at = (static_cast<double>(i) + 0.5) / static_cast<double>(count) * cumulative.back();
   const auto found = static_cast<std::size_t>(std::upper_bound(cumulative.begin(), cumulative.end(), at) -
                                               cumulative.begin());
-  const Sender& sender = senders[std::min(found, senders.size() - 1)];
-  std::array<double, 4> x;
-  for (std::size_t d = 0; d < 4; ++d) x[d] = AdditiveRecurrence(i + 7919 * seed, kR4Alpha[d]);
-  const std::span<const Vec3> polygon(sender.node->vertex.data(),
-                                      static_cast<std::size_t>(sender.node->size));
-  const Vec3& normal = scene.patches[sender.patch].normal;
-  // What lies on the sender, looking the other way, neither lights nor blocks it.
-  const Vec3 before = PointOn(polygon, x[0], x[1]) + lift * normal;
-  return {sender.patch, before, CosineDirection(normal, x[2], x[3])};
+  return senders[std::min(found, senders.size() - 1)];
 }
 
 }  // namespace
@@ -81,8 +60,11 @@ EnergyBalance MeasureEnergy(const RadiositySolution& solution, std::size_t rays,
   enum : char { kFront, kBack, kAway };
   std::vector<char> fate(rays);
   ParallelFor(rays, kRayGrain, [&](std::size_t i) {
-    const Ray ray = MakeRay(scene, senders, cumulative, i, rays, seed, lift);
-    const RayCaster::Hit hit = caster.Cast(ray.origin, ray.direction, ray.patch);
+    const Sender& sender = SenderOfRay(senders, cumulative, i, rays);
+    const std::span<const Vec3> polygon(sender.node->vertex.data(),
+                                        static_cast<std::size_t>(sender.node->size));
+    const DiffuseRay ray = MakeDiffuseRay(polygon, scene.patches[sender.patch].normal, lift, i, seed);
+    const RayCaster::Hit hit = caster.Cast(ray.origin, ray.direction, sender.patch);
     fate[i] = hit.patch == kNoPatch ? kAway : hit.front ? kFront : kBack;
   });
   const double per_ray = flux / static_cast<double>(rays);

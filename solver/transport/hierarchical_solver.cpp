@@ -2,26 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "solver/base/parallel.h"
 #include "solver/base/stopwatch.h"
-#include "solver/transport/anderson.h"
 #include "solver/transport/leaf_fragments.h"
-#include "solver/transport/leaf_irradiance.h"
-#include "solver/transport/link_former.h"
 #include "solver/transport/point_irradiance.h"
 
 namespace penumbra {
 namespace {
 
-// Elements a task gathers, receivers it links, leaves it corrects.
-constexpr std::size_t kGatherGrain = 256;
-constexpr std::size_t kLinkGrain = 2;
-constexpr std::size_t kExactGrain = 8;
+constexpr std::size_t kExactGrain = 8;  // leaves that a task corrects
 
-// The most sweeps before an iteration refines all the same: without acceleration rooms of reflectance 0.99
-// need some 1,400.
-constexpr std::size_t kMaxSweeps = 5000;
+// How multigridding begins, and by what the bound falls from one iteration to the next. Coarse links need not
+// settle better than this.
+constexpr double kCoarsestEps = 64;  // x eps
+constexpr double kEpsStep = 4;
+constexpr double kCoarseCutoff = 0.01;
 
 // The area of an element for which eps is meant: a 16 x 16 mesh of all fronts together.
 double ReferenceArea(const Scene& scene) {
@@ -30,19 +27,18 @@ double ReferenceArea(const Scene& scene) {
   return area / 256;
 }
 
-double MaxReflectance(const Scene& scene) {
-  double reflectance = 0;
-  for (const Patch& patch : scene.patches)
-    reflectance = std::max(reflectance, scene.materials[patch.material].reflectance.maxCoeff());
-  return reflectance;
+LinkSet LinkRoots(const ElementForest& forest, const PatchVisibility& visibility,
+                  LinkFormFactors form_factors) {
+  std::vector<LinkGroup> groups(forest.size());
+  for (std::size_t p = 0; p < groups.size(); ++p) {
+    groups[p].receiver = ElementForest::Root(static_cast<PatchId>(p));
+    for (const PatchPair& pair : visibility.SourcesOf(static_cast<PatchId>(p)))
+      groups[p].candidates.push_back({ElementForest::Root(pair.source), visibility.Blockers(pair)});
+  }
+  return ReplaceLinks({}, {}, FormLinkGroups(forest, groups, form_factors, ExecutionContext()));
 }
 
 }  // namespace
-
-struct HierarchicalSolver::Group {
-  ElementId receiver;
-  std::vector<LinkCandidate> candidates;
-};
 
 struct HierarchicalSolver::Snapshot {
   std::size_t elements = 0;
@@ -50,25 +46,14 @@ struct HierarchicalSolver::Snapshot {
   std::vector<Fragment> fragments;
   std::vector<Rgb> irradiance, radiosity;
   std::vector<double> radiosity_spread, spread_below;
-  std::vector<Rgb> gathered, correction, fragment_offset;
-  double residual = 1;
+  std::vector<Rgb> correction, fragment_offset;
   bool converged = false;
 };
 
 HierarchicalSolver::Snapshot HierarchicalSolver::TakeSnapshot() const {
-  Snapshot before;
-  before.elements = solution_.forest.size();
-  before.fragments = solution_.fragments;
-  before.irradiance = solution_.irradiance;
-  before.radiosity = solution_.radiosity;
-  before.radiosity_spread = solution_.radiosity_spread;
-  before.spread_below = solution_.spread_below;
-  before.gathered = gathered_;
-  before.correction = correction_;
-  before.fragment_offset = fragment_offset_;
-  before.residual = residual_;
-  before.converged = converged_;
-  return before;
+  const RadiositySolution& s = solution_;
+  return {s.forest.size(),    std::nullopt,   s.fragments, s.irradiance,     s.radiosity,
+          s.radiosity_spread, s.spread_below, correction_, fragment_offset_, converged_};
 }
 
 void HierarchicalSolver::Restore(Snapshot before) {
@@ -79,12 +64,10 @@ void HierarchicalSolver::Restore(Snapshot before) {
   solution_.radiosity = std::move(before.radiosity);
   solution_.radiosity_spread = std::move(before.radiosity_spread);
   solution_.spread_below = std::move(before.spread_below);
-  gathered_ = std::move(before.gathered);
   correction_ = std::move(before.correction);
   fragment_offset_ = std::move(before.fragment_offset);
-  residual_ = before.residual;
   converged_ = before.converged;
-  IndexLinks();
+  push_pull_->Update();
 }
 
 HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility,
@@ -92,20 +75,10 @@ HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility
     : scene_(scene),
       visibility_(visibility),
       options_(options),
-      oracle_(options.eps, options.min_area, ReferenceArea(scene)) {
+      eps_(options.multigrid ? kCoarsestEps * options.eps : options.eps) {
   solution_.forest = ElementForest(scene);
-  std::vector<LinkSet> roots(scene.patches.size());
-  ParallelFor(roots.size(), kLinkGrain, [&](std::size_t p) {
-    std::vector<LinkCandidate> candidates;
-    for (const PatchPair& pair : visibility.SourcesOf(static_cast<PatchId>(p)))
-      candidates.push_back({ElementForest::Root(pair.source), visibility.Blockers(pair)});
-    roots[p] = FormLinks(solution_.forest, ElementForest::Root(static_cast<PatchId>(p)), candidates,
-                         options_.form_factors);
-  });
-  Install(std::move(roots), {});
-  ResizeLight();
-  for (std::size_t p = 0; p < scene.patches.size(); ++p)
-    solution_.radiosity[p] = scene.materials[scene.patches[p].material].emittance;
+  solution_.links = LinkRoots(solution_.forest, visibility, options.form_factors);
+  push_pull_ = std::make_unique<PushPull>(solution_);
 }
 
 HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility,
@@ -113,281 +86,75 @@ HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility
     : scene_(scene),
       visibility_(visibility),
       options_(options),
-      oracle_(options.eps, options.min_area, ReferenceArea(scene)),
-      solution_(std::move(solution)) {
-  IndexLinks();
-  ResizeLight();
+      eps_(options.eps),
+      solution_(std::move(solution)),
+      push_pull_(std::make_unique<PushPull>(solution_)) {
   // What corrected a leaf is what its links do not bring.
-  const std::vector<Rgb> irradiance = solution_.irradiance;
-  Sweep();
-  for (const ElementId leaf : solution_.forest.AllLeaves()) {
-    correction_[leaf] = irradiance[leaf] - solution_.irradiance[leaf];
-    Light(leaf, irradiance[leaf]);
-  }
-  for (std::size_t p = 0; p < scene_.patches.size(); ++p) Pull(ElementForest::Root(static_cast<PatchId>(p)));
+  const std::vector<Rgb> linked = push_pull_->Transport(solution_.radiosity);
+  correction_.assign(solution_.forest.size(), Rgb::Zero());
+  for (const ElementId leaf : push_pull_->leaves())
+    correction_[leaf] = solution_.irradiance[leaf] - linked[leaf];
   for (const Fragment& fragment : solution_.fragments)
-    fragment_offset_.push_back(fragment.irradiance - irradiance[fragment.leaf]);
+    fragment_offset_.push_back(fragment.irradiance - solution_.irradiance[fragment.leaf]);
 }
 
-// Replaces the links by those not dropped and the groups' new ones, ordered by receiver, then source. Returns
-// the old ones.
-LinkSet HierarchicalSolver::Install(std::vector<LinkSet> groups, const std::vector<char>& dropped) {
-  struct Origin {
-    const LinkSet* set;
-    const Link* link;
-  };
-  std::vector<Origin> origins;
-  for (std::size_t i = 0; i < solution_.links.links.size(); ++i)
-    if (dropped.empty() || !dropped[i]) origins.push_back({&solution_.links, &solution_.links.links[i]});
-  for (const LinkSet& set : groups)
-    for (const Link& link : set.links) origins.push_back({&set, &link});
-  std::sort(origins.begin(), origins.end(), [](const Origin& a, const Origin& b) {
-    return std::pair(a.link->receiver, a.link->source) < std::pair(b.link->receiver, b.link->source);
-  });
+HierarchicalSolver::~HierarchicalSolver() = default;
 
-  LinkSet merged;
-  merged.links.reserve(origins.size());
-  for (const Origin& origin : origins) {
-    Link link = *origin.link;
-    const std::span<const PatchId> blockers = origin.set->Blockers(link);
-    link.first_blocker = static_cast<std::uint32_t>(merged.blockers.size());
-    merged.blockers.insert(merged.blockers.end(), blockers.begin(), blockers.end());
-    merged.links.push_back(link);
-  }
-  std::swap(solution_.links, merged);
-  IndexLinks();
-  return merged;
+bool HierarchicalSolver::Settle(double cutoff, IterationReport& report, const ExecutionContext& context) {
+  const Settled settled = penumbra::Settle(*push_pull_, solution_, correction_, options_.scheme,
+                                           options_.acceleration, cutoff, context);
+  report.residual = settled.residual;
+  report.sweeps += settled.sweeps;
+  return !context.Cancelled();
 }
 
-void HierarchicalSolver::IndexLinks() {
-  first_link_.assign(solution_.forest.size() + 1, 0);
-  for (const Link& link : solution_.links.links) ++first_link_[static_cast<std::size_t>(link.receiver) + 1];
-  for (std::size_t e = 0; e < solution_.forest.size(); ++e) first_link_[e + 1] += first_link_[e];
-}
-
-// Forms the groups' links and puts them in the place of those dropped. False if it was cancelled before that.
-bool HierarchicalSolver::Relink(std::span<const Group> groups, const std::vector<char>& dropped,
-                                Snapshot& before, const ExecutionContext& context) {
-  std::vector<LinkSet> formed(groups.size());
-  ParallelFor(groups.size(), kLinkGrain, [&](std::size_t g) {
-    if (!context.Cancelled())
-      formed[g] =
-          FormLinks(solution_.forest, groups[g].receiver, groups[g].candidates, options_.form_factors);
-  });
+// Forms the links of the plan and puts them in their place. False if it was cancelled before that.
+bool HierarchicalSolver::Apply(const RefinementPlan& plan, Snapshot& before,
+                               const ExecutionContext& context) {
+  const std::vector<LinkSet> formed =
+      FormLinkGroups(solution_.forest, plan.groups, options_.form_factors, context);
   if (context.Cancelled()) return false;
-  LinkSet replaced = Install(std::move(formed), dropped);
+  LinkSet replaced = std::exchange(solution_.links, ReplaceLinks(solution_.links, plan.dropped, formed));
   if (!before.links) before.links = std::move(replaced);
   TakeCorrectionsBack();
-  ResizeLight();
+  push_pull_->Update();
   return true;
-}
-
-// Gives elements that are new the light of their parents.
-void HierarchicalSolver::ResizeLight() {
-  const std::size_t before = solution_.radiosity.size(), count = solution_.forest.size();
-  solution_.irradiance.resize(count, Rgb::Zero());
-  solution_.radiosity.resize(count, Rgb::Zero());
-  solution_.radiosity_spread.resize(count, 0);
-  solution_.spread_below.resize(count, 0);
-  gathered_.resize(count, Rgb::Zero());
-  correction_.resize(count, Rgb::Zero());
-  first_link_.resize(count + 1, solution_.links.links.size());
-  for (std::size_t e = before; e < count; ++e) {
-    const ElementId parent = solution_.forest[static_cast<ElementId>(e)].parent;
-    if (parent == kNoElement) continue;
-    solution_.irradiance[e] = solution_.irradiance[parent];
-    solution_.radiosity[e] = solution_.radiosity[parent];
-  }
-}
-
-void HierarchicalSolver::PushPull(ElementId id, const Rgb& from_above) {
-  const Element& element = solution_.forest[id];
-  const Rgb irradiance = from_above + gathered_[id];
-  if (element.IsLeaf()) {
-    Light(id, irradiance + correction_[id]);
-    return;
-  }
-  for (ElementId child = element.first_child; child < element.first_child + 4; ++child)
-    PushPull(child, irradiance);
-  Average(id);
-}
-
-// Averages of what is below.
-void HierarchicalSolver::Pull(ElementId id) {
-  const Element& element = solution_.forest[id];
-  if (element.IsLeaf()) return;
-  for (ElementId child = element.first_child; child < element.first_child + 4; ++child) Pull(child);
-  Average(id);
-}
-
-void HierarchicalSolver::Light(ElementId leaf, const Rgb& irradiance) {
-  const Material& material = scene_.MaterialOf(solution_.forest[leaf].patch);
-  solution_.irradiance[leaf] = irradiance.max(0.0);
-  solution_.radiosity[leaf] = material.emittance + material.reflectance * solution_.irradiance[leaf];
-  solution_.radiosity_spread[leaf] = 0;
-  solution_.spread_below[leaf] = 0;
-}
-
-// The area-weighted means of the children, and how much their leaves vary.
-void HierarchicalSolver::Average(ElementId id) {
-  const Element& element = solution_.forest[id];
-  Rgb irradiance_sum = Rgb::Zero(), radiosity_sum = Rgb::Zero();
-  double area = 0;
-  for (ElementId child = element.first_child; child < element.first_child + 4; ++child) {
-    const double a = solution_.forest[child].area;
-    irradiance_sum += a * solution_.irradiance[child];
-    radiosity_sum += a * solution_.radiosity[child];
-    area += a;
-  }
-  solution_.irradiance[id] = irradiance_sum / area;
-  solution_.radiosity[id] = radiosity_sum / area;
-  double variance = 0, below_variance = 0;
-  for (ElementId child = element.first_child; child < element.first_child + 4; ++child) {
-    const double deviation = (solution_.radiosity[child] - solution_.radiosity[id]).abs().maxCoeff();
-    const double below = solution_.radiosity_spread[child];
-    variance += solution_.forest[child].area * (deviation * deviation + below * below);
-    below_variance += solution_.forest[child].area * below * below;
-  }
-  solution_.spread_below[id] = std::sqrt(below_variance / area);
-  solution_.radiosity_spread[id] = std::sqrt(variance / area);
-}
-
-// The radiosity with which a link's source shines on its receiver: the mean of its children's, by their
-// shares.
-Rgb SourceRadiosity(const RadiositySolution& solution, const Link& link) {
-  const ElementId first = solution.forest[link.source].first_child;
-  if (first == kNoElement) return solution.radiosity[link.source];
-  Rgb radiosity = Rgb::Zero();
-  for (int q = 0; q < 4; ++q)
-    radiosity += static_cast<double>(link.share[static_cast<std::size_t>(q)]) * solution.radiosity[first + q];
-  return radiosity;
-}
-
-// One sweep: gathers over all links from where the light is, as Jacobi. Returns the largest change of a
-// leaf's radiosity, relative to the largest reflected radiosity.
-double HierarchicalSolver::Sweep() {
-  const RadiositySolution& s = solution_;
-  ParallelFor(s.forest.size(), kGatherGrain, [&](std::size_t e) {
-    Rgb sum = Rgb::Zero();
-    for (std::size_t i = first_link_[e]; i < first_link_[e + 1]; ++i)
-      sum += s.links.links[i].form_factor * SourceRadiosity(s, s.links.links[i]);
-    gathered_[e] = sum;
-  });
-  const std::vector<Rgb> before = s.radiosity;
-  ParallelFor(scene_.patches.size(), 1,
-              [&](std::size_t p) { PushPull(ElementForest::Root(static_cast<PatchId>(p)), Rgb::Zero()); });
-  double change = 0, largest = 0;
-  for (std::size_t e = 0; e < before.size(); ++e) {
-    if (!s.forest[static_cast<ElementId>(e)].IsLeaf()) continue;
-    change = std::max(change, (s.radiosity[e] - before[e]).abs().maxCoeff());
-    const Material& material = scene_.MaterialOf(s.forest[static_cast<ElementId>(e)].patch);
-    largest = std::max(largest, (s.radiosity[e] - material.emittance).maxCoeff());
-  }
-  return largest > 0 ? change / largest : 0;
-}
-
-// Sweeps until what is missing is below the cut-off; returns the bound reached. The change of one sweep
-// understates what is missing by 1 / (1 - rho).
-double HierarchicalSolver::SweepToCutoff(IterationReport& report, const ExecutionContext& context) {
-  const double reflectance = MaxReflectance(scene_);
-  const double remaining = reflectance / (1 - reflectance);
-  const std::vector<ElementId> leaves = solution_.forest.AllLeaves();
-  std::vector<double> area;
-  for (const ElementId leaf : leaves) area.push_back(solution_.forest[leaf].area);
-  AndersonAcceleration acceleration(std::move(area));
-  const auto light_of_leaves = [&] {
-    std::vector<Rgb> light;
-    for (const ElementId leaf : leaves) light.push_back(solution_.irradiance[leaf]);
-    return light;
-  };
-  residual_ = 1;
-  for (std::size_t sweep = 0; sweep < kMaxSweeps && !context.Cancelled(); ++sweep) {
-    const std::vector<Rgb> before = light_of_leaves();
-    residual_ = Sweep() * remaining;
-    ++report.sweeps;
-    // What a sweep leaves is bound by its change from wherever it began: a guess need not be good.
-    if (residual_ <= options_.relative_cutoff) break;
-    // The last word is a sweep's.
-    if (!options_.accelerate || context.Cancelled() || sweep + 1 == kMaxSweeps) continue;
-    std::vector<Rgb> guess = light_of_leaves();
-    acceleration.Improve(before, guess);
-    for (std::size_t i = 0; i < leaves.size(); ++i) Light(leaves[i], guess[i]);
-    for (std::size_t p = 0; p < scene_.patches.size(); ++p)
-      Pull(ElementForest::Root(static_cast<PatchId>(p)));
-  }
-  return residual_;
-}
-
-// Splits every link that the oracle rejects, once. Returns how many.
-std::size_t HierarchicalSolver::RefineOnce(Snapshot& before, const ExecutionContext& context) {
-  const std::vector<Link>& links = solution_.links.links;
-  std::vector<Refinement> verdict(links.size());
-  ParallelFor(links.size(), kGatherGrain,
-              [&](std::size_t i) { verdict[i] = oracle_.Judge(solution_, links[i]); });
-
-  std::vector<char> dropped(links.size(), 0);
-  std::size_t split = 0;
-  std::vector<Group> groups;
-  for (std::size_t begin = 0; begin < links.size();) {
-    const ElementId receiver = links[begin].receiver;
-    std::size_t end = begin;
-    std::vector<LinkCandidate> down, here;
-    for (; end < links.size() && links[end].receiver == receiver; ++end) {
-      const Link& link = links[end];
-      if (verdict[end] == Refinement::kAccept) continue;
-      dropped[end] = 1;
-      ++split;
-      const std::span<const PatchId> blockers = solution_.links.Blockers(link);
-      if (verdict[end] == Refinement::kSplitReceiver) {
-        down.push_back({link.source, blockers});
-      } else {
-        const ElementId first = solution_.forest[link.source].first_child;
-        for (ElementId child = first; child < first + 4; ++child) here.push_back({child, blockers});
-      }
-    }
-    if (!down.empty()) {
-      const ElementId first = solution_.forest[receiver].IsLeaf() ? solution_.forest.Subdivide(receiver)
-                                                                  : solution_.forest[receiver].first_child;
-      for (ElementId child = first; child < first + 4; ++child) groups.push_back({child, down});
-    }
-    if (!here.empty()) groups.push_back({receiver, std::move(here)});
-    begin = end;
-  }
-  return split > 0 && Relink(groups, dropped, before, context) ? split : 0;
 }
 
 // What corrected the old leaves says nothing of new ones, or of other light.
 void HierarchicalSolver::TakeCorrectionsBack() {
   solution_.fragments.clear();
   fragment_offset_.clear();
-  std::fill(correction_.begin(), correction_.end(), Rgb::Zero());
-}
-
-void HierarchicalSolver::Balance() {
-  for (std::size_t p = 0; p < scene_.patches.size(); ++p) solution_.forest.Balance(static_cast<PatchId>(p));
-  ResizeLight();
+  correction_.clear();
 }
 
 std::optional<IterationReport> HierarchicalSolver::Iterate(const ExecutionContext& context) {
   const Stopwatch stopwatch;
   Snapshot before = TakeSnapshot();
   IterationReport report;
-  report.residual = SweepToCutoff(report, context);
-  while (!context.Cancelled()) {
-    const std::size_t split = RefineOnce(before, context);
-    report.links_split += split;
-    if (split == 0) break;
+  report.eps = eps_;
+  const double cutoff = std::max(options_.relative_cutoff,
+                                 std::min(kCoarseCutoff, options_.relative_cutoff * eps_ / options_.eps));
+  bool going = Settle(cutoff, report, context);
+  const auto oracle = MakeOracle(options_.oracle, {eps_, options_.min_area, ReferenceArea(scene_)});
+  while (going) {
+    const RefinementPlan plan = PlanRefinement(solution_, *push_pull_, *oracle);
+    if (plan.links_split == 0) break;
+    report.links_split += plan.links_split;
+    going = Apply(plan, before, context);
   }
-  if (report.links_split > 0 && !context.Cancelled()) {
-    Balance();
+  if (going && report.links_split > 0) {
+    for (std::size_t p = 0; p < scene_.patches.size(); ++p) solution_.forest.Balance(static_cast<PatchId>(p));
+    push_pull_->Update();
     // The new links carry light at once, so that what is left is a solution on all of them.
-    report.residual = SweepToCutoff(report, context);
+    going = Settle(cutoff, report, context);
   }
-  if (context.Cancelled()) {
+  if (!going) {
     Restore(std::move(before));
     return std::nullopt;
   }
-  converged_ = report.links_split == 0 && report.residual <= options_.relative_cutoff;
+  converged_ = eps_ == options_.eps && report.links_split == 0 && report.residual <= options_.relative_cutoff;
+  eps_ = std::max(options_.eps, eps_ / kEpsStep);
   report.elements = solution_.forest.size();
   report.links = solution_.links.links.size();
   report.seconds = stopwatch.Seconds();
@@ -396,41 +163,34 @@ std::optional<IterationReport> HierarchicalSolver::Iterate(const ExecutionContex
 
 bool HierarchicalSolver::SubdivideLeaves(std::span<const ElementId> leaves, const ExecutionContext& context) {
   Snapshot before = TakeSnapshot();
-  std::vector<char> dropped(solution_.links.links.size(), 0);
-  std::vector<Group> groups;
-  for (const ElementId leaf : leaves) {
-    if (!solution_.forest[leaf].IsLeaf() || solution_.forest[leaf].level >= kMaxLevel) continue;
-    std::vector<LinkCandidate> own;
-    for (std::size_t i = first_link_[leaf]; i < first_link_[static_cast<std::size_t>(leaf) + 1]; ++i) {
-      const Link& link = solution_.links.links[i];
-      own.push_back({link.source, solution_.links.Blockers(link)});
-      dropped[i] = 1;
-    }
-    const ElementId first = solution_.forest.Subdivide(leaf);
-    for (ElementId child = first; child < first + 4; ++child) groups.push_back({child, own});
+  const RefinementPlan plan = PlanSubdivision(solution_, *push_pull_, leaves);
+  if (solution_.forest.size() == before.elements) return !context.Cancelled();
+  bool going = Apply(plan, before, context);
+  if (going) {
+    for (std::size_t p = 0; p < scene_.patches.size(); ++p) solution_.forest.Balance(static_cast<PatchId>(p));
+    push_pull_->Update();
+    IterationReport ignored;
+    going = Settle(options_.relative_cutoff, ignored, context);
   }
-  IterationReport ignored;
-  if (!groups.empty() && Relink(groups, dropped, before, context)) {
-    Balance();
-    SweepToCutoff(ignored, context);
+  if (going)
     converged_ = false;
-  }
-  if (!context.Cancelled()) return true;
-  Restore(std::move(before));
-  return false;
+  else
+    Restore(std::move(before));
+  return going;
 }
 
 bool HierarchicalSolver::Relight(const ExecutionContext& context) {
   Snapshot before = TakeSnapshot();
   TakeCorrectionsBack();
-  for (const ElementId leaf : solution_.forest.AllLeaves()) Light(leaf, solution_.irradiance[leaf]);
-  for (std::size_t p = 0; p < scene_.patches.size(); ++p) Pull(ElementForest::Root(static_cast<PatchId>(p)));
+  for (const ElementId leaf : push_pull_->leaves()) push_pull_->Light(leaf, solution_.irradiance[leaf]);
+  push_pull_->Pull();
   IterationReport ignored;
-  SweepToCutoff(ignored, context);
+  if (!Settle(options_.relative_cutoff, ignored, context)) {
+    Restore(std::move(before));
+    return false;
+  }
   converged_ = false;
-  if (!context.Cancelled()) return true;
-  Restore(std::move(before));
-  return false;
+  return true;
 }
 
 std::optional<double> HierarchicalSolver::Correct(LeafSampling sampling, const ExecutionContext& context) {
@@ -440,7 +200,7 @@ std::optional<double> HierarchicalSolver::Correct(LeafSampling sampling, const E
     fragment_offset_.assign(solution_.fragments.size(), Rgb::Zero());
     LightFragments();
   }
-  const std::vector<ElementId> leaves = solution_.forest.AllLeaves();
+  const std::span<const ElementId> leaves = push_pull_->leaves();
   const PointIrradiance irradiance(solution_, visibility_);
   std::vector<LeafIrradiance> exact(leaves.size());
   ParallelFor(leaves.size(), kExactGrain, [&](std::size_t i) {
@@ -451,6 +211,7 @@ std::optional<double> HierarchicalSolver::Correct(LeafSampling sampling, const E
     return std::nullopt;
   }
 
+  correction_.resize(solution_.forest.size(), Rgb::Zero());
   double squares = 0, mean = 0, area = 0;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     const ElementId leaf = leaves[i];
@@ -467,8 +228,7 @@ std::optional<double> HierarchicalSolver::Correct(LeafSampling sampling, const E
       fragment_offset_[first + f] = exact[i].fragments[f] - exact[i].mean;
   }
   IterationReport ignored;
-  SweepToCutoff(ignored, context);
-  if (context.Cancelled()) {
+  if (!Settle(options_.relative_cutoff, ignored, context)) {
     Restore(std::move(before));
     return std::nullopt;
   }
@@ -503,6 +263,26 @@ void HierarchicalSolver::LightFragments() {
     fragment.irradiance = (solution_.irradiance[fragment.leaf] + fragment_offset_[i]).max(0.0);
     fragment.radiosity = material.emittance + material.reflectance * fragment.irradiance;
   }
+}
+
+std::vector<Rgb> HierarchicalSolver::MeanIrradianceByBounce(int bounces) const {
+  const ElementForest& forest = solution_.forest;
+  std::vector<Rgb> radiosity(forest.size()), means;
+  for (std::size_t e = 0; e < forest.size(); ++e)
+    radiosity[e] = scene_.MaterialOf(forest.elements()[e].patch).emittance;
+  for (int bounce = 0; bounce < bounces; ++bounce) {
+    radiosity = push_pull_->Transport(radiosity);
+    Rgb sum = Rgb::Zero();
+    double area = 0;
+    for (std::size_t p = 0; p < scene_.patches.size(); ++p) {
+      sum += scene_.patches[p].area * radiosity[p];
+      area += scene_.patches[p].area;
+    }
+    means.push_back(area > 0 ? Rgb(sum / area) : Rgb::Zero());
+    for (std::size_t e = 0; e < forest.size(); ++e)
+      radiosity[e] *= scene_.MaterialOf(forest.elements()[e].patch).reflectance;
+  }
+  return means;
 }
 
 bool HierarchicalSolver::CorrectAll(const ExecutionContext& context) {

@@ -20,6 +20,9 @@
 #include "solver/transport/leaf_irradiance.h"
 #include "solver/transport/link_former.h"
 #include "solver/transport/oracle.h"
+#include "solver/transport/push_pull.h"
+#include "solver/transport/refinement.h"
+#include "solver/transport/settling.h"
 #include "solver/transport/solution.h"
 #include "solver/visibility/patch_visibility.h"
 
@@ -31,14 +34,19 @@ struct SolverOptions {
   // Converged when no radiosity is farther off, relative to the largest reflected one (Appendix A, 7).
   double relative_cutoff = 1e-4;
   int max_iterations = 100;  // each gathers until it settles, then refines
-  // Guess ahead from one sweep to the next (AndersonAcceleration); plain Jacobi sweeps otherwise.
-  bool accelerate = true;
+  IterationScheme scheme = IterationScheme::kJacobi;
+  Acceleration acceleration = Acceleration::kAnderson;
+  OracleKind oracle = OracleKind::kTransport;
+  // Refine by a larger eps first, lowered from one iteration to the next (Hanrahan, Salzman and Aupperle
+  // 1991).
+  bool multigrid = false;
   LinkFormFactors form_factors = LinkFormFactors::kCubature;
   int max_corrections = 2;  // passes of exact irradiance over the leaves; 0: links alone, as in the thesis
 };
 
 struct IterationReport {
   double residual = 0;  // bound of what is missing from any radiosity, relative to the largest reflected one
+  double eps = 0;       // by which links were judged [W/m^2]
   std::size_t elements = 0, links = 0;
   std::size_t sweeps = 0;  // gathers with push-pull
   std::size_t links_split = 0;
@@ -52,6 +60,9 @@ class HierarchicalSolver {
   // Goes on from a solution of the same scene: its links and its light, corrections included.
   HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
                      RadiositySolution solution);
+  ~HierarchicalSolver();
+  HierarchicalSolver(const HierarchicalSolver&) = delete;
+  HierarchicalSolver& operator=(const HierarchicalSolver&) = delete;
 
   // The steps. Each leaves the solution as it was if it is cancelled.
 
@@ -87,42 +98,32 @@ class HierarchicalSolver {
   // cancelled run leaves the solution of the last whole step. Returns the whole iterations.
   std::vector<IterationReport> Solve(const ExecutionContext& context);
 
+  // The mean irradiance of the fronts by bounce [W/m^2], over the links, uncorrected: first what comes from
+  // the emitters, then what that brings when it is reflected once, and so on.
+  std::vector<Rgb> MeanIrradianceByBounce(int bounces) const;
+
   bool Converged() const { return converged_; }
   const RadiositySolution& solution() const { return solution_; }
   RadiositySolution TakeSolution() && { return std::move(solution_); }
 
  private:
-  struct Group;     // new links of one receiver
   struct Snapshot;  // what a step that is cancelled goes back to
   Snapshot TakeSnapshot() const;
   void Restore(Snapshot snapshot);
 
-  double Sweep();
-  double SweepToCutoff(IterationReport& report, const ExecutionContext& context);
-  std::size_t RefineOnce(Snapshot& before, const ExecutionContext& context);
+  bool Settle(double cutoff, IterationReport& report, const ExecutionContext& context);
+  bool Apply(const RefinementPlan& plan, Snapshot& before, const ExecutionContext& context);
   void TakeCorrectionsBack();
-  void Balance();
-  LinkSet Install(std::vector<LinkSet> groups, const std::vector<char>& dropped);
-  void IndexLinks();
-  bool Relink(std::span<const Group> groups, const std::vector<char>& dropped, Snapshot& before,
-              const ExecutionContext& context);
-  void ResizeLight();
-  void PushPull(ElementId element, const Rgb& from_above);
-  void Light(ElementId leaf, const Rgb& irradiance);
-  void Average(ElementId element);
-  void Pull(ElementId element);
   void LightFragments();
 
   const Scene& scene_;
   const PatchVisibility& visibility_;
   SolverOptions options_;
-  TransportOracle oracle_;
+  double eps_;  // of the next iteration
   RadiositySolution solution_;
-  std::vector<std::size_t> first_link_;  // per element, into links
-  std::vector<Rgb> gathered_;            // per element: over its own links [W/m^2]
-  std::vector<Rgb> correction_;          // per leaf: exact less linked irradiance [W/m^2]
-  std::vector<Rgb> fragment_offset_;     // per fragment: exact irradiance less its leaf's [W/m^2]
-  double residual_ = 1;                  // of the last sweep
+  std::unique_ptr<PushPull> push_pull_;
+  std::vector<Rgb> correction_;       // per element: exact less linked irradiance of leaves [W/m^2]
+  std::vector<Rgb> fragment_offset_;  // per fragment: exact irradiance less its leaf's [W/m^2]
   bool converged_ = false;
 };
 

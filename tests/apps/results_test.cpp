@@ -499,5 +499,65 @@ TEST(FormFactor, NamesWhatIsMissing) {
   }
 }
 
+// Steps, schemes, oracles, limits, bounces and changed materials, as a user asks for them: the report tells
+// them.
+TEST(Solve, OptionsOfTheSolver) {
+  const Sandbox sandbox;
+  const auto solve = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"solve",          "furnace", "--error",  "0.2",
+                                          "--error-points", "0",       "--report", "report.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = sandbox.Run(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return json::parse(ReadBytes(sandbox.Path("report.json")));
+  };
+  const json one = solve({"--iterations", "1"});
+  EXPECT_EQ(one["iterations"].size(), 1U);
+  EXPECT_GT(one["iterations"][0]["residual"].get<double>(), 0);
+  ASSERT_GE(one["unmet"].size(), 1U);
+  EXPECT_THAT(one["unmet"][0].get<std::string>(), HasSubstr("1 iterations"));
+
+  // In the furnace every bounce brings half of the last one.
+  const json bounces =
+      solve({"--bounces", "3", "--scheme", "gauss-seidel", "--oracle", "gradient", "--multigrid"});
+  ASSERT_EQ(bounces["diagnostics"]["bounces"].size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(bounces["diagnostics"]["bounces"][k][0].get<double>(), std::pow(0.5, k + 1), 0.01);
+  EXPECT_EQ(bounces["options"]["oracle"], "gradient");
+  EXPECT_EQ(bounces["options"]["scheme"], "gauss-seidel");
+  EXPECT_GT(bounces["iterations"][0]["eps"].get<double>(), bounces["options"]["eps"].get<double>());
+  EXPECT_NEAR(bounces["diagnostics"]["closure"]["mean"].get<double>(), 1, 0.01);
+  EXPECT_EQ(bounces["diagnostics"]["open"]["escaping"].get<double>(), 0);
+
+  const json limited = solve({"--time-limit", "1e-9"});
+  ASSERT_GE(limited["unmet"].size(), 1U);
+  EXPECT_THAT(limited["unmet"][0].get<std::string>(), HasSubstr("time limit"));
+  EXPECT_EQ(limited["iterations"].size(), 0U);
+
+  EXPECT_EQ(sandbox.Run({"solve", "furnace", "--emittance", "no such thing=1,1,1"}).status, 2);
+  EXPECT_EQ(sandbox.Run({"solve", "furnace", "--emittance", "glow=-1,1,1"}).status, 2);
+  EXPECT_EQ(sandbox.Run({"solve", "furnace", "--reflectance", "glow=1,0,0"}).status, 2);
+  EXPECT_EQ(sandbox.Run({"solve", "furnace", "--oracle", "delphi"}).status, 2);
+}
+
+// Other materials on the command line are those that the light is worked out with.
+TEST(Solve, ChangedMaterials) {
+  const Sandbox sandbox;
+  sandbox.Write("squares.obj", kParallelSquares);
+  sandbox.Write("squares.mtl", kSquaresMaterials);
+  sandbox.Write("points.csv", "x,y,z,nx,ny,nz\n0.5,0.5,0,0,0,1\n");
+  const auto red = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"probe", "squares.obj", "--points", "points.csv", "--error", "0.5"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = sandbox.Run(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return Numbers(Lines(outcome.out).at(1))[7];
+  };
+  const double light = std::numbers::pi * CentreFormFactor();
+  EXPECT_NEAR(red({}), light, 1e-12);
+  EXPECT_NEAR(red({"--emittance", "light=3,0,0"}), 3 * CentreFormFactor(), 1e-12);
+  EXPECT_GT(red({"--reflectance", "light=0.9,0,0"}), 1.01 * light);
+}
+
 }  // namespace
 }  // namespace penumbra

@@ -435,7 +435,7 @@ TEST(HierarchicalSolver, AccelerationSavesSweeps) {
     options.relative_cutoff = 1e-6;
     options.max_corrections = 0;
     for (const std::size_t accelerated : {0U, 1U}) {
-      options.accelerate = accelerated == 1;
+      options.acceleration = accelerated == 1 ? Acceleration::kAnderson : Acceleration::kNone;
       HierarchicalSolver solver(scene, visibility, options);
       for (const IterationReport& report : solver.Solve(ExecutionContext()))
         sweeps[accelerated] += report.sweeps;

@@ -1,0 +1,112 @@
+#include "solver/transport/diagnostics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solver/base/parallel.h"
+#include "solver/scene/tolerances.h"
+#include "solver/transport/diffuse_rays.h"
+#include "solver/visibility/ray_caster.h"
+
+namespace penumbra {
+namespace {
+
+const Link* FindLink(const std::vector<Link>& links, ElementId receiver, ElementId source) {
+  const auto found = std::lower_bound(links.begin(), links.end(), std::pair(receiver, source),
+                                      [](const Link& link, const std::pair<ElementId, ElementId>& key) {
+                                        return std::pair(link.receiver, link.source) < key;
+                                      });
+  return found != links.end() && found->receiver == receiver && found->source == source ? &*found : nullptr;
+}
+
+}  // namespace
+
+LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution) {
+  const Scene& scene = solution.forest.scene();
+  LinkDiagnostics diagnostics;
+  diagnostics.closure.assign(scene.patches.size(), 0);
+  // What a unit of radiosity sends between two patches, the lower number first: one way, and less the other.
+  struct Exchange {
+    PatchId first, second;
+    double difference;
+  };
+  std::vector<Exchange> exchanges;
+  for (const Link& link : solution.links.links) {
+    const Element& receiver = solution.forest[link.receiver];
+    const Element& source = solution.forest[link.source];
+    const double flux = receiver.area * link.form_factor;
+    diagnostics.closure[static_cast<std::size_t>(receiver.patch)] += flux;
+    const bool forth = receiver.patch < source.patch;
+    exchanges.push_back({std::min(receiver.patch, source.patch), std::max(receiver.patch, source.patch),
+                         forth ? flux : -flux});
+    if (!forth) continue;
+    const Link* back = FindLink(solution.links.links, link.source, link.receiver);
+    if (!back) continue;
+    ++diagnostics.link_pairs;
+    diagnostics.link_reciprocity =
+        std::max(diagnostics.link_reciprocity,
+                 std::abs(flux - source.area * back->form_factor) / std::min(receiver.area, source.area));
+  }
+  std::stable_sort(exchanges.begin(), exchanges.end(), [](const Exchange& a, const Exchange& b) {
+    return std::pair(a.first, a.second) < std::pair(b.first, b.second);
+  });
+  for (std::size_t begin = 0, end = 0; begin < exchanges.size(); begin = end) {
+    const Exchange& pair = exchanges[begin];
+    double difference = 0;
+    for (;
+         end < exchanges.size() && exchanges[end].first == pair.first && exchanges[end].second == pair.second;
+         ++end)
+      difference += exchanges[end].difference;
+    ++diagnostics.patch_pairs;
+    diagnostics.patch_reciprocity = std::max(
+        diagnostics.patch_reciprocity,
+        std::abs(difference) / std::min(scene.patches[pair.first].area, scene.patches[pair.second].area));
+  }
+  if (scene.patches.empty()) return diagnostics;
+  double flux = 0, area = 0;
+  for (std::size_t p = 0; p < scene.patches.size(); ++p) {
+    flux += diagnostics.closure[p];
+    area += scene.patches[p].area;
+    diagnostics.closure[p] /= scene.patches[p].area;
+  }
+  const auto [least, most] = std::minmax_element(diagnostics.closure.begin(), diagnostics.closure.end());
+  diagnostics.closure_min = *least;
+  diagnostics.closure_max = *most;
+  diagnostics.closure_mean = flux / area;
+  return diagnostics;
+}
+
+ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch, std::uint64_t seed) {
+  ViewDiagnostics diagnostics;
+  if (scene.patches.empty() || rays_per_patch == 0) return diagnostics;
+  const RayCaster caster(scene);
+  const double lift = ContactGap(scene);
+  std::vector<std::size_t> away(scene.patches.size()), back(scene.patches.size());
+  ParallelFor(scene.patches.size(), 8, [&](std::size_t p) {
+    const Patch& patch = scene.patches[p];
+    for (std::size_t i = 0; i < rays_per_patch; ++i) {
+      const DiffuseRay ray =
+          MakeDiffuseRay(patch.Vertices(), patch.normal, lift, p * rays_per_patch + i, seed);
+      const RayCaster::Hit hit = caster.Cast(ray.origin, ray.direction, static_cast<PatchId>(p));
+      ++(hit.patch == kNoPatch ? away : back)[p];
+      if (hit.patch != kNoPatch && hit.front) --back[p];
+    }
+  });
+  double area = 0;
+  for (std::size_t p = 0; p < scene.patches.size(); ++p) {
+    area += scene.patches[p].area;
+    diagnostics.escaping += scene.patches[p].area * static_cast<double>(away[p]);
+    if (back[p] == rays_per_patch)
+      diagnostics.reversed_faces.insert(diagnostics.reversed_faces.end(), scene.patches[p].faces.begin(),
+                                        scene.patches[p].faces.end());
+  }
+  diagnostics.rays = scene.patches.size() * rays_per_patch;
+  diagnostics.escaping /= area * static_cast<double>(rays_per_patch);
+  std::vector<std::int32_t>& reversed = diagnostics.reversed_faces;
+  std::sort(reversed.begin(), reversed.end());
+  reversed.erase(std::unique(reversed.begin(), reversed.end()), reversed.end());
+  return diagnostics;
+}
+
+}  // namespace penumbra

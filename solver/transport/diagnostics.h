@@ -1,0 +1,41 @@
+// solver/transport/diagnostics.h
+//
+// What tells whether a scene and its links are sound: whether form factors add up, whether both links of a
+// pair agree, whether light can leave, whether a face looks the wrong way. Nothing here changes anything.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "solver/transport/solution.h"
+
+namespace penumbra {
+
+struct LinkDiagnostics {
+  // Per patch: the area-weighted sum of the form factors of all links that end in its tree [1]. In a closed
+  // scene it is 1, but for the error of the links; of a patch that is partly covered, its free share.
+  std::vector<double> closure;
+  double closure_min = 0, closure_max = 0;
+  double closure_mean = 0;  // weighted by area
+
+  // Reciprocity: |A1 F12 - A2 F21| / min(A1, A2) [1], of pairs of links between the same two elements (links
+  // are split one way at a time, so that few have such a counterpart), and of all pairs of patches, each with
+  // the sum over the links from one tree to the other.
+  std::size_t link_pairs = 0, patch_pairs = 0;
+  double link_reciprocity = 0, patch_reciprocity = 0;  // the worst
+};
+LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution);
+
+struct ViewDiagnostics {
+  std::size_t rays = 0;
+  double escaping = 0;  // share of what leaves the fronts, evenly and diffusely, that meets nothing
+  // Faces whose fronts see nothing but backs, by number: their vertices may run the wrong way.
+  std::vector<std::int32_t> reversed_faces;
+};
+// Sends as many rays from each patch, by a low-discrepancy rule, cosine distributed. Deterministic for a
+// given seed.
+ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch = 64, std::uint64_t seed = 1);
+
+}  // namespace penumbra

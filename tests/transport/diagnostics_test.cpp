@@ -1,0 +1,86 @@
+// What tells whether scenes and links are sound.
+
+#include "solver/transport/diagnostics.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/transport/transport_test_tools.h"
+
+namespace penumbra::scene_test {
+namespace {
+
+// In a closed box form factors add up to 1 and links agree with their counterparts, the better the finer they
+// are; what leaves an open box is what its missing wall would have received.
+TEST(DiagnoseLinks, ClosureOfBoxes) {
+  Scene box;
+  const std::int32_t wall = AddMaterial(box, 0.5, 1);
+  AddBox(box, Vec3::Zero(), Vec3::Ones(), true, wall);
+  double last = 1;
+  for (const double eps : {0.5, 0.1}) {
+    const LinkDiagnostics links = DiagnoseLinks(Solved(box, eps));
+    double worst = 0;
+    for (const double closure : links.closure) worst = std::max(worst, std::abs(closure - 1));
+    EXPECT_EQ(worst, std::max(links.closure_max - 1, 1 - links.closure_min));
+    EXPECT_EQ(links.patch_pairs, 15U);
+    std::printf("eps %.2f: closure off by %.2g, patches not reciprocal by %.2g at worst, links by %.2g\n",
+                eps, worst, links.patch_reciprocity, links.link_reciprocity);
+    EXPECT_LE(links.patch_reciprocity, 2e-5);
+    EXPECT_LT(worst, last);
+    last = worst;
+  }
+  // Gauss points near common edges, 4 x 16 of them to an element, leave some millionths.
+  EXPECT_LE(last, 2e-5);
+
+  Scene open = box;
+  open.patches.erase(open.patches.begin() + 1);
+  const LinkDiagnostics links = DiagnoseLinks(Solved(open, 0.2));
+  // Opposite squares of a cube see 0.1998 of each other, neighbours 0.2000.
+  for (const double closure : links.closure) EXPECT_NEAR(closure, 0.8, 2e-3);
+}
+
+// Links that are lit from one side only are found: a form factor that is changed breaks reciprocity by as
+// much.
+TEST(DiagnoseLinks, FindsAPairThatDisagrees) {
+  Scene box;
+  AddMaterial(box, 0.5, 1);
+  AddBox(box, Vec3::Zero(), Vec3::Ones(), true, 0);
+  RadiositySolution solution = Solved(box, 10);
+  const LinkDiagnostics before = DiagnoseLinks(solution);
+  ASSERT_GT(before.link_pairs, 0U);
+  solution.links.links[3].form_factor += 0.25;
+  const LinkDiagnostics after = DiagnoseLinks(solution);
+  EXPECT_NEAR(after.link_reciprocity, 0.25, before.link_reciprocity + 1e-12);
+  EXPECT_NEAR(after.patch_reciprocity, 0.25, before.patch_reciprocity + 1e-12);
+  EXPECT_GT(after.closure_max, 1.2);
+}
+
+// Of a closed room nothing escapes; of a lone square everything does; a box turned inside out sees nothing
+// but backs, and its faces are told.
+TEST(DiagnoseViews, OpenAndReversed) {
+  Scene room;
+  AddMaterial(room, 0.5, 1);
+  AddBox(room, Vec3::Zero(), {4, 3, 2}, true, 0);
+  for (std::size_t p = 0; p < room.patches.size(); ++p)
+    room.patches[p].faces = {static_cast<std::int32_t>(p)};
+  EXPECT_EQ(DiagnoseViews(room).escaping, 0);
+  EXPECT_TRUE(DiagnoseViews(room).reversed_faces.empty());
+
+  Scene square = room;
+  square.patches.resize(1);
+  EXPECT_EQ(DiagnoseViews(square).escaping, 1);
+  EXPECT_TRUE(DiagnoseViews(square).reversed_faces.empty());
+
+  Scene reversed = room;
+  Patch& wall = reversed.patches[2];
+  const std::vector<Vec3> back(wall.Vertices().rbegin(), wall.Vertices().rend());
+  wall = MakePatch(back, 0, 0, {2});
+  EXPECT_TRUE(DiagnoseViews(reversed).reversed_faces.empty()) << "outside it sees the sky";
+  AddBox(reversed, {-1, -1, -1}, {5, 4, 3}, false, 0);
+  EXPECT_EQ(DiagnoseViews(reversed).reversed_faces, std::vector<std::int32_t>({2}));
+  EXPECT_EQ(DiagnoseViews(Scene()).rays, 0U);
+}
+
+}  // namespace
+}  // namespace penumbra::scene_test
