@@ -35,6 +35,10 @@ constexpr Choice<OracleKind> kOracles[] = {{"transport", OracleKind::kTransport}
                                            {"gradient", OracleKind::kGradient},
                                            {"thesis", OracleKind::kThesis}};
 
+constexpr Choice<RefineBy> kRefinements[] = {{"transport", RefineBy::kTransport},
+                                             {"representation", RefineBy::kRepresentation},
+                                             {"both", RefineBy::kBoth}};
+
 constexpr std::array<NamedValue<DiscontinuityChoice>, 5> kDiscontinuityChoices = {
     {{"ranked", DiscontinuityChoice::kRanked},
      {"adaptive", DiscontinuityChoice::kAdaptive},
@@ -74,6 +78,14 @@ void RefuseSceneOptions(const SceneArguments& arguments) {
           option->get_name(), option->get_group() == kSceneGroup ? "read" : "solved", arguments.scene));
 }
 
+// The scene that was named, with the materials that were changed.
+Scene ReadChangedScene(const SceneArguments& arguments) {
+  Scene scene = ReadNamedScene(arguments.scene, arguments.reading);
+  ChangeMaterials(arguments.emittance, &Material::emittance, scene);
+  ChangeMaterials(arguments.reflectance, &Material::reflectance, scene);
+  return scene;
+}
+
 LoadedScene ReadSolution(const SceneArguments& arguments) {
   RefuseSceneOptions(arguments);
   const std::string& path = arguments.scene;
@@ -93,11 +105,7 @@ LoadedScene ReadSolution(const SceneArguments& arguments) {
         fmt::format("{}: error: its options or its report cannot be read: {}", path, error.what()));
   }
   return loaded;
-  std::map<std::string, RefineBy> RefineNames() {
-    return {{"transport", RefineBy::kTransport},
-            {"representation", RefineBy::kRepresentation},
-            {"both", RefineBy::kBoth}};
-  }
+}
 
 }  // namespace
 
@@ -171,11 +179,9 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
   AddInteger(app, "--error-samples", &solving->error_samples, 1, kMaxErrorSamples,
              "Measure a triangle of the mesh at N x N points to decide whether it is fine enough")
       ->group(group);
-  app.add_option("--refine", solving->refine,
-                 "Refine by the error of links alone (transport), by that of what is shown over a coarse "
-                 "solution (representation), or by both (default)")
-      ->transform(CLI::CheckedTransformer(RefineNames(), CLI::ignore_case))
-      ->type_name("transport|representation|both")
+  AddChoice(app, "--refine", &solving->refine, kRefinements,
+            "Refine by the error of links alone (transport), by that of what is shown over a coarse solution "
+            "(representation), or by both")
       ->group(group);
   AddNumber(app, "--relative-cutoff", &solving->relative_cutoff, kPositive,
             "Iterate until no radiosity is farther off, relative to the largest (default: follows from "
@@ -302,8 +308,7 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["max_leaf_dsets"] = mesh.max_leaf_dsets;
     options["keep_hidden_discontinuities"] = mesh.keep_hidden;
     options["error_samples"] = arguments.solving.error_samples;
-    for (const auto& [name, refine] : RefineNames())
-      if (refine == arguments.solving.refine) options["refine"] = name;
+    options["refine"] = ChoiceName(kRefinements, arguments.solving.refine);
     options["corrections"] = resolved->solver.max_corrections;
     options["acceleration"] = resolved->solver.acceleration == Acceleration::kAnderson;
     options["scheme"] = ChoiceName(kSchemes, resolved->solver.scheme);
@@ -352,7 +357,7 @@ PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   solving.discontinuities = ValueOf(options.value("discontinuities", "ranked"), kDiscontinuityChoices);
   solving.keep_hidden_discontinuities = options.value("keep_hidden_discontinuities", false);
   options.at("error_samples").get_to(solving.error_samples);
-  solving.refine = RefineNames().at(options.at("refine").get<std::string>());
+  solving.refine = ChoiceValue(kRefinements, options.at("refine").get<std::string>());
   options.at("corrections").get_to(solving.max_corrections);
   solving.acceleration =
       options.at("acceleration").get<bool>() ? Acceleration::kAnderson : Acceleration::kNone;
@@ -365,18 +370,18 @@ PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   if (options.contains("memory_limit")) solving.memory_limit = options["memory_limit"].get<double>();
   options.at("bounces").get_to(solving.bounces);
   if (options.at("form_factors") == "exact") solving.form_factors = LinkFormFactors::kExact;
+  if (options.at("solver") == "dense") {
+    const std::string basis = options.at("basis").get<std::string>();
+    solving.dense.emplace();
+    solving.dense->degree = basis == "constant" ? BasisDegree::kConstant
+                            : basis == "linear" ? BasisDegree::kLinear
+                                                : BasisDegree::kQuadratic;
+    options.at("divisions").get_to(solving.divisions);
+  }
   options.at("nudge").get_to(solving.point.nudge);
   options.at("source_push_off").get_to(solving.point.source_push_off);
   options.at("error_points").get_to(solving.error_points);
   return solving;
-}
-
-// The scene that was named, with the materials that were changed.
-static Scene ReadChangedScene(const SceneArguments& arguments) {
-  Scene scene = ReadNamedScene(arguments.scene, arguments.reading);
-  ChangeMaterials(arguments.emittance, &Material::emittance, scene);
-  ChangeMaterials(arguments.reflectance, &Material::reflectance, scene);
-  return scene;
 }
 
 LoadedScene LoadScene(const SceneArguments& arguments) {

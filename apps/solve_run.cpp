@@ -58,6 +58,9 @@ SolveRun::SolveRun(const SceneArguments& arguments, LoadedScene& loaded,
 void SolveRun::Run(std::optional<MeshKind> kind, bool measure) {
   RunInterruptible([&](const ExecutionContext& context) {
     if (!stored_) pipeline_.Solve(context);
+    // What interpolants show refines the sources, which are the same whatever is made of them.
+    const bool refines = !arguments_.solving.dense && arguments_.solving.refine != RefineBy::kTransport;
+    if (!stored_ && refines && !context.Cancelled()) pipeline_.BuildMesh(MeshKind::kInterpolant, context);
     if (!context.Cancelled() && kind) pipeline_.BuildMesh(*kind, context);
     if (!stored_ && !context.Cancelled() && kind && measure) pipeline_.Measure(context);
   });

@@ -246,8 +246,7 @@ bool HierarchicalSolver::CorrectTo(std::span<const Rgb> irradiance, std::vector<
   for (const Fragment& fragment : solution_.fragments)
     fragment_offset_.push_back(fragment.irradiance - irradiance[static_cast<std::size_t>(fragment.leaf)]);
   IterationReport ignored;
-  SweepToCutoff(ignored, context);
-  if (context.Cancelled()) {
+  if (!Settle(options_.relative_cutoff, ignored, context)) {
     Restore(std::move(before));
     return false;
   }
