@@ -239,6 +239,7 @@ std::optional<double> HierarchicalSolver::Correct(LeafSampling sampling, const E
 bool HierarchicalSolver::CorrectTo(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
                                    const ExecutionContext& context) {
   Snapshot before = TakeSnapshot();
+  correction_.resize(solution_.forest.size(), Rgb::Zero());
   for (const ElementId leaf : solution_.forest.AllLeaves())
     correction_[leaf] += irradiance[static_cast<std::size_t>(leaf)] - solution_.irradiance[leaf];
   solution_.fragments = std::move(fragments);

@@ -134,14 +134,14 @@ TEST(Refinement, OraclesAgreeAboutTheLight) {
     RadiositySolution solution = solver.solution();
     return solution;
   };
-  const RadiositySolution fine = solved(OracleKind::kTransport, 0.04, false);
+  const RadiositySolution fine = solved(OracleKind::kTransport, 0.02, false);
   double largest = 0;
   for (std::size_t p = 0; p < scene.patches.size(); ++p)
     largest = std::max(largest, fine.irradiance[p].maxCoeff());
   for (const auto& [oracle, name] : kOracles)
     for (const bool multigrid : {false, true}) {
       if (multigrid && oracle != OracleKind::kTransport) continue;
-      const double eps = 0.08;
+      const double eps = 0.04;
       const RadiositySolution coarse = solved(oracle, 4 * eps, multigrid);
       const RadiositySolution solution = solved(oracle, eps, multigrid);
       double worst = 0;
