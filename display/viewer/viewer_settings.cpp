@@ -131,8 +131,6 @@ void Viewer::AddSolveSettings() {
   also(s.Choice("oracle", "Solving", "Refinement of links", &o.oracle,
                 {"transport", "visibility", "gradient", "thesis"}));
   also(s.Toggle("multigrid", "Solving", "Coarse links first", &o.multigrid));
-  also(s.Choice("refine", "Solving", "Refinement of the mesh", &o.refine,
-                {"transport", "representation", "both"}));
   also(s.Number("nudge", "Solving", "Nudge of points in contact [m]", &o.point.nudge, 0, 1e6, false));
   also(s.Number("source-push-off", "Solving", "Push-off of sources [m]", &o.point.source_push_off, 0, 1e6,
                 false));

@@ -13,7 +13,12 @@
 namespace penumbra::viewer {
 namespace {
 
-PipelineOptions Loose() { return viewer_test::Options(false).solving; }
+// The session does not refine by what is shown.
+PipelineOptions Loose() {
+  PipelineOptions options = viewer_test::Options(false).solving;
+  options.refine = RefineBy::kTransport;
+  return options;
+}
 
 // Waits until the session rests; half a minute at most.
 bool Rest(const SolverSession& session) {
