@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <functional>
@@ -100,18 +99,6 @@ CLI::Option* AddVector(CLI::App& app, const std::string& name, std::optional<Vec
     return value.has_value();
   };
   return AddRead(app, name, "x,y,z", "three numbers, x,y,z", help, read);
-}
-
-CLI::Option* AddWord(CLI::App& app, const std::string& name, const std::vector<std::string>& words,
-                     const std::string& help, const std::function<void(std::size_t)>& take) {
-  const auto read = [=](const std::string& text) {
-    const auto found = std::find(words.begin(), words.end(), text);
-    if (found == words.end()) return false;
-    take(static_cast<std::size_t>(found - words.begin()));
-    return true;
-  };
-  return AddRead(app, name, "WORD", fmt::format("one of {}", fmt::join(words, ", ")),
-                 fmt::format("{}: {}", help, fmt::join(words, ", ")), read);
 }
 
 }  // namespace penumbra

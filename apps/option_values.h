@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "solver/base/check.h"
@@ -69,9 +70,9 @@ Value ChoiceValue(const Choice<Value> (&choices)[kCount], const std::string& nam
   throw InputError("no such choice: " + name);
 }
 
-// `NAME A|B|...`, one of the choices.
-template <class Value, std::size_t kCount>
-CLI::Option* AddChoice(CLI::App& app, const std::string& name, Value* target,
+// `NAME A|B|...`, one of the choices; the target is of their type, or optional.
+template <class Target, class Value, std::size_t kCount>
+CLI::Option* AddChoice(CLI::App& app, const std::string& name, Target* target,
                        const Choice<Value> (&choices)[kCount], const std::string& help) {
   std::string names;
   for (const Choice<Value>& choice : choices) names += (names.empty() ? "" : "|") + std::string(choice.name);
@@ -80,48 +81,13 @@ CLI::Option* AddChoice(CLI::App& app, const std::string& name, Value* target,
       if (text == choice->name) return void(*target = choice->value);
     throw CLI::ValidationError(name, "'" + text + "' is not one of " + names);
   };
-  return app.add_option_function<std::string>(name, read, help)
-      ->type_name(names)
-      ->default_str(ChoiceName(choices, *target));
+  CLI::Option* option = app.add_option_function<std::string>(name, read, help)->type_name(names);
+  if constexpr (std::is_same_v<Target, Value>) option->default_str(ChoiceName(choices, *target));
+  return option;
 }
 
 // `NAME x,y,z`, three numbers.
 CLI::Option* AddVector(CLI::App& app, const std::string& name, std::optional<Vec3>* target,
                        const std::string& help);
-
-// A value and its word on the command line.
-template <class Value>
-struct NamedValue {
-  const char* name;
-  Value value;
-};
-
-// `NAME WORD`, one of the words; take(i) is called with the number of the one that was given.
-CLI::Option* AddWord(CLI::App& app, const std::string& name, const std::vector<std::string>& words,
-                     const std::string& help, const std::function<void(std::size_t)>& take);
-
-// The same for values with names; the target is of their type, or optional.
-template <class Target, class Value, std::size_t kSize>
-CLI::Option* AddChoice(CLI::App& app, const std::string& name, Target* target,
-                       const std::array<NamedValue<Value>, kSize>& values, const std::string& help) {
-  std::vector<std::string> words;
-  for (const NamedValue<Value>& value : values) words.emplace_back(value.name);
-  return AddWord(app, name, words, help, [=](std::size_t i) { *target = values[i].value; });
-}
-
-// The value of that name; the first if there is none.
-template <class Value, std::size_t kSize>
-Value ValueOf(std::string_view name, const std::array<NamedValue<Value>, kSize>& values) {
-  for (const NamedValue<Value>& named : values)
-    if (named.name == name) return named.value;
-  return values.front().value;
-}
-
-template <class Value, std::size_t kSize>
-const char* NameOf(Value value, const std::array<NamedValue<Value>, kSize>& values) {
-  for (const NamedValue<Value>& named : values)
-    if (named.value == value) return named.name;
-  return "";
-}
 
 }  // namespace penumbra

@@ -39,14 +39,13 @@ constexpr Choice<RefineBy> kRefinements[] = {{"transport", RefineBy::kTransport}
                                              {"representation", RefineBy::kRepresentation},
                                              {"both", RefineBy::kBoth}};
 
-constexpr std::array<NamedValue<DiscontinuityChoice>, 5> kDiscontinuityChoices = {
-    {{"ranked", DiscontinuityChoice::kRanked},
-     {"adaptive", DiscontinuityChoice::kAdaptive},
-     {"none", DiscontinuityChoice::kNone},
-     {"random", DiscontinuityChoice::kRandom},
-     {"all", DiscontinuityChoice::kAll}}};
-constexpr std::array<NamedValue<DiscontinuityWeight>, 2> kDiscontinuityWeights = {
-    {{"thesis", DiscontinuityWeight::kThesis}, {"irradiance", DiscontinuityWeight::kIrradiance}}};
+constexpr Choice<DiscontinuityChoice> kDiscontinuityChoices[] = {{"ranked", DiscontinuityChoice::kRanked},
+                                                                 {"adaptive", DiscontinuityChoice::kAdaptive},
+                                                                 {"none", DiscontinuityChoice::kNone},
+                                                                 {"random", DiscontinuityChoice::kRandom},
+                                                                 {"all", DiscontinuityChoice::kAll}};
+constexpr Choice<DiscontinuityWeight> kDiscontinuityWeights[] = {
+    {"thesis", DiscontinuityWeight::kThesis}, {"irradiance", DiscontinuityWeight::kIrradiance}};
 bool IsFile(const std::string& name) {
   std::error_code ignored;
   return std::filesystem::exists(name, ignored) && !std::filesystem::is_directory(name, ignored);
@@ -302,8 +301,8 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["eps"] = resolved->solver.eps;
     options["min_area"] = resolved->solver.min_area;
     const DiscontinuityOptions& mesh = resolved->discontinuities;
-    options["discontinuities"] = NameOf(mesh.choice, kDiscontinuityChoices);
-    options["weight"] = NameOf(mesh.weight, kDiscontinuityWeights);
+    options["discontinuities"] = ChoiceName(kDiscontinuityChoices, mesh.choice);
+    options["weight"] = ChoiceName(kDiscontinuityWeights, mesh.weight);
     options["min_discontinuity_weight"] = mesh.min_weight;
     options["max_leaf_dsets"] = mesh.max_leaf_dsets;
     options["keep_hidden_discontinuities"] = mesh.keep_hidden;
@@ -353,8 +352,8 @@ PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   solving.min_discontinuity_weight = options.at("min_discontinuity_weight").get<double>();
   options.at("max_leaf_dsets").get_to(solving.max_leaf_dsets);
   // Files from before there was a choice are of the thesis's kind.
-  solving.weight = ValueOf(options.value("weight", "thesis"), kDiscontinuityWeights);
-  solving.discontinuities = ValueOf(options.value("discontinuities", "ranked"), kDiscontinuityChoices);
+  solving.weight = ChoiceValue(kDiscontinuityWeights, options.value("weight", "thesis"));
+  solving.discontinuities = ChoiceValue(kDiscontinuityChoices, options.value("discontinuities", "ranked"));
   solving.keep_hidden_discontinuities = options.value("keep_hidden_discontinuities", false);
   options.at("error_samples").get_to(solving.error_samples);
   solving.refine = ChoiceValue(kRefinements, options.at("refine").get<std::string>());
