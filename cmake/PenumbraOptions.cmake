@@ -2,6 +2,7 @@
 
 option(PENUMBRA_TESTS "Build the tests" ON)
 option(PENUMBRA_EXPERIMENTS "Build the benchmarks and studies" ON)
+option(PENUMBRA_WERROR "Let no warning pass" OFF)
 option(PENUMBRA_CHECKS "Keep the internal checks (PENUMBRA_DCHECK) alive" OFF)
 set(PENUMBRA_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,undefined or thread")
 
@@ -35,7 +36,7 @@ endif()
 add_library(penumbra_warnings INTERFACE)
 target_compile_options(penumbra_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
-  -Woverloaded-virtual -Wold-style-cast -Werror)
+  -Woverloaded-virtual -Wold-style-cast $<$<BOOL:${PENUMBRA_WERROR}>:-Werror>)
 
 # penumbra_library(NAME [LIBS...]): the static library penumbra_NAME from this folder's sources.
 function(penumbra_library name)
