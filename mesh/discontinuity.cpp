@@ -160,7 +160,7 @@ void DiscontinuityFinder::Impl::AddContacts(const Receiver& r, Collector& out) c
   contact.kind = DiscontinuityKind::kContact;
   contact.degree = DiscontinuityDegree::kD0;
   contact.geometric_weight = kInfiniteWeight;
-  for (const Contact& found : FindContacts(scene, r.id)) {
+  for (const Contact& found : penumbra::FindContacts(scene, r.id)) {
     contact.blocker = found.other;
     out.Add(contact, found.a, found.b);
   }
@@ -345,24 +345,39 @@ std::vector<Discontinuity> DiscontinuityFinder::Find(PatchId receiver,
                                                      std::span<const double> source_strength,
                                                      const DiscontinuityOptions& options) const {
   PENUMBRA_CHECK(source_strength.size() == impl_->scene.patches.size());
+  std::vector<Discontinuity> found = FindContacts(receiver, options);
+  for (const PatchPair& pair : impl_->visibility.SourcesOf(receiver)) {
+    const std::vector<Discontinuity> more = FindFrom(receiver, pair, source_strength[pair.source], options);
+    found.insert(found.end(), more.begin(), more.end());
+  }
+  return found;
+}
+
+std::vector<Discontinuity> DiscontinuityFinder::FindContacts(PatchId receiver,
+                                                             const DiscontinuityOptions& options) const {
   const Receiver r = impl_->ReceiverOf(receiver);
   std::vector<Discontinuity> found;
   Impl::Collector out(*impl_, r, options, found);
   impl_->AddContacts(r, out);
-  for (const PatchPair& pair : impl_->visibility.SourcesOf(receiver)) {
-    const double strength = source_strength[pair.source];
-    // The geometric weight, and the form factor of a source, are 1 at most.
-    if (!(strength > 0) || strength < options.min_weight) continue;
-    const Patch& source = impl_->scene.patches[pair.source];
-    const double rounding = std::max(r.snap, SnapDistance(source));
-    const SourceView s = {pair.source, source, strength, rounding,
-                          ClipToHalfSpace(r.patch.Vertices(), source.normal, source.vertex[0])};
-    if (s.lit.empty()) continue;
-    impl_->AddHorizon(r, s, out);
-    const Blockers blockers = impl_->visibility.Blockers(pair);
-    impl_->AddVertexEdge(r, s, blockers, out);
-    impl_->AddEdgeVertex(r, s, blockers, out);
-  }
+  return found;
+}
+
+std::vector<Discontinuity> DiscontinuityFinder::FindFrom(PatchId receiver, const PatchPair& pair,
+                                                         double strength,
+                                                         const DiscontinuityOptions& options) const {
+  std::vector<Discontinuity> found;
+  if (!Counts(strength, options)) return found;
+  const Receiver r = impl_->ReceiverOf(receiver);
+  Impl::Collector out(*impl_, r, options, found);
+  const Patch& source = impl_->scene.patches[pair.source];
+  const double rounding = std::max(r.snap, SnapDistance(source));
+  const SourceView s = {pair.source, source, strength, rounding,
+                        ClipToHalfSpace(r.patch.Vertices(), source.normal, source.vertex[0])};
+  if (s.lit.empty()) return found;
+  impl_->AddHorizon(r, s, out);
+  const Blockers blockers = impl_->visibility.Blockers(pair);
+  impl_->AddVertexEdge(r, s, blockers, out);
+  impl_->AddEdgeVertex(r, s, blockers, out);
   return found;
 }
 

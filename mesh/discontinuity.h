@@ -102,6 +102,16 @@ class DiscontinuityFinder {
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
                                   const DiscontinuityOptions& options) const;
 
+  // The parts that Find() joins: the contacts, and what one of SourcesOf() the receiver casts, if its
+  // strength [W/m^2] counts.
+  std::vector<Discontinuity> FindContacts(PatchId receiver, const DiscontinuityOptions& options) const;
+  std::vector<Discontinuity> FindFrom(PatchId receiver, const PatchPair& pair, double strength,
+                                      const DiscontinuityOptions& options) const;
+  // The geometric weight, and the form factor of a source, are 1 at most.
+  static bool Counts(double strength, const DiscontinuityOptions& options) {
+    return strength > 0 && strength >= options.min_weight;
+  }
+
   // Of a discontinuity of this scene at a point of its line, in the receiver's frame: JumpAt() across the
   // line.
   IrradianceJump Jump(const Discontinuity& d, const Vec2& at) const;

@@ -37,7 +37,7 @@ Lines GroupCollinear(std::span<const Discontinuity> found, double tolerance) {
     };
     const auto line = std::find_if(result.lines.begin(), result.lines.end(), holds);
     result.line_of[i] = static_cast<std::int32_t>(line - result.lines.begin());
-    if (line == result.lines.end()) result.lines.push_back({a, (b - a) / length[i], {}, {}});
+    if (line == result.lines.end()) result.lines.push_back({{a, (b - a) / length[i]}, {}, {}});
   }
   return result;
 }

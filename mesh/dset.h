@@ -26,16 +26,20 @@ struct LineInterval {
   double t0 = 0, t1 = 0;
 };
 
-// Collinear active discontinuities, in the frame of their patch.
-struct DiscontinuityLine {
+// A straight line with a sense.
+struct DirectedLine {
   Vec2 origin = Vec2::Zero(), direction = Vec2::UnitX();  // direction is unit
-  std::vector<LineInterval> cover;                        // where any of them lies: ascending, disjoint
-  std::vector<LineInterval> contact;                      // where a contact (D0) lies: ascending, disjoint
 
   double Along(const Vec2& p) const { return direction.dot(p - origin); }
   // Positive to the left of the line [m].
   double Distance(const Vec2& p) const { return Cross2(direction, p - origin); }
   Vec2 At(double t) const { return origin + t * direction; }
+};
+
+// Collinear active discontinuities, in the frame of their patch.
+struct DiscontinuityLine : DirectedLine {
+  std::vector<LineInterval> cover;    // where any of them lies: ascending, disjoint
+  std::vector<LineInterval> contact;  // where a contact (D0) lies: ascending, disjoint
 };
 
 // True if t lies in one of the intervals or within `reach` of it.

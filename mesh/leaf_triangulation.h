@@ -15,13 +15,12 @@
 #include <vector>
 
 #include "mesh/dset.h"
+#include "mesh/leaf_triangulator.h"
 #include "mesh/patch_borders.h"
 #include "solver/geometry/vec.h"
 #include "solver/transport/element_forest.h"
 
 namespace penumbra {
-
-inline constexpr std::int32_t kNoLine = -1;
 
 struct PatchTriangulation {
   struct Triangle {
@@ -38,18 +37,21 @@ struct PatchTriangulation {
   std::vector<ElementId> leaves;              // depth first
   std::vector<std::uint32_t> first_triangle;  // per leaf, and the end
   std::size_t dropped_segments = 0;  // discontinuity edges within rounding of a leaf's border, left out
+  std::size_t leaves_made = 0;       // leaves with lines that were triangulated
+  std::size_t leaves_kept = 0;       // and those whose triangles were there already
 
   // Checks that every triangle runs counter-clockwise, that the areas add up to the patch's, and that the
   // mesh conforms: each edge has one triangle on either side, or lies on the patch's outline.
   void Validate(const Patch& outline) const;
 };
 
-// Triangulates the leaves of dsets.leaves, in parallel. The same input gives the same bytes.
-// REQUIRES: the quadtree is balanced, and has not changed since `dsets` were made.
+// Triangulates the leaves of dsets.leaves, in parallel. The same input gives the same bytes, with a cache or
+// without. REQUIRES: the quadtree is balanced, and has not changed since `dsets` were made.
 PatchTriangulation TriangulateLeaves(const ElementForest& forest, PatchId patch, const PatchDSets& dsets);
 // The same with borders that were made before from the same arguments, and may have been welded to those of
-// other patches.
+// other patches. Of the cache, which holds the leaves of this patch, those are used whose borders and lines
+// are the same; afterwards it holds the leaves as they are now.
 PatchTriangulation TriangulateLeaves(const ElementForest& forest, PatchId patch, const PatchDSets& dsets,
-                                     PatchBorders borders);
+                                     PatchBorders borders, LeafMeshCache* cache = nullptr);
 
 }  // namespace penumbra

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 
-#include "mesh/discontinuity.h"
 #include "mesh/dset.h"
 #include "mesh/shadow_crossing.h"
 #include "mesh/weld.h"
@@ -53,7 +53,8 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
                                                    const RadiositySolution& solution,
                                                    const ElementForest& given,
                                                    const DiscontinuityOptions& options,
-                                                   const ExecutionContext& context, MeshReport& report) {
+                                                   const ExecutionContext& context, MeshReport& report,
+                                                   LocalPassCache* cache) {
   const Scene& scene = solution.forest.scene();
   const std::size_t count = scene.patches.size();
 
@@ -62,11 +63,15 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
   std::vector<PatchDSets> dsets(count);
   std::vector<std::vector<Discontinuity>> found(count);
   const std::vector<double> strength = SourceStrengths(solution);
-  const DiscontinuityFinder finder(scene, visibility);
+  std::optional<LocalPassCache> own;
+  if (!cache) cache = &own.emplace(scene, visibility);
+  const DiscontinuityCache::Counts before = cache->discontinuities.counts();
   ParallelFor(count, 1, [&](std::size_t p) {
     if (options.enabled() && !context.Cancelled())
-      found[p] = finder.Find(static_cast<PatchId>(p), strength, options);
+      found[p] = cache->discontinuities.Find(static_cast<PatchId>(p), strength, options);
   });
+  report.counts.pairs_traced += cache->discontinuities.counts().traced - before.traced;
+  report.counts.pairs_kept += cache->discontinuities.counts().kept - before.kept;
   // Crowded leaves are split in quadtrees of the mesh's own.
   ElementForest forest = given;
   std::vector<std::size_t> patches_to_do(count);
@@ -91,15 +96,19 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
   Stopwatch triangulating;
   std::vector<PatchTriangulation> patches(count);
   std::vector<PatchBorders> borders;
+  context.Report("triangulate", 0);
   if (!context.Cancelled()) {
     borders.resize(count);
     ParallelFor(count, 1,
                 [&](std::size_t p) { borders[p] = PatchBorders(forest, static_cast<PatchId>(p), dsets[p]); });
     WeldOutlines(scene, borders);
+    ParallelFor(count, 1, [&](std::size_t p) {
+      if (context.Cancelled()) return;
+      patches[p] = TriangulateLeaves(forest, static_cast<PatchId>(p), dsets[p], std::move(borders[p]),
+                                     own ? nullptr : &cache->leaves[p]);
+    });
   }
   for (std::size_t p = 0; p < count && !context.Cancelled(); ++p) {
-    context.Report("triangulate", static_cast<double>(p) / static_cast<double>(count));
-    patches[p] = TriangulateLeaves(forest, static_cast<PatchId>(p), dsets[p], std::move(borders[p]));
     for (ElementId& leaf : patches[p].leaves)
       while (static_cast<std::size_t>(leaf) >= given.size()) leaf = forest[leaf].parent;
     report.counts.discontinuities += found[p].size();
@@ -109,6 +118,8 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
     report.counts.refused_contacts += dsets[p].refused_contacts;
     report.counts.most_merged = std::max(report.counts.most_merged, dsets[p].most_merged);
     report.counts.dropped_segments += patches[p].dropped_segments;
+    report.counts.leaves_made += patches[p].leaves_made;
+    report.counts.leaves_kept += patches[p].leaves_kept;
     report.counts.triangles += patches[p].triangles.size();
   }
   report.seconds.triangulate += triangulating.Seconds();
@@ -117,10 +128,10 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
 
 MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySolution& solution,
                         const IrradianceSampler& sampler, const MeshOptions& options,
-                        const ExecutionContext& context) {
+                        const ExecutionContext& context, LocalPassCache* cache) {
   MeshResult result;
   result.triangulations = TriangulatePatches(visibility, solution, solution.forest, options.discontinuities,
-                                             context, result.report);
+                                             context, result.report, cache);
   if (context.Cancelled()) return result;
   const std::vector<PatchTriangulation>& patches = result.triangulations;
   Stopwatch interpolating;

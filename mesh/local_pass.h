@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "mesh/discontinuity_cache.h"
 #include "mesh/irradiance_mesh.h"
 #include "mesh/irradiance_mesh_builder.h"
 #include "mesh/leaf_triangulation.h"
@@ -24,6 +25,18 @@ struct MeshResult {
   MeshReport report;
 };
 
+// What a local pass leaves for the next one over the same scene, after an iteration or a division of leaves.
+// It changes no result.
+class LocalPassCache {
+ public:
+  // Both must outlive the cache.
+  LocalPassCache(const Scene& scene, const PatchVisibility& visibility)
+      : discontinuities(scene, visibility), leaves(scene.patches.size()) {}
+
+  DiscontinuityCache discontinuities;
+  std::vector<LeafMeshCache> leaves;  // per patch
+};
+
 // The largest radiosity of each patch, over its leaves and the channels [W/m^2].
 std::vector<double> SourceStrengths(const RadiositySolution& solution);
 
@@ -34,12 +47,13 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
                                                    const RadiositySolution& solution,
                                                    const ElementForest& forest,
                                                    const DiscontinuityOptions& options,
-                                                   const ExecutionContext& context, MeshReport& report);
+                                                   const ExecutionContext& context, MeshReport& report,
+                                                   LocalPassCache* cache = nullptr);
 
 // The whole local pass. The sampler is not called for constant interpolants. A cancelled run returns an empty
 // mesh. REQUIRES: the quadtrees are balanced.
 MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySolution& solution,
                         const IrradianceSampler& sampler, const MeshOptions& options,
-                        const ExecutionContext& context);
+                        const ExecutionContext& context, LocalPassCache* cache = nullptr);
 
 }  // namespace penumbra

@@ -61,6 +61,10 @@ struct MeshReport {
     std::size_t dropped_segments = 0;  // too close to a leaf's border for a conforming triangulation
     std::size_t most_merged = 0;       // active discontinuities in one discontinuity edge of a leaf
     std::size_t leaves_split = 0;      // since they were crowded
+    std::size_t pairs_traced = 0;      // of receiver and source: their edges were found anew
+    std::size_t pairs_kept = 0;        // and those that had been found before: only weights changed
+    std::size_t leaves_made = 0;       // leaves with lines that were triangulated
+    std::size_t leaves_kept = 0;       // and those whose border and lines had not changed
     std::size_t triangles = 0;
     std::size_t interpolants = 0;
     std::size_t point_evaluations = 0;  // calls of IrradianceAtPoint()

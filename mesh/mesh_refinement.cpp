@@ -1,6 +1,7 @@
 #include "mesh/mesh_refinement.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "mesh/local_pass.h"
 #include "solver/base/check.h"
@@ -58,20 +59,24 @@ std::vector<Candidate> FindCandidates(const RefinedMesh& refined, double error) 
 
 RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolution& solution,
                        const IrradianceSampler& sampler, const MeshOptions& mesh_options,
-                       const MeshRefinementOptions& options, const ExecutionContext& context) {
+                       const MeshRefinementOptions& options, const ExecutionContext& context,
+                       LocalPassCache* local_pass) {
   PENUMBRA_CHECK(mesh_options.order != InterpolantOrder::kConstant);
   const Scene& scene = solution.forest.scene();
   double area = 0;
   for (const Patch& patch : scene.patches) area += patch.area;
   SampleCache cache;
+  std::optional<LocalPassCache> own;
+  if (!local_pass) local_pass = &own.emplace(scene, visibility);
   RefinedMesh refined;
   refined.forest = solution.forest;
   MeshReport::Seconds seconds;
   std::size_t evaluations = 0;
   for (int round = 0;; ++round) {
     refined.report = {};
-    refined.triangulations = TriangulatePatches(visibility, solution, refined.forest,
-                                                mesh_options.discontinuities, context, refined.report);
+    refined.triangulations =
+        TriangulatePatches(visibility, solution, refined.forest, mesh_options.discontinuities, context,
+                           refined.report, local_pass);
     seconds.discontinuities += refined.report.seconds.discontinuities;
     seconds.triangulate += refined.report.seconds.triangulate;
     const Stopwatch interpolating;

@@ -13,6 +13,7 @@
 #include "mesh/irradiance_mesh.h"
 #include "mesh/irradiance_mesh_builder.h"
 #include "mesh/leaf_triangulation.h"
+#include "mesh/local_pass.h"
 #include "mesh/mesh_options.h"
 #include "mesh/sample_cache.h"
 #include "mesh/triangle_error.h"
@@ -49,6 +50,7 @@ struct RefinedMesh {
 // an empty mesh. REQUIRES: the solution's quadtrees are balanced.
 RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolution& solution,
                        const IrradianceSampler& sampler, const MeshOptions& mesh_options,
-                       const MeshRefinementOptions& options, const ExecutionContext& context);
+                       const MeshRefinementOptions& options, const ExecutionContext& context,
+                       LocalPassCache* local_pass = nullptr);
 
 }  // namespace penumbra

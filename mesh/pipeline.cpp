@@ -107,6 +107,7 @@ struct Pipeline::Impl {
   std::optional<RadiositySolution> stored;     // that another one made, until a step begins anew
   std::optional<MeshKind> mesh_kind;           // of a mesh of the present solution
   IrradianceMesh mesh;
+  std::unique_ptr<LocalPassCache> local_pass;      // of the present visibility
   std::vector<PatchTriangulation> triangulations;  // of the mesh
   ElementForest mesh_forest;                       // whose leaves they are
   std::vector<TriangleError> triangle_errors;      // of the mesh, where they were measured
@@ -194,8 +195,8 @@ struct Pipeline::Impl {
     refinement.error = kInterpolantShare * options.error;
     refinement.min_area = resolved.solver.min_area;
     refinement.samples = options.error_samples;
-    RefinedMesh refined =
-        RefineMesh(visibility, solver->solution(), Sampler(), mesh_options, refinement, context);
+    RefinedMesh refined = RefineMesh(visibility, solver->solution(), Sampler(), mesh_options, refinement,
+                                     context, &LocalPass());
     if (context.Cancelled()) return;
     mesh = std::move(refined.mesh);
     triangulations = std::move(refined.triangulations);
@@ -213,6 +214,11 @@ struct Pipeline::Impl {
         "interpolants: triangles on {:.2g} of the area err by more than {:.3g}; {} leaves of {:.3g} m^2 "
         "together have the smallest area",
         refined.share_above, refinement.error, refined.unmet.size(), area));
+  }
+
+  LocalPassCache& LocalPass() {
+    if (!local_pass) local_pass = std::make_unique<LocalPassCache>(scene, visibility);
+    return *local_pass;
   }
 
   IrradianceSampler Sampler() {
@@ -280,6 +286,7 @@ void Pipeline::Link(const ExecutionContext& context) {
     impl_->report = {};
     impl_->report.error_asked = impl_->options.error;
   }
+  impl_->local_pass.reset();
   impl_->visibility = PatchVisibility(impl_->scene);
   if (impl_->options.dense) {
     impl_->AddPhase("link", linking.Seconds());
@@ -356,7 +363,8 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context) {
   options.order = kind == MeshKind::kFlat          ? InterpolantOrder::kConstant
                   : kind == MeshKind::kInterpolant ? InterpolantOrder::kQuadratic
                                                    : InterpolantOrder::kLinear;
-  MeshResult result = RunLocalPass(impl_->visibility, solution(), impl_->Sampler(), options, context);
+  MeshResult result =
+      RunLocalPass(impl_->visibility, solution(), impl_->Sampler(), options, context, &impl_->LocalPass());
   impl_->mesh = std::move(result.mesh);
   impl_->triangulations = std::move(result.triangulations);
   impl_->mesh_forest = solution().forest;

@@ -10,7 +10,6 @@
 #include <numeric>
 
 #include "solver/base/check.h"
-#include "solver/geometry/segment_splitter.h"
 
 namespace penumbra {
 namespace {
@@ -90,6 +89,7 @@ struct ConstrainedTriangulator::Impl {
   void ExtractTriangles();
   void MarkEdges(std::span<const ConstraintSegment> constraints);
   void MarkInside(std::span<const ConstraintSegment> constraints);
+  void TriangulatePieces(std::span<const ConstraintSegment> constraints);
 };
 
 void ConstrainedTriangulator::Impl::MergeEqualPoints() {
@@ -153,13 +153,15 @@ void ConstrainedTriangulator::Impl::InsertAll() {
   cdt.clear();
   handle.assign(result.vertices.size(), {});
   Cdt::Face_handle hint;
+  std::size_t count = 0;
   for (std::int32_t v = 0; v < Size(result.vertices); ++v) {
     if (!used[v]) continue;
     handle[v] = cdt.insert(Kernel::Point_2(result.vertices[v].x(), result.vertices[v].y()), hint);
     handle[v]->info() = v;
     hint = handle[v]->face();
+    ++count;
   }
-  const std::size_t count = cdt.number_of_vertices();
+  PENUMBRA_CHECK(cdt.number_of_vertices() == count);
   for (const ConstrainedTriangulation::Edge& edge : result.edges)
     cdt.insert_constraint(handle[edge.a], handle[edge.b]);
   // The splitter left nothing to cross.
@@ -224,6 +226,14 @@ std::vector<std::int32_t> WindingNumbers(const ConstrainedTriangulation& mesh,
   return winding;
 }
 
+void ConstrainedTriangulator::Impl::TriangulatePieces(std::span<const ConstraintSegment> constraints) {
+  BuildEdges();
+  InsertAll();
+  ExtractTriangles();
+  MarkEdges(constraints);
+  MarkInside(constraints);
+}
+
 ConstrainedTriangulator::ConstrainedTriangulator() : impl_(std::make_unique<Impl>()) {}
 ConstrainedTriangulator::~ConstrainedTriangulator() = default;
 ConstrainedTriangulator::ConstrainedTriangulator(ConstrainedTriangulator&&) noexcept = default;
@@ -235,11 +245,17 @@ const ConstrainedTriangulation& ConstrainedTriangulator::Triangulate(
   impl_->MergeEqualPoints();
   impl_->CollectPieces(constraints);
   impl_->splitter.Split(impl_->result.vertices, impl_->used, impl_->pieces, impl_->SnapDistance());
-  impl_->BuildEdges();
-  impl_->InsertAll();
-  impl_->ExtractTriangles();
-  impl_->MarkEdges(constraints);
-  impl_->MarkInside(constraints);
+  impl_->TriangulatePieces(constraints);
+  return impl_->result;
+}
+
+const ConstrainedTriangulation& ConstrainedTriangulator::TriangulatePieces(
+    std::span<const Vec2> points, const std::vector<bool>& used, std::span<const SegmentPiece> pieces,
+    std::span<const ConstraintSegment> constraints) {
+  impl_->result.vertices.assign(points.begin(), points.end());
+  impl_->used = used;
+  impl_->pieces.assign(pieces.begin(), pieces.end());
+  impl_->TriangulatePieces(constraints);
   return impl_->result;
 }
 

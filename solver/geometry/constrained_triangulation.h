@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/geometry/segment_splitter.h"
 #include "solver/geometry/vec.h"
 
 namespace penumbra {
@@ -88,6 +89,13 @@ class ConstrainedTriangulator {
   // function of the input. REQUIRES: finite coordinates, indices in range.
   const ConstrainedTriangulation& Triangulate(std::span<const Vec2> points,
                                               std::span<const ConstraintSegment> constraints);
+
+  // The same of pieces that SegmentSplitter::Split() left: nothing is split or moved any more. A piece has
+  // the tag of the constraint that is its source. REQUIRES: no two points that are used lie in one place.
+  const ConstrainedTriangulation& TriangulatePieces(std::span<const Vec2> points,
+                                                    const std::vector<bool>& used,
+                                                    std::span<const SegmentPiece> pieces,
+                                                    std::span<const ConstraintSegment> constraints);
 
  private:
   struct Impl;

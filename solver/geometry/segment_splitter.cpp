@@ -89,8 +89,10 @@ void SegmentSplitter::CutAtVertices() {
   order_.clear();
   for (std::int32_t v = 0; v < Size(*vertices_); ++v)
     if ((*used_)[v]) order_.push_back(v);
-  std::stable_sort(order_.begin(), order_.end(),
-                   [&](std::int32_t a, std::int32_t b) { return (*vertices_)[a].x() < (*vertices_)[b].x(); });
+  std::sort(order_.begin(), order_.end(), [&](std::int32_t a, std::int32_t b) {
+    const double xa = (*vertices_)[a].x(), xb = (*vertices_)[b].x();
+    return xa != xb ? xa < xb : a < b;
+  });
   low_.resize(order_.size());
   for (std::size_t k = 0; k < order_.size(); ++k) low_[k] = (*vertices_)[order_[k]].x();
   for (std::int32_t i = 0; i < Size(*pieces_); ++i) {
@@ -114,13 +116,18 @@ void SegmentSplitter::CutAtCrossings() {
   };
   order_.resize(pieces_->size());
   std::iota(order_.begin(), order_.end(), 0);
-  std::stable_sort(order_.begin(), order_.end(),
-                   [&](std::int32_t a, std::int32_t b) { return left(a) < left(b); });
+  left_.resize(pieces_->size());
+  for (std::int32_t i = 0; i < Size(*pieces_); ++i) left_[i] = left(i);
+  std::sort(order_.begin(), order_.end(), [&](std::int32_t a, std::int32_t b) {
+    return left_[a] != left_[b] ? left_[a] < left_[b] : a < b;
+  });
+  low_.resize(order_.size());
+  for (std::size_t k = 0; k < order_.size(); ++k) low_[k] = left_[order_[k]];
   for (std::size_t k = 0; k < order_.size(); ++k) {
     const std::int32_t i = order_[k];
     const SegmentPiece& piece = (*pieces_)[i];
     const double right = std::max((*vertices_)[piece.from].x(), (*vertices_)[piece.to].x());
-    for (std::size_t l = k + 1; l < order_.size() && left(order_[l]) <= right; ++l) {
+    for (std::size_t l = k + 1; l < order_.size() && low_[l] <= right; ++l) {
       const std::int32_t j = order_[l];
       if (fresh_[i] || fresh_[j]) CutCrossing(std::min(i, j), std::max(i, j));
     }

@@ -54,6 +54,7 @@ class SegmentSplitter {
   std::int32_t fresh_vertex_ = 0;         // vertices from here on are new since then
   std::vector<std::int32_t> order_;       // vertices or pieces by their smallest x
   std::vector<double> low_;               // that x, in the same order
+  std::vector<double> left_;              // of each piece, that x
 };
 
 }  // namespace penumbra
