@@ -8,11 +8,13 @@ extern const Study kFormFactorStudy;
 extern const Study kWholeSystemStudy;
 extern const Study kStabilityStudy;
 extern const Study kContinuousRadiosityStudy;
+extern const Study kDiscontinuityStudy;
 
 const std::vector<const Study*>& Studies() {
   static const std::vector<const Study*> studies = {&kPointIrradianceStudy, &kOffsetStudy,
                                                     &kFormFactorStudy,      &kWholeSystemStudy,
-                                                    &kStabilityStudy,       &kContinuousRadiosityStudy};
+                                                    &kStabilityStudy,       &kContinuousRadiosityStudy,
+                                                    &kDiscontinuityStudy};
   return studies;
 }
 

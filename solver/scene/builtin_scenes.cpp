@@ -39,6 +39,10 @@ const std::vector<BuiltinScene>& BuiltinScenes() {
        "a cube floating above a plane under two area lights; an open scene",
        {At("front", {2.6, -3.4, 2.4}, {0, 0, 0.5}, 42), At("above", {0.3, -0.6, 5.2}, {0, 0, 0}, 50),
         At("low", {-2.6, -2.6, 0.7}, {0, 0, 0.5}, 45)}},
+      {"blind",
+       "a window behind a blind of 32 slats in an empty room: many shadow lines close to each other",
+       {At("room", {3.7, 0.4, 1.9}, {0.6, 2.3, 1.0}, 60), At("above", {2.2, 2, 2.5}, {2, 2.1, 0}, 75),
+        At("floor", {2.6, 1.1, 0.9}, {0.7, 2.2, 0.1}, 60)}},
       {"furnace",
        "a closed box of reflectance 1/2 and emittance 1/2 whose exact irradiance and radiosity are 1 "
        "everywhere",

@@ -1,0 +1,169 @@
+// What discontinuities are worth (thesis 5.2, 5.3, 8.2): ways to choose them and to weigh them, against the
+// error of the interpolants.
+//
+// All ways start from the same solution and the same leaves, and see the same discontinuities; leaves are
+// divided neither for crowding nor for errors. Seconds are processor time of finding, triangulating and
+// interpolating, so that they can be compared on a machine that does other things too.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ctime>
+
+#include <fmt/format.h>
+
+#include "experiments/studies/study.h"
+#include "mesh/local_pass.h"
+#include "mesh/pipeline.h"
+#include "solver/scene/builtin_scenes.h"
+
+namespace penumbra {
+namespace {
+
+// Of all threads of the process [s].
+double ProcessorSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+struct Way {
+  const char* name;
+  DiscontinuityChoice choice;
+  DiscontinuityWeight weight;
+};
+constexpr Way kNone = {"none", DiscontinuityChoice::kNone, DiscontinuityWeight::kIrradiance};
+constexpr Way kAll = {"all", DiscontinuityChoice::kAll, DiscontinuityWeight::kIrradiance};
+constexpr std::array kBudgeted = {
+    Way{"ranked, irradiance", DiscontinuityChoice::kRanked, DiscontinuityWeight::kIrradiance},
+    Way{"ranked, thesis", DiscontinuityChoice::kRanked, DiscontinuityWeight::kThesis},
+    Way{"random", DiscontinuityChoice::kRandom, DiscontinuityWeight::kIrradiance},
+    Way{"adaptive", DiscontinuityChoice::kAdaptive, DiscontinuityWeight::kIrradiance}};
+constexpr std::array kBudgets = {5, 10, 20};
+
+class Measurement {
+ public:
+  Measurement(StudyLog& log, const std::string& name)
+      : log_(log), name_(name), scene_(*LoadBuiltinScene(name, {})), pipeline_(scene_, Options(log.quick())) {
+    pipeline_.Solve({});
+    // Discontinuities that would not count at the error asked for may well count together.
+    PipelineOptions finer;
+    finer.error = kWeightError;
+    for (const DiscontinuityWeight weight :
+         {DiscontinuityWeight::kThesis, DiscontinuityWeight::kIrradiance}) {
+      finer.weight = weight;
+      (weight == DiscontinuityWeight::kThesis ? thesis_ : irradiance_) =
+          Resolve(scene_, finer).discontinuities.min_weight;
+    }
+  }
+
+  StudyRow Measure(const Way& way, int budget) {
+    MeshOptions options;
+    options.discontinuities.choice = way.choice;
+    options.discontinuities.weight = way.weight;
+    options.discontinuities.min_weight = way.weight == DiscontinuityWeight::kThesis ? thesis_ : irradiance_;
+    options.discontinuities.max_leaf_dsets = budget;
+    const auto sampler = [this](PatchId patch, const ReceiverPoint& at) {
+      return pipeline_.irradiance().OnPatch(patch, at);
+    };
+    pipeline_.irradiance();  // is made once
+    const double begin = ProcessorSeconds();
+    const MeshResult mesh = RunLocalPass(pipeline_.visibility(), pipeline_.solution(), sampler, options, {});
+    StudyRow row;
+    row.seconds = ProcessorSeconds() - begin;
+    const RepresentationError error =
+        MeasureRepresentationError(scene_, mesh.mesh, sampler, log_.quick() ? 200 : kPoints, 1);
+    row.scene = name_;
+    row.method = way.name;
+    row.setting =
+        budget > 0 && way.choice != DiscontinuityChoice::kAll ? fmt::format("{} a leaf", budget) : way.name;
+    row.parameter = budget;
+    row.error_rms = error.rms;
+    row.error_p95 = error.p95;
+    row.error_p99 = error.p99;
+    row.error_max = error.max;
+    row.elements = mesh.report.counts.dsets_active;
+    row.triangles = mesh.report.counts.triangles;
+    row.evaluations = mesh.report.counts.point_evaluations;
+    log_.Add(row);
+    return row;
+  }
+
+ private:
+  static constexpr double kWeightError = 0.005;
+  static constexpr std::size_t kPoints = 4000;
+
+  static PipelineOptions Options(bool quick) {
+    PipelineOptions options;
+    options.error = quick ? 0.3 : 0.05;
+    return options;
+  }
+
+  StudyLog& log_;
+  std::string name_;
+  Scene scene_;
+  Pipeline pipeline_;
+  double thesis_ = 0, irradiance_ = 0;
+};
+
+// The error that the way reaches in so many seconds: between its settings straight in the logarithms, beyond
+// the first and the last as there.
+double ErrorAt(std::vector<StudyRow> rows, double seconds) {
+  std::sort(rows.begin(), rows.end(),
+            [](const StudyRow& a, const StudyRow& b) { return a.seconds < b.seconds; });
+  if (seconds <= rows.front().seconds) return rows.front().error_rms;
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
+    if (seconds > rows[i + 1].seconds) continue;
+    const double t = std::log(seconds / rows[i].seconds) / std::log(rows[i + 1].seconds / rows[i].seconds);
+    return std::exp((1 - t) * std::log(rows[i].error_rms) + t * std::log(rows[i + 1].error_rms));
+  }
+  return rows.back().error_rms;
+}
+
+void Run(StudyLog& log) {
+  for (const std::string name : {"floating-cube", "office", "blind"}) {
+    if (log.quick() && name != "floating-cube") break;
+    Measurement measurement(log, name);
+    const StudyRow none = measurement.Measure(kNone, 0), all = measurement.Measure(kAll, 0);
+    std::array<std::vector<StudyRow>, kBudgeted.size()> rows;
+    for (std::size_t i = 0; i < kBudgeted.size(); ++i)
+      for (const int budget : kBudgets)
+        if (!log.quick() || budget == kBudgets.front())
+          rows[i].push_back(measurement.Measure(kBudgeted[i], budget));
+    // Both begin with no discontinuities.
+    std::vector<StudyRow> random = rows[2];
+    random.push_back(none);
+    for (const std::size_t i : {std::size_t{0}, std::size_t{1}, std::size_t{3}}) {
+      int beats_random = 0, beats_all = 0;
+      std::string ratios;
+      for (const StudyRow& row : rows[i]) {
+        const double to_random = row.error_rms / ErrorAt(random, row.seconds);
+        const double to_all = row.error_rms / ErrorAt({none, all}, row.seconds);
+        beats_random += to_random < 1 ? 1 : 0;
+        beats_all += to_all < 1 ? 1 : 0;
+        ratios += fmt::format("{}{:.2f}/{:.2f}", ratios.empty() ? "" : ", ", to_random, to_all);
+      }
+      log.Find(
+          fmt::format("{}, {}: of {} budgets {} err less (rms) than random choice in equal time, {} less "
+                      "than all or nothing; the "
+                      "ratios are {}.",
+                      name, kBudgeted[i].name, rows[i].size(), beats_random, beats_all, ratios));
+    }
+  }
+}
+
+}  // namespace
+
+extern const Study kDiscontinuityStudy;
+const Study kDiscontinuityStudy = {"discontinuities",
+                                   "Processor seconds of the local pass against the error of the "
+                                   "interpolants, by choice, weight and number of "
+                                   "discontinuities a leaf (elements: active DSets)",
+                                   "Ranked discontinuities lower the error faster than a random choice of "
+                                   "them, and than all or none of them "
+                                   "(thesis 5.2, 5.3).",
+                                   "seconds",
+                                   "error_rms",
+                                   Run};
+
+}  // namespace penumbra
