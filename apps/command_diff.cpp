@@ -12,6 +12,7 @@
 #include "apps/commands.h"
 #include "apps/option_values.h"
 #include "apps/output.h"
+#include "display/false_colour.h"
 #include "display/image_difference.h"
 #include "display/image_io.h"
 #include "solver/base/check.h"

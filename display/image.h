@@ -52,6 +52,16 @@ struct Srgb8Image {
   }
 };
 
+struct ScreenColour {
+  std::uint8_t red = 0, green = 0, blue = 0;  // sRGB
+};
+
+inline void SetPixel(Srgb8Image* image, std::size_t i, ScreenColour c) {
+  image->pixels[3 * i] = c.red;
+  image->pixels[3 * i + 1] = c.green;
+  image->pixels[3 * i + 2] = c.blue;
+}
+
 // What a pixel shows, for tone mapping.
 enum class PixelKind : std::uint8_t { kBackground, kSurface, kEmitter };
 

@@ -96,21 +96,4 @@ VisibleDifference FindVisibleDifference(const RgbImage& reference, const RgbImag
   return difference;
 }
 
-Srgb8Image FalseColours(const std::vector<float>& map, int width, int height) {
-  // sRGB codes at equal distances; lightness grows throughout.
-  constexpr std::array<std::array<double, 3>, 6> kStops = {
-      {{0, 0, 0}, {60, 15, 110}, {150, 30, 110}, {230, 75, 50}, {250, 180, 40}, {255, 255, 255}}};
-  Srgb8Image image;
-  image.Resize(width, height);
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    const double at = std::clamp(static_cast<double>(map[i]), 0.0, 1.0) * (kStops.size() - 1);
-    const std::size_t k = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
-    const double part = at - static_cast<double>(k);
-    for (std::size_t c = 0; c < 3; ++c)
-      image.pixels[3 * i + c] =
-          static_cast<std::uint8_t>(std::lround((1 - part) * kStops[k][c] + part * kStops[k + 1][c]));
-  }
-  return image;
-}
-
 }  // namespace penumbra

@@ -44,7 +44,4 @@ struct VisibleDifference {
 VisibleDifference FindVisibleDifference(const RgbImage& reference, const RgbImage& test,
                                         double pixels_per_degree = kPixelsPerDegree);
 
-// A map of values in [0, 1] in false colours: black, violet, red, yellow, white.
-Srgb8Image FalseColours(const std::vector<float>& map, int width, int height);
-
 }  // namespace penumbra

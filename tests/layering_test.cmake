@@ -8,7 +8,7 @@ cmake_minimum_required(VERSION 3.25)
 
 set(LAYERS solver/base solver/geometry solver/scene solver/visibility solver/transport mesh display apps)
 set(OUTSIDE tests experiments)  # may include every layer; no layer may include them
-set(HEAVY "^(CGAL|embree[0-9]*|tbb|oneapi|GLFW|OpenEXR|stb)/|^Imf|^imgui|^stb_|^hdf5|^H5")
+set(HEAVY "^(CGAL|embree[0-9]*|tbb|oneapi|EGL|GL|GLFW|OpenEXR|stb)/|^Imf|^imgui|^stb_|^hdf5|^H5")
 
 # The place of the library that `path` belongs to; -1 for none.
 function(layer_of path result)

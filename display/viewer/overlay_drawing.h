@@ -9,14 +9,13 @@
 #include <span>
 #include <vector>
 
+#include "display/image.h"
 #include "display/viewer/view_state.h"
 #include "solver/geometry/vec.h"
 
 namespace penumbra::viewer {
 
-struct Colour {
-  std::uint8_t red = 0, green = 0, blue = 0;  // sRGB
-};
+using Colour = ScreenColour;
 namespace colour {
 inline constexpr Colour kWhite{255, 255, 255}, kPink{255, 130, 190}, kGreen{60, 220, 90},
     kViolet{200, 80, 255}, kYellow{255, 225, 40}, kBlue{80, 140, 255}, kRed{255, 70, 60},

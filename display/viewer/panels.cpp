@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "display/viewer/false_colour.h"
+#include "display/false_colour.h"
 #include "solver/base/check.h"
 
 namespace penumbra::viewer {

@@ -3,33 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "display/viewer/false_colour.h"
+#include "display/false_colour.h"
+#include "display/split_view.h"
 #include "display/viewer/mesh_tools.h"
 #include "display/viewer/selection.h"
 #include "solver/base/check.h"
 
 namespace penumbra::viewer {
-namespace {
-
-void SetPixel(Srgb8Image* image, std::size_t i, Colour c) {
-  image->pixels[3 * i] = c.red;
-  image->pixels[3 * i + 1] = c.green;
-  image->pixels[3 * i + 2] = c.blue;
-}
-
-// Copies `part` to (left, top) as far as it fits.
-void Place(const Srgb8Image& part, int left, int top, Srgb8Image* whole) {
-  const int columns = std::min(part.width, whole->width - left);
-  if (columns <= 0) return;
-  for (int y = 0; y < part.height && top + y < whole->height; ++y) {
-    const auto from = part.pixels.begin() + 3 * static_cast<std::ptrdiff_t>(y) * part.width;
-    const auto to = whole->pixels.begin() + 3 * (static_cast<std::ptrdiff_t>(top + y) * whole->width + left);
-    std::copy_n(from, 3 * static_cast<std::ptrdiff_t>(columns), to);
-  }
-}
-
-}  // namespace
-
 MeshKind MeshOf(DrawMode mode) {
   switch (mode) {
     case DrawMode::kFlat:
@@ -108,39 +88,6 @@ void PictureMaker::Shade(const OverlayContext& context, const ViewState& view, S
   times_ = display_->frame().ms;
 }
 
-// Thesis B.3.2: triangle ids, barycentric coordinates, depth and the picture.
-void PictureMaker::PaintSplit(const OverlayContext& context, const ViewState& view, int width, int height) {
-  screen_.Resize(width, height);
-  std::fill(screen_.pixels.begin(), screen_.pixels.end(), std::uint8_t{0});
-  const int w = std::max(1, width / 2), h = std::max(1, height / 2);
-  const RenderedFrame& frame = display_->frame();
-  Srgb8Image ids, coordinates, depths;
-  for (Srgb8Image* image : {&ids, &coordinates, &depths}) {
-    image->Resize(w, h);
-    std::fill(image->pixels.begin(), image->pixels.end(), std::uint8_t{24});
-  }
-  float nearest = 0;
-  for (int y = 0; y < h; ++y)
-    for (int x = 0; x < w; ++x) nearest = std::max(nearest, depth_->Threshold(x, y));
-  for (int y = 0; y < h; ++y)
-    for (int x = 0; x < w; ++x) {
-      const std::size_t i = frame.linear.Index(x, y);
-      if (frame.triangle[i] == kNoTriangle) continue;
-      SetPixel(&ids, i, ColourOfNumber(frame.triangle[i]));
-      const auto part = [](float value) {
-        return static_cast<std::uint8_t>(std::lround(255 * std::clamp(static_cast<double>(value), 0.0, 1.0)));
-      };
-      SetPixel(&coordinates, i, {part(frame.s[i]), part(frame.t[i]), part(1 - frame.s[i] - frame.t[i])});
-      const std::uint8_t grey = part(nearest > 0 ? depth_->Threshold(x, y) / nearest : 0.0F);
-      SetPixel(&depths, i, {grey, grey, grey});
-    }
-  Shade(context, view, &part_);
-  Place(ids, 0, 0, &screen_);
-  Place(coordinates, width - w, 0, &screen_);
-  Place(depths, 0, height - h, &screen_);
-  Place(part_, width - w, height - h, &screen_);
-}
-
 const Srgb8Image& PictureMaker::Make(const OverlayContext& context, const ViewState& view,
                                      const OverlayDrawing& drawing, int width, int height) {
   PENUMBRA_CHECK(width > 0 && height > 0);
@@ -153,7 +100,8 @@ const Srgb8Image& PictureMaker::Make(const OverlayContext& context, const ViewSt
   const bool see_through = !view.faces || view.overlays.hidden_lines;
   depth_.emplace(rays, display_->frame(), drawn_->mesh());
   if (view.split) {
-    PaintSplit(context, view, width, height);
+    Shade(context, view, &part_);
+    PaintSplit(display_->frame(), rays, drawn_->mesh(), part_, width, height, &screen_);
     return screen_;
   }
   Shade(context, view, &screen_);

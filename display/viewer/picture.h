@@ -36,7 +36,6 @@ class PictureMaker {
   void ChooseMesh(const OverlayContext& context, const ViewState& view);
   void Shade(const OverlayContext& context, const ViewState& view, Srgb8Image* out);
   void PaintErrors(const ErrorMap& errors, double top, Srgb8Image* out) const;
-  void PaintSplit(const OverlayContext& context, const ViewState& view, int width, int height);
 
   std::shared_ptr<const MeshState> whole_;  // the mesh of the mode
   std::shared_ptr<const MeshState> drawn_;  // that, or what is left of it when a selection is isolated

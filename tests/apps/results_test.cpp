@@ -5,8 +5,11 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 
 #include "display/image_io.h"
 #include "tests/apps/run_program.h"
@@ -386,6 +389,52 @@ TEST(Render, BenchmarkPrintsOneLine) {
   EXPECT_GE(line.at("triangles"), 12);
   EXPECT_EQ(line.at("threads"), 1);
   EXPECT_THAT(sandbox.Files(), SizeIs(0));
+}
+
+// A benchmark by the graphics system, where there is one, draws the same triangles; where there is none, that
+// is told in one line, before any work.
+TEST(Render, BackEndsAreAChoice) {
+  const Sandbox sandbox;
+  const std::vector<std::string> picture = {"render", "furnace", "-o",      "image.exr",
+                                            "--size", "32x24",   "--error", "0.5"};
+  ASSERT_EQ(sandbox.Run(picture).status, 0);
+  const RgbImage software = ReadExr(sandbox.Path("image.exr"));
+  std::vector<std::string> by_opengl = picture;
+  by_opengl.insert(by_opengl.end(), {"--backend", "opengl"});
+  const Outcome opengl = sandbox.Run(by_opengl);
+  if (opengl.status == 0) {
+    const RgbImage image = ReadExr(sandbox.Path("image.exr"));
+    for (std::size_t i = 0; i < image.PixelCount(); ++i)
+      EXPECT_NEAR(image.channel[0][i], software.channel[0][i], 1e-3 * software.channel[0][i]) << i;
+  } else {
+    EXPECT_THAT(opengl.err, HasSubstr("--backend software"));
+  }
+  std::filesystem::remove(sandbox.Path("image.exr"));
+  setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere.json", 1);  // hides every driver from EGL
+  const Outcome none = sandbox.Run(by_opengl);
+  unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
+  EXPECT_EQ(none.status, 1);
+  EXPECT_THAT(Lines(none.err), SizeIs(1)) << none.err;
+  EXPECT_THAT(sandbox.Files(), SizeIs(0));
+}
+
+// False colours and scratch images are pictures of the size asked for, and differ from the plain one.
+TEST(Render, ShowsFalseColoursAndScratchImages) {
+  const Sandbox sandbox;
+  std::set<std::string> pictures;
+  for (const std::vector<std::string>& more : {std::vector<std::string>{},
+                                               {"--false-colour"},
+                                               {"--false-colour", "--scale-max", "5"},
+                                               {"--split"},
+                                               {"--split", "--false-colour"}}) {
+    std::vector<std::string> command = {"render", "floating-cube", "-o",   "image.png", "--size",
+                                        "161x93", "--mode",        "flat", "--error",   "0.5"};
+    command.insert(command.end(), more.begin(), more.end());
+    const Outcome outcome = sandbox.Run(command);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    pictures.insert(ReadBytes(sandbox.Path("image.png")));
+  }
+  EXPECT_THAT(pictures, SizeIs(5));
 }
 
 // Info tells what is in a scene: counts, bounds, area and emitted power; emission may be read as radiance.

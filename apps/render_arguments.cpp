@@ -1,0 +1,172 @@
+#include "apps/render_arguments.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include "apps/commands.h"
+#include "apps/option_values.h"
+#include "apps/output.h"
+
+namespace penumbra {
+namespace {
+
+constexpr int kMaxPixels = 1 << 26;  // two gigabytes of buffers
+constexpr int kMaxFrames = 1'000'000;
+constexpr int kMaxSamples = 1024;
+
+constexpr Choice<Backend> kBackends[] = {{"software", Backend::kSoftware}, {"opengl", Backend::kOpenGl}};
+constexpr Choice<OpenGlCoordinates> kCoordinates[] = {{"float", OpenGlCoordinates::kFloat},
+                                                      {"8bit", OpenGlCoordinates::kTexture}};
+
+// Reads WIDTHxHEIGHT.
+bool ReadSize(std::string_view text, int* width, int* height) {
+  const char* end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, *width);
+  if (first.ec != std::errc() || first.ptr == end || *first.ptr != 'x') return false;
+  const auto second = std::from_chars(first.ptr + 1, end, *height);
+  if (second.ec != std::errc() || second.ptr != end) return false;
+  return *width > 0 && *height > 0 && *width <= kMaxPictureSize && *height <= kMaxPictureSize &&
+         *height <= kMaxPixels / *width;
+}
+
+void SetMode(const std::string& name, RenderMode* mode) {
+  std::string names;
+  for (const RenderMode& candidate : kRenderModes) {
+    if (candidate.name == name) {
+      *mode = candidate;
+      return;
+    }
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", candidate.name);
+  }
+  throw CLI::ValidationError("--mode", fmt::format("'{}' is none of {}", name, names));
+}
+
+}  // namespace
+
+bool IsExr(const std::string& path) { return std::filesystem::path(path).extension() == ".exr"; }
+bool IsPng(const std::string& path) { return std::filesystem::path(path).extension() == ".png"; }
+
+void CheckRenderArguments(const RenderArguments& arguments) {
+  if (!arguments.output && arguments.benchmark_frames == 0)
+    throw UsageError("render needs -o IMAGE.png or -o IMAGE.exr, or --benchmark FRAMES");
+  if (arguments.output) CheckWritable(*arguments.output);
+  if (arguments.scene.report) CheckWritable(*arguments.scene.report);
+  if (arguments.scale_max && !arguments.false_colour)
+    throw UsageError("--scale-max is the end of --false-colour's scale; give both");
+  if ((arguments.false_colour || arguments.split) && (!arguments.output || !IsPng(*arguments.output)))
+    throw UsageError(fmt::format("{} shows something else than radiosity and wants -o IMAGE.png",
+                                 arguments.split ? "--split" : "--false-colour"));
+  if (arguments.ByRays()) {
+    if (arguments.split || arguments.backend == Backend::kOpenGl)
+      throw UsageError(fmt::format("--mode {} casts rays and has no passes; leave out {}",
+                                   arguments.mode.name, arguments.split ? "--split" : "--backend opengl"));
+    if (arguments.samples > kMaxPixels / arguments.height / arguments.width)
+      throw UsageError(fmt::format("{} samples of {}x{} pixels are too many; give a smaller --samples",
+                                   arguments.samples, arguments.width, arguments.height));
+    return;
+  }
+  const int side = arguments.supersampling * std::max(arguments.width, arguments.height);
+  if (arguments.output && IsPng(*arguments.output) &&
+      (side > kMaxPictureSize ||
+       arguments.supersampling * arguments.height > kMaxPixels / (arguments.supersampling * arguments.width)))
+    throw UsageError(
+        fmt::format("a picture of {}x{} is too large for a supersampling of {}; give --supersampling 1",
+                    arguments.width, arguments.height, arguments.supersampling));
+}
+
+nlohmann::ordered_json RenderOptionsUsed(const RenderArguments& arguments) {
+  nlohmann::ordered_json options;
+  options["mode"] = arguments.mode.name;
+  options["size"] = fmt::format("{}x{}", arguments.width, arguments.height);
+  if (arguments.ByRays()) {
+    options["samples"] = arguments.samples;
+  } else {
+    options["supersampling"] = arguments.supersampling;
+    options["backend"] = ChoiceName(kBackends, arguments.backend);
+    if (arguments.backend == Backend::kOpenGl)
+      options["opengl_coordinates"] = ChoiceName(kCoordinates, arguments.coordinates);
+  }
+  if (arguments.exposure)
+    options["exposure"] = *arguments.exposure;
+  else
+    options["exposure"] = arguments.mode.shading == ShadingMode::kReflectance ? "1" : "metered";
+  options["false_colour"] = arguments.false_colour;
+  if (arguments.scale_max) options["scale_max"] = *arguments.scale_max;
+  options["split"] = arguments.split;
+  return options;
+}
+
+void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
+  app.add_option_function<std::string>(
+         "-o,--output",
+         [arguments](const std::string& path) {
+           if (!IsPng(path) && !IsExr(path))
+             throw CLI::ValidationError("-o", fmt::format("'{}' ends neither in .png nor in .exr", path));
+           arguments->output = path;
+         },
+         "The picture: .png is 8-bit sRGB, exposed, emitters white; .exr is linear radiosity in W/m^2, "
+         "unexposed, emittance included")
+      ->type_name("IMAGE.png|.exr");
+  app.add_option_function<std::string>(
+         "--mode", [arguments](const std::string& name) { SetMode(name, &arguments->mode); },
+         "flat: one value an element; gouraud: exact irradiance at the elements' corners, linear between; "
+         "gouraud-mesh: the same on the discontinuity mesh; interpolant: quadratic on that mesh, the "
+         "two-pass display; exact: exact irradiance at every pixel, by rays (RayShade); lerp: the "
+         "interpolant, "
+         "found by rays (LerpShade); rho: reflectance alone")
+      ->type_name("MODE")
+      ->default_str(arguments->mode.name)
+      ->group("Picture");
+  app.add_option_function<std::string>(
+         "--size",
+         [arguments](const std::string& text) {
+           if (!ReadSize(text, &arguments->width, &arguments->height))
+             throw CLI::ValidationError(
+                 "--size",
+                 fmt::format("'{}' is not WIDTHxHEIGHT, each from 1 to {} and at most {} pixels in all", text,
+                             kMaxPictureSize, kMaxPixels));
+         },
+         "Width and height of the picture [pixels]")
+      ->type_name("WxH")
+      ->default_str(fmt::format("{}x{}", arguments->width, arguments->height))
+      ->group("Picture");
+  AddNumber(app, "--exposure", &arguments->exposure, kPositive,
+            "Brightness on the screen, 0 to 1, per W/m^2 (default: metered from the picture; rho: 1)")
+      ->group("Picture");
+  app.add_flag("--false-colour", arguments->false_colour,
+               "A PNG shows the mean of the channels in false colours, with a scale in W/m^2 (rho: 1)")
+      ->group("Picture");
+  AddNumber(app, "--scale-max", &arguments->scale_max, kPositive,
+            "The end of that scale [W/m^2] (default: what the exposure makes white)")
+      ->group("Picture");
+  app.add_flag("--split", arguments->split,
+               "A PNG shows triangle ids, barycentric coordinates, depths and the picture, in quarters")
+      ->group("Picture");
+  AddChoice(app, "--backend", &arguments->backend, kBackends,
+            "What draws the two passes: our rasteriser, or the graphics system, off screen, as in the thesis")
+      ->group("Picture");
+  AddChoice(
+      app, "--opengl-coordinates", &arguments->coordinates, kCoordinates,
+      "opengl: barycentric coordinates as floats, or from the thesis's texture of 256 x 256 texels of 8 "
+      "bits")
+      ->group("Picture");
+  AddInteger(
+      app, "--supersampling", &arguments->supersampling, 1, 8,
+      "Samples a side of each pixel of a PNG, averaged; an EXR, false colours and --split have one, at the "
+      "pixel's centre; exact and lerp: see --samples")
+      ->group("Picture");
+  AddInteger(app, "--samples", &arguments->samples, 1, kMaxSamples,
+             "exact, lerp: rays a pixel, averaged; the first goes through its centre")
+      ->group("Picture");
+  AddInteger(app, "--benchmark", &arguments->benchmark_frames, 1, kMaxFrames,
+             "Render N frames along an orbit of the camera and print fps and milliseconds as a line of JSON; "
+             "-o may be left out")
+      ->default_str("")
+      ->group("Running");
+}
+
+}  // namespace penumbra
