@@ -5,16 +5,25 @@ namespace penumbra {
 extern const Study kPointIrradianceStudy;
 extern const Study kOffsetStudy;
 extern const Study kFormFactorStudy;
-extern const Study kWholeSystemStudy;
-extern const Study kStabilityStudy;
+extern const Study kHierarchicalStudy;
 extern const Study kContinuousRadiosityStudy;
 extern const Study kDiscontinuityStudy;
+extern const Study kRefinementStudy;
+extern const Study kWholeSystemStudy;
+extern const Study kStabilityStudy;
 
 const std::vector<const Study*>& Studies() {
-  static const std::vector<const Study*> studies = {&kPointIrradianceStudy, &kOffsetStudy,
-                                                    &kFormFactorStudy,      &kWholeSystemStudy,
-                                                    &kStabilityStudy,       &kContinuousRadiosityStudy,
-                                                    &kDiscontinuityStudy};
+  static const std::vector<const Study*> studies = {
+      &kPointIrradianceStudy,      // 6.2
+      &kOffsetStudy,               // 6.3
+      &kFormFactorStudy,           // 4.2
+      &kHierarchicalStudy,         // 4.4.1
+      &kContinuousRadiosityStudy,  // 4, against what is known exactly
+      &kDiscontinuityStudy,        // 5
+      &kRefinementStudy,           // 4.4.2
+      &kWholeSystemStudy,          // 7
+      &kStabilityStudy,            // what can go wrong
+  };
   return studies;
 }
 

@@ -1,106 +1,26 @@
 // The whole system: seconds against error for one number that a user names, beside other programs where they
 // were measured, and the thesis's own office and settings.
 
-#include <array>
 #include <cmath>
 #include <fstream>
 
 #include <fmt/format.h>
 
+#include "experiments/studies/reference_case.h"
 #include "experiments/studies/study.h"
-#include "mesh/pipeline.h"
 #include "solver/base/check.h"
-#include "solver/base/stopwatch.h"
-#include "solver/scene/builtin_scenes.h"
-#include "solver/scene/obj_reader.h"
 
 namespace penumbra {
 namespace {
 
-// The floor below which an error is no longer relative to the point's own irradiance: of the channel's mean.
-constexpr double kDark = 0.01;
-// A reference is taken for what it is within this many of its standard errors.
-constexpr double kNoise = 2;
-
-struct Shown {
-  std::vector<double> interpolated, exact;  // errors beyond the reference's noise, points times channels
-};
-
-Shown Compare(const Pipeline& pipeline, const std::vector<ReferencePoint>& points) {
-  const Scene& scene = pipeline.scene();
-  Rgb mean = Rgb::Zero();
-  for (const ReferencePoint& p : points) mean += p.irradiance / static_cast<double>(points.size());
-  const double near = 1e-6 * scene.Diagonal();
-  Shown shown;
-  for (const ReferencePoint& p : points) {
-    const ReceiverPoint at{p.position, p.normal, Vec3::Zero(), 0};
-    const Rgb exact = pipeline.irradiance().Anywhere(at).irradiance;
-    std::optional<Rgb> interpolated;
-    for (std::size_t i = 0; i < scene.patches.size() && !interpolated; ++i) {
-      const Patch& patch = scene.patches[i];
-      if (patch.normal.dot(p.normal) < 0.9998 ||
-          std::abs(patch.normal.dot(p.position - patch.vertex[0])) > near)
-        continue;
-      interpolated = pipeline.Interpolated(static_cast<PatchId>(i), p.position, near);
-    }
-    const Rgb scale = p.irradiance.max(kDark * mean);
-    const auto add = [&](const Rgb& value, std::vector<double>* errors) {
-      for (int c = 0; c < 3; ++c)
-        errors->push_back(std::max(0.0, std::abs(value[c] - p.irradiance[c]) - kNoise * p.deviation[c]) /
-                          scale[c]);
-    };
-    add(exact, &shown.exact);
-    if (interpolated) add(*interpolated, &shown.interpolated);
-  }
-  return shown;
-}
-
-struct Case {
-  std::string name;
-  Scene scene;
-  std::vector<ReferencePoint> points;
-};
-
-std::vector<Case> Cases(bool quick) {
-  std::vector<Case> cases;
-  for (const std::string name : {"floating-cube", "cornell", "office", "building-1x1"}) {
-    if (quick && !cases.empty()) break;
-    cases.push_back({name, *LoadBuiltinScene(name, {}), ReadReference("reference/" + name + ".csv")});
-  }
-  if (quick) return cases;
-  for (const std::string name : {"box", "box_grey"})
-    cases.push_back({name, ReadObj("experiments/peers/" + name + ".obj", {}),
-                     ReadReference("peers/" + name + "_reference.csv")});
-  return cases;
-}
-
 // Solves with the options, and adds rows for what the interpolants show and what exact irradiance gives.
-StudyRow Measure(StudyLog& log, const Case& test, const PipelineOptions& options, const std::string& setting,
-                 double parameter, int repeats) {
-  std::vector<double> seconds;
-  std::unique_ptr<Pipeline> pipeline;
-  for (int i = 0; i < repeats; ++i) {
-    pipeline = std::make_unique<Pipeline>(test.scene, options);
-    const Stopwatch stopwatch;
-    pipeline->Solve({});
-    pipeline->BuildMesh(MeshKind::kInterpolant, {});
-    seconds.push_back(stopwatch.Seconds());
-  }
-  std::sort(seconds.begin(), seconds.end());
-  const Shown shown = Compare(*pipeline, test.points);
-  const PipelineReport& report = pipeline->report();
-
-  StudyRow row;
-  row.scene = test.name;
+StudyRow Measure(StudyLog& log, const ReferenceCase& test, const PipelineOptions& options,
+                 const std::string& setting, double parameter, int repeats) {
+  Measured measured = MeasurePipeline(test, options, repeats);
+  StudyRow& row = measured.row;
   row.method = "penumbra";
   row.setting = setting;
   row.parameter = parameter;
-  row.seconds = seconds[seconds.size() / 2];
-  row.elements = report.counts.elements;
-  row.links = report.counts.links;
-  row.triangles = report.counts.triangles;
-  row.evaluations = report.counts.point_evaluations;
-  SetErrors(shown.interpolated, &row);
   log.Add(row);
 
   StudyRow exact;
@@ -108,10 +28,14 @@ StudyRow Measure(StudyLog& log, const Case& test, const PipelineOptions& options
   exact.method = "penumbra, exact probe";
   exact.setting = setting;
   exact.parameter = parameter;
-  for (const Phase& phase : report.phases)
+  SetErrors(ReferenceErrors(test,
+                            [&](const ReceiverPoint& at) {
+                              return measured.pipeline->irradiance().Anywhere(at).irradiance;
+                            }),
+            &exact);
+  for (const Phase& phase : measured.pipeline->report().phases)
     if (phase.name == "link" || phase.name == "iterate")
       exact.seconds = (std::isnan(exact.seconds) ? 0 : exact.seconds) + phase.seconds;
-  SetErrors(shown.exact, &exact);
   log.Add(std::move(exact));
   return row;
 }
@@ -147,7 +71,10 @@ void AddPeers(StudyLog& log) {
 
 void Run(StudyLog& log) {
   if (!log.quick()) AddPeers(log);
-  for (const Case& test : Cases(log.quick())) {
+  std::vector<std::string> names = {"floating-cube", "cornell", "office", "building-1x1", "box", "box_grey"};
+  if (log.quick()) names.resize(1);
+  for (const std::string& name : names) {
+    const ReferenceCase test = LoadReferenceCase(name);
     int kept = 0, asked = 0;
     for (const double error :
          log.quick() ? std::vector<double>{0.1} : std::vector<double>{0.1, 0.05, 0.02, 0.01, 0.005}) {
