@@ -27,17 +27,13 @@ struct ProbeArguments {
   std::string points;
   std::optional<std::string> output;
   std::string method = "auto";
-  OcclusionOptions occlusion;
   bool direct = false;
   bool parts = false;
 };
 
 // What a probe may be told beside the options of a solve.
 nlohmann::ordered_json ProbeOptions(const ProbeArguments& arguments) {
-  return {{"method", arguments.method},
-          {"min_backprojection_segment", arguments.occlusion.min_backprojection_segment},
-          {"direct", arguments.direct},
-          {"parts", arguments.parts}};
+  return {{"method", arguments.method}, {"direct", arguments.direct}, {"parts", arguments.parts}};
 }
 
 constexpr const char* kFastest = "auto";
@@ -69,9 +65,10 @@ void Probe(const ProbeArguments& arguments) {
   LoadedScene loaded = LoadScene(arguments.scene);
   const std::vector<ProbePoint> points = ReadPointsCsv(arguments.points);
 
-  const std::unique_ptr<const OcclusionMethod> method =
-      arguments.method == kFastest ? nullptr : MakeOcclusionMethod(arguments.method, arguments.occlusion);
   PointIrradianceOptions how = loaded.stored ? loaded.stored->solving.point : arguments.scene.solving.point;
+  const std::unique_ptr<const OcclusionMethod> method =
+      arguments.method == kFastest ? nullptr
+                                   : MakeOcclusionMethod(arguments.method, {how.min_backprojection_segment});
   how.method = method.get();
 
   std::vector<Measurement> measurements;
@@ -122,10 +119,6 @@ Command AddProbeCommand(CLI::App& program) {
       ->check(CLI::IsMember(methods))
       ->type_name("METHOD")
       ->capture_default_str();
-  AddNumber(
-      *app, "--min-backprojection-segment", &arguments->occlusion.min_backprojection_segment, kNonNegative,
-      "Shortest segment of a blocker's outline in a backprojection, relative to the source's diameter as "
-      "seen; shorter ones are collapsed, as in the thesis; 0: none");
   AddSolveOptions(*app, &arguments->scene);
   AddReportOption(*app, &arguments->scene)->excludes(direct);
   app->footer(

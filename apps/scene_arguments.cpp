@@ -227,6 +227,11 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
   AddNumber(app, "--source-push-off", &solving->point.source_push_off, kNonNegative,
             "Lift sources this far off each receiver [m], as the thesis does where they touch it; 0: not")
       ->group(group);
+  AddNumber(app, "--min-backprojection-segment", &solving->point.min_backprojection_segment, kNonNegative,
+            "Find shadows at points by backprojection, and collapse segments of a blocker's outline shorter "
+            "than this, "
+            "relative to the source's diameter as seen, as the thesis does; 0: the fastest exact way")
+      ->group(group);
   app.add_option_function<std::string>(
          "--form-factors",
          [solving](const std::string& name) {
@@ -320,6 +325,7 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["bounces"] = arguments.solving.bounces;
     options["nudge"] = arguments.solving.point.nudge;
     options["source_push_off"] = arguments.solving.point.source_push_off;
+    options["min_backprojection_segment"] = arguments.solving.point.min_backprojection_segment;
     options["form_factors"] =
         arguments.solving.form_factors == LinkFormFactors::kExact ? "exact" : "cubature";
     options["solver"] = arguments.solving.dense ? "dense" : "hierarchical";
@@ -379,6 +385,7 @@ PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   }
   options.at("nudge").get_to(solving.point.nudge);
   options.at("source_push_off").get_to(solving.point.source_push_off);
+  solving.point.min_backprojection_segment = options.value("min_backprojection_segment", 0.0);
   options.at("error_points").get_to(solving.error_points);
   return solving;
 }

@@ -134,6 +134,8 @@ void Viewer::AddSolveSettings() {
   also(s.Number("nudge", "Solving", "Nudge of points in contact [m]", &o.point.nudge, 0, 1e6, false));
   also(s.Number("source-push-off", "Solving", "Push-off of sources [m]", &o.point.source_push_off, 0, 1e6,
                 false));
+  also(s.Number("min-backprojection-segment", "Solving", "Shortest segment of backprojections, 0: clip",
+                &o.point.min_backprojection_segment, 0, 1, false));
   Setting points{"error-points",
                  "Solving",
                  "Points that measure the error",

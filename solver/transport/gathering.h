@@ -22,6 +22,9 @@ struct PointIrradianceOptions {
   // [m].
   double nudge = 0;
   double source_push_off = 0;
+  // Where there is no method and this is positive: backprojection, which collapses segments of blockers'
+  // outlines that are shorter than this, relative to the source's diameter as seen.
+  double min_backprojection_segment = 0;
 };
 
 // The light that a point receives from one patch.

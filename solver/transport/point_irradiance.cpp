@@ -8,6 +8,7 @@
 #include "solver/base/check.h"
 #include "solver/transport/gathering.h"
 #include "solver/transport/solution.h"
+#include "solver/visibility/backprojection.h"
 
 namespace penumbra {
 
@@ -30,13 +31,21 @@ PointIrradiance::PointIrradiance(const RadiositySolution& solution, const PatchV
       sources_(SourceSet::FromSolution(solution)),
       leaves_(std::make_shared<LeafVisibility>(solution.forest, visibility)),
       options_(options) {
+  ChooseMethod();
   BuildHierarchies();
 }
 
 PointIrradiance::PointIrradiance(const Scene& scene, const PatchVisibility& visibility, SourceSet sources,
                                  const PointIrradianceOptions& options)
     : scene_(scene), visibility_(visibility), sources_(std::move(sources)), options_(options) {
+  ChooseMethod();
   BuildHierarchies();
+}
+
+void PointIrradiance::ChooseMethod() {
+  if (options_.method || options_.min_backprojection_segment <= 0) return;
+  method_ = std::make_shared<const Backprojection>(options_.min_backprojection_segment);
+  options_.method = method_.get();
 }
 
 void PointIrradiance::BuildHierarchies() {
@@ -63,6 +72,7 @@ PointIrradiance PointIrradiance::WithSources(SourceSet sources) const {
   PointIrradiance other(scene_, visibility_, std::move(sources), options_);
   other.forest_ = forest_;
   other.leaves_ = leaves_;
+  other.method_ = method_;
   return other;
 }
 

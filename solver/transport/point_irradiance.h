@@ -62,6 +62,7 @@ class PointIrradiance {
 
  private:
   void BuildHierarchies();
+  void ChooseMethod();
   void GatherOnPatch(PatchId patch, const ReceiverPoint& at, Gathering& gathering) const;
   ReceiverPoint Nudged(const ReceiverPoint& at) const;
 
@@ -71,8 +72,9 @@ class PointIrradiance {
   SourceSet sources_;
   std::shared_ptr<const LeafVisibility> leaves_;
   PointIrradianceOptions options_;
-  PatchHierarchy patches_;         // all of them
-  PatchHierarchy source_patches_;  // those that send light
+  std::shared_ptr<const OcclusionMethod> method_;  // what options_ names, if it is ours
+  PatchHierarchy patches_;                         // all of them
+  PatchHierarchy source_patches_;                  // those that send light
   ScreenFinder screens_;
 };
 

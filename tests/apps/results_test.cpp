@@ -578,6 +578,9 @@ TEST(Solve, OptionsOfTheSolver) {
   EXPECT_NEAR(bounces["diagnostics"]["closure"]["mean"].get<double>(), 1, 0.01);
   EXPECT_EQ(bounces["diagnostics"]["open"]["escaping"].get<double>(), 0);
 
+  const json thesis = solve({"--min-backprojection-segment", "1e-6", "--nudge", "1e-9"});
+  EXPECT_EQ(thesis["options"]["min_backprojection_segment"].get<double>(), 1e-6);
+
   const json limited = solve({"--time-limit", "1e-9"});
   ASSERT_GE(limited["unmet"].size(), 1U);
   EXPECT_THAT(limited["unmet"][0].get<std::string>(), HasSubstr("time limit"));

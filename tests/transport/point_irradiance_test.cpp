@@ -171,6 +171,29 @@ TEST(PointIrradiance, GradientOverSquare) {
   EXPECT_NEAR(parts.gradient(0, 1), 0, 1e-16);
 }
 
+// Backprojection that collapses segments: nothing where there are none so short, something where all are.
+TEST(PointIrradiance, ShortSegmentsOfBackprojections) {
+  Random random(806);
+  double same = 0, other = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Scene scene = BrightRoom(random, 4);
+    const PatchVisibility unused;
+    const SourceSet sources = SourceSet::Emitters(scene);
+    PointIrradianceOptions fine, coarse;
+    fine.min_backprojection_segment = 1e-9;
+    coarse.min_backprojection_segment = 0.3;
+    const PointIrradiance exact(scene, unused, sources), finely(scene, unused, sources, fine),
+        coarsely = PointIrradiance(scene, unused, sources, coarse).WithSources(sources);
+    const ReceiverPoint at = Receiver(PointInRoom(random), RandomDirection(random));
+    const Rgb want = exact.Anywhere(at).irradiance;
+    same = std::max(same, (finely.Anywhere(at).irradiance - want).abs().maxCoeff());
+    other = std::max(other, (coarsely.Anywhere(at).irradiance - want).abs().maxCoeff());
+  }
+  std::printf("seed 806, largest differences %.2g and %.2g W/m^2\n", same, other);
+  EXPECT_LE(same, 1e-12);
+  EXPECT_GE(other, 1e-4);
+}
+
 // The thesis's substitutes for limits: beside the foot of a bright wall the limit is 1/2; a nudge of d gives
 // the value at d; a lifted wall leaves almost nothing at its foot.
 TEST(PointIrradiance, NudgeAndPushOff) {
