@@ -59,13 +59,16 @@ class Filter {
         kMargin * Diameter(element.Vertices()) + kMarginOfPatch * Diameter(patch.Vertices());
     const Polygon3 receiver = Widened(element.Vertices(), margin);
     Lists own;
+    std::vector<PatchId> all, first_met;
     for (PatchPair pair : above.pairs) {
+      all.clear();
       const Patch& source = scene_.patches[pair.source];
       const std::optional<TubeEnds> ends = ClipToEachOther(receiver, patch, source.Vertices(), source);
       if (!ends) continue;
       const auto first = static_cast<std::uint32_t>(own.blockers.size());
-      if (!FindTubeBlockers(scene_, *ends, element.patch, pair.source, above.Blockers(pair), own.blockers))
+      if (!FindTubeBlockers(scene_, *ends, element.patch, pair.source, above.Blockers(pair), all, first_met))
         continue;
+      own.blockers.insert(own.blockers.end(), first_met.begin(), first_met.end());
       pair.first_blocker = first;
       pair.blocker_count = static_cast<std::uint32_t>(own.blockers.size()) - first;
       pair.visibility = pair.blocker_count > 0 ? Visibility::kPartial : Visibility::kVisible;
@@ -80,12 +83,14 @@ class Filter {
 
 }  // namespace
 
-LeafVisibility::LeafVisibility(const ElementForest& forest, const PatchVisibility& patches)
+LeafVisibility::LeafVisibility(const ElementForest& forest, const PatchVisibility& patches,
+                               const ExecutionContext& context)
     : range_(forest.size(), {0, 0}) {
   const std::size_t count = forest.scene().patches.size();
   std::vector<PatchLists> found(count);
   const Filter filter(forest);
   ParallelFor(count, 1, [&](std::size_t p) {
+    if (context.Cancelled()) return;
     Lists root;
     for (PatchPair pair : patches.SourcesOf(static_cast<PatchId>(p))) {
       const std::span<const PatchId> blockers = patches.Blockers(pair);

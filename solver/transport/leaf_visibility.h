@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/base/progress.h"
 #include "solver/transport/element_forest.h"
 #include "solver/visibility/patch_visibility.h"
 
@@ -16,13 +17,16 @@ namespace penumbra {
 class LeafVisibility {
  public:
   LeafVisibility() = default;
-  LeafVisibility(const ElementForest& forest, const PatchVisibility& patches);
+  // Of no use if it was cancelled.
+  LeafVisibility(const ElementForest& forest, const PatchVisibility& patches,
+                 const ExecutionContext& context = ExecutionContext());
 
   // The source patches that some point of the leaf, or just beside it, may see; ascending.
   std::span<const PatchPair> SourcesOf(ElementId leaf) const {
     return {pairs_.data() + range_[static_cast<std::size_t>(leaf)].first,
             pairs_.data() + range_[static_cast<std::size_t>(leaf)].second};
   }
+  // As many of the tube's blockers as tell what is blocked: one at least of those in the way of any segment.
   std::span<const PatchId> Blockers(const PatchPair& pair) const {
     return {blockers_.data() + pair.first_blocker, pair.blocker_count};
   }

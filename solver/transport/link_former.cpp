@@ -21,8 +21,9 @@ constexpr int kNearRefinement = 2;
 // A candidate that may shed light on the receiver.
 struct Pending {
   std::size_t link = 0;
-  Polygon3 lit;             // the receiver's part before the source's plane; empty if that is all of it
-  double lit_fraction = 1;  // of its area
+  std::vector<PatchId> blockers;  // as many of the link's as tell what is blocked
+  Polygon3 lit;                   // the receiver's part before the source's plane; empty if that is all of it
+  double lit_fraction = 1;        // of its area
   int refinement = 0;
   bool uniform = false;  // the source has one radiosity for good: its quarters need no factors of their own
   std::array<std::array<Vec3, 4>, 4> quarters;
@@ -79,13 +80,13 @@ class Former {
     link.receiver = id_;
     link.source = candidate.source;
     link.first_blocker = static_cast<std::uint32_t>(set_.blockers.size());
+    Pending pending;
     if (!FindTubeBlockers(forest_.scene(), *ends, receiver_.patch, source.patch, candidate.blockers,
-                          set_.blockers))
+                          set_.blockers, pending.blockers))
       return;
     link.blocker_count = static_cast<std::uint32_t>(set_.blockers.size()) - link.first_blocker;
     link.visibility = link.blocker_count > 0 ? Visibility::kPartial : Visibility::kVisible;
 
-    Pending pending;
     pending.link = set_.links.size();
     if (ends->receiver_clipped) {
       pending.lit = ends->receiver;
@@ -160,9 +161,9 @@ class Former {
     if (!view.FaceSource(source.patch)) return factor;
     std::vector<Occluder>& occluders = view.occluder_stack();
     occluders.clear();
-    if (link.blocker_count > 0) {
+    if (!pending.blockers.empty()) {
       const DirectionPolygon whole = view.SeeSource(source.Vertices());
-      if (whole.empty() || !view.FindBlockers(set_.Blockers(link), receiver_.patch, whole, occluders))
+      if (whole.empty() || !view.FindBlockers(pending.blockers, receiver_.patch, whole, occluders))
         return factor;
     }
     if (pending.uniform) {

@@ -59,11 +59,17 @@ class PairFinder {
 
 }  // namespace
 
-PatchVisibility::PatchVisibility(const Scene& scene) {
+PatchVisibility::PatchVisibility(const Scene& scene, const ExecutionContext& context) {
   const std::size_t count = scene.patches.size();
   const PairFinder finder(scene);
   std::vector<std::vector<Found>> found(count);  // pairs (i, j) with i < j, at i
-  ParallelFor(count, 1, [&](std::size_t i) { found[i] = finder.Find(static_cast<PatchId>(i)); });
+  ParallelFor(count, 1, [&](std::size_t i) {
+    if (!context.Cancelled()) found[i] = finder.Find(static_cast<PatchId>(i));
+  });
+  if (context.Cancelled()) {
+    rows_.first.assign(count + 1, 0);
+    return;
+  }
 
   std::vector<std::vector<PatchPair>> by_receiver(count);
   for (std::size_t i = 0; i < count; ++i)

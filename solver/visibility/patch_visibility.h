@@ -11,11 +11,12 @@
 #include <utility>
 #include <vector>
 
+#include "solver/base/progress.h"
 #include "solver/scene/scene.h"
 
 namespace penumbra {
 
-// The class of a tube. Pairs that one blocker hides wholly are not kept.
+// The class of a tube. Pairs that one blocker hides wholly, or walls together, are not kept.
 enum class Visibility : std::uint8_t { kVisible, kPartial };
 
 // One source that a receiver's front may see.
@@ -35,13 +36,14 @@ class PatchVisibility {
   };
 
   PatchVisibility() = default;
-  explicit PatchVisibility(const Scene& scene);
+  // Without any pairs if it was cancelled.
+  explicit PatchVisibility(const Scene& scene, const ExecutionContext& context = ExecutionContext());
   // What another one gave as rows().
   explicit PatchVisibility(Rows rows) : rows_(std::move(rows)) {}
 
   // The sources that receiver's front may see, ascending: their fronts and its front each have a part before
-  // the other's plane, and no single blocker hides them wholly. Symmetric: s is a source of r just if r is
-  // one of s.
+  // the other's plane, and neither one blocker nor walls (HiddenByWalls) hide them wholly. Symmetric: s is a
+  // source of r just if r is one of s.
   std::span<const PatchPair> SourcesOf(PatchId receiver) const {
     return {rows_.pairs.data() + rows_.first[receiver], rows_.pairs.data() + rows_.first[receiver + 1]};
   }

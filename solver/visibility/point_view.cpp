@@ -81,7 +81,7 @@ PointView::BlockerView PointView::ViewBlocker(std::span<const Vec3> polygon, con
 }
 
 // The blocker's part strictly between the point and the source's plane, as seen; null if it has none.
-const PointView::BlockerView* PointView::FindBlocker(PatchId blocker) {
+const PointView::BlockerView* PointView::FindBlocker(PatchId blocker, const DirectionPolygon& seen) {
   const Patch& patch = scene_.patches[blocker];
   const double rounding = HeightRounding(std::max(patch.extent, source_->extent));
   double lowest = 0, highest = 0;
@@ -91,16 +91,20 @@ const PointView::BlockerView* PointView::FindBlocker(PatchId blocker) {
     highest = std::max(highest, height);
   }
   if (highest <= rounding) return nullptr;
-  if (lowest < -rounding) {
-    const Polygon3 before = ClipToHalfSpace(patch.Vertices(), source_->normal, source_->vertex[0], rounding);
-    if (before.empty()) return nullptr;
-    return &buffers_.cut.emplace_back(ViewBlocker(before, patch));
-  }
   if (buffers_.stamp[blocker] != buffers_.now) {
     buffers_.stamp[blocker] = buffers_.now;
     buffers_.view[blocker] = ViewBlocker(patch.Vertices(), patch);
   }
-  return &buffers_.view[blocker];
+  const BlockerView& whole = buffers_.view[blocker];
+  if (lowest < -rounding) {
+    // What misses the source as a whole misses it as a part.
+    if (!whole.in_limit && whole.cone.size > 0 && Classify(whole.cone, seen) == Overlap::kNone)
+      return nullptr;
+    const Polygon3 before = ClipToHalfSpace(patch.Vertices(), source_->normal, source_->vertex[0], rounding);
+    if (before.empty()) return nullptr;
+    return &buffers_.cut.emplace_back(ViewBlocker(before, patch));
+  }
+  return &whole;
 }
 
 bool PointView::FindBlockers(std::span<const PatchId> candidates, PatchId own, const DirectionPolygon& seen,
@@ -108,7 +112,7 @@ bool PointView::FindBlockers(std::span<const PatchId> candidates, PatchId own, c
   const std::size_t before = occluders.size();
   for (const PatchId blocker : candidates) {
     if (blocker == own || &scene_.patches[blocker] == source_) continue;
-    const BlockerView* view = FindBlocker(blocker);
+    const BlockerView* view = FindBlocker(blocker, seen);
     if (!view || view->cone.size == 0) continue;
     const Overlap overlap = Classify(view->cone, seen);
     if (overlap == Overlap::kNone) continue;

@@ -67,7 +67,7 @@ class PointView {
 
   static Buffers& ThreadBuffers();
   BlockerView ViewBlocker(std::span<const Vec3> polygon, const Patch& patch) const;
-  const BlockerView* FindBlocker(PatchId blocker);
+  const BlockerView* FindBlocker(PatchId blocker, const DirectionPolygon& seen);
 
   const Scene& scene_;
   const ReceiverPoint& at_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solver/visibility/beams.h"
 #include "solver/visibility/tube.h"
 
 namespace penumbra {
@@ -10,6 +11,9 @@ namespace {
 // Of a height above a plane, relative to the coordinates: what rounding of vertices and normal can make of
 // zero. Polygons that see each other only by less than this lie in one plane.
 constexpr double kCoplanar = 1e-12;
+
+// One blocker hides all or is no wall.
+constexpr std::size_t kFewestOfWalls = 2;
 
 // The part of the polygon before the patch's plane; empty if that is nothing beyond rounding.
 Polygon3 PartBefore(std::span<const Vec3> polygon, const Patch& patch, bool* clipped) {
@@ -26,6 +30,7 @@ Polygon3 PartBefore(std::span<const Vec3> polygon, const Patch& patch, bool* cli
   return ClipToHalfSpace(polygon, patch.normal, patch.vertex[0], kCoplanar * scale);
 }
 
+// False, with nothing appended, if one candidate hides the ends from each other.
 bool FilterByTube(const Scene& scene, const Tube& tube, PatchId receiver, PatchId source,
                   std::span<const PatchId> candidates, std::vector<PatchId>& blockers) {
   const std::size_t before = blockers.size();
@@ -40,6 +45,18 @@ bool FilterByTube(const Scene& scene, const Tube& tube, PatchId receiver, PatchI
     blockers.push_back(candidate);
   }
   return true;
+}
+
+// The same, and false if walls hide them.
+bool FindInTube(const Scene& scene, const Tube& tube, const TubeEnds& ends, PatchId receiver, PatchId source,
+                std::span<const PatchId> candidates, std::vector<PatchId>& blockers) {
+  const std::size_t before = blockers.size();
+  if (!FilterByTube(scene, tube, receiver, source, candidates, blockers)) return false;
+  if (blockers.size() < before + kFewestOfWalls ||
+      !HiddenByWalls(scene, ends.receiver, ends.source, std::span(blockers).subspan(before)))
+    return true;
+  blockers.resize(before);
+  return false;
 }
 
 }  // namespace
@@ -58,7 +75,7 @@ std::optional<TubeEnds> ClipToEachOther(std::span<const Vec3> receiver, const Pa
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       std::span<const PatchId> candidates, std::vector<PatchId>& blockers) {
   return candidates.empty() ||
-         FilterByTube(scene, Tube(ends.receiver, ends.source), receiver, source, candidates, blockers);
+         FindInTube(scene, Tube(ends.receiver, ends.source), ends, receiver, source, candidates, blockers);
 }
 
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
@@ -66,7 +83,27 @@ bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver
   const Tube tube(ends.receiver, ends.source);
   thread_local std::vector<PatchId> candidates;
   hierarchy.Find(tube.Region(), {}, candidates);
-  return FilterByTube(scene, tube, receiver, source, candidates, blockers);
+  return FindInTube(scene, tube, ends, receiver, source, candidates, blockers);
+}
+
+bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
+                      std::span<const PatchId> candidates, std::vector<PatchId>& blockers,
+                      std::vector<PatchId>& first) {
+  first.clear();
+  if (candidates.empty()) return true;
+  const Tube tube(ends.receiver, ends.source);
+  if (!FilterByTube(scene, tube, receiver, source, candidates, first)) return false;
+  const std::size_t before = blockers.size();
+  blockers.insert(blockers.end(), first.begin(), first.end());
+  if (first.size() < kFewestOfWalls) return true;
+  const Beams beams = FindBeams(scene, ends.receiver, ends.source, first);
+  if (beams.hidden()) {
+    blockers.resize(before);
+    first.clear();
+    return false;
+  }
+  KeepBlockersOfBeams(scene, beams, first);
+  return true;
 }
 
 }  // namespace penumbra

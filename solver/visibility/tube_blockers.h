@@ -26,12 +26,18 @@ std::optional<TubeEnds> ClipToEachOther(std::span<const Vec3> receiver, const Pa
                                         std::span<const Vec3> source, const Patch& source_patch);
 
 // Appends those candidates that meet the interior of the tube; the two patches themselves are left out. Never
-// leaves out a true blocker. False, with nothing appended, if one candidate hides the ends from each other
-// wholly.
+// leaves out a true blocker. False, with nothing appended, if the ends are found to be hidden from each other
+// wholly: by one candidate, or by walls (HiddenByWalls).
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       std::span<const PatchId> candidates, std::vector<PatchId>& blockers);
 // The same with all patches of the hierarchy as candidates; blockers ascend.
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       const PatchHierarchy& hierarchy, std::vector<PatchId>& blockers);
+
+// The same, and `first` gets only as many of them as tell which segments between the ends are blocked: of
+// what stands in a blocked segment's way one at least is there, walls first (KeepBlockersOfBeams).
+bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
+                      std::span<const PatchId> candidates, std::vector<PatchId>& blockers,
+                      std::vector<PatchId>& first);
 
 }  // namespace penumbra
