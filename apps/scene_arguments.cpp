@@ -211,7 +211,8 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
              "Most iterations of gathering and refining")
       ->group(group);
   AddNumber(app, "--time-limit", &solving->time_limit, kPositive,
-            "End linking, iterating and correcting after this many seconds, with the last whole step's light")
+            "End a solve after this many seconds, with the last whole step's light, and its mesh without "
+            "refining it")
       ->group(group);
   AddNumber(app, "--memory-limit", &solving->memory_limit, kPositive,
             "End them in the same way when the program takes this many bytes of memory")

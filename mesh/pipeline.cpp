@@ -103,9 +103,10 @@ struct Pipeline::Impl {
   PipelineOptions options;
   ResolvedOptions resolved;
   PatchVisibility visibility;
-  std::unique_ptr<HierarchicalSolver> solver;  // null until the roots are linked
-  std::optional<RadiositySolution> stored;     // that another one made, until a step begins anew
-  std::optional<MeshKind> mesh_kind;           // of a mesh of the present solution
+  std::unique_ptr<HierarchicalSolver> solver;         // null until the roots are linked
+  std::optional<RunLimits::Clock::time_point> begun;  // when Solve() did: its limits count from there
+  std::optional<RadiositySolution> stored;            // that another one made, until a step begins anew
+  std::optional<MeshKind> mesh_kind;                  // of a mesh of the present solution
   IrradianceMesh mesh;
   std::unique_ptr<LocalPassCache> local_pass;      // of the present visibility
   std::vector<PatchTriangulation> triangulations;  // of the mesh
@@ -154,7 +155,8 @@ struct Pipeline::Impl {
     const std::lock_guard<std::mutex> lock(irradiance_making);
     if (!irradiance) {
       const Stopwatch stopwatch;
-      irradiance = std::make_unique<PointIrradiance>(Solution(), visibility, options.point);
+      irradiance = std::make_unique<PointIrradiance>(Solution(), visibility, options.point,
+                                                     solver ? solver->SeenFromLeaves() : nullptr);
       AddPhase("iterate", stopwatch.Seconds());
     }
     return *irradiance;
@@ -226,6 +228,41 @@ struct Pipeline::Impl {
     return [&exact](PatchId patch, const ReceiverPoint& at) { return exact.OnPatch(patch, at); };
   }
 
+  // What is left of the limits to Solve(); none without it.
+  RunLimits LimitsSinceSolve(const ExecutionContext& context) const {
+    return RunLimits(context, begun ? options.time_limit : std::nullopt,
+                     begun ? options.memory_limit : std::nullopt, begun.value_or(RunLimits::Clock::now()));
+  }
+
+  // Makes the mesh of that kind, from the solution as it is; for interpolants refines what they show, unless
+  // that is cancelled or not asked for. Returns the kind; nothing if it was cancelled before there was a
+  // mesh. Adds to the report.
+  std::optional<MeshKind> MakeMesh(MeshKind kind, const ExecutionContext& context, MeshReport& done) {
+    MeshOptions mesh_options;
+    mesh_options.discontinuities = resolved.discontinuities;
+    if (kind != MeshKind::kGouraudMesh && kind != MeshKind::kInterpolant)
+      mesh_options.discontinuities.choice = DiscontinuityChoice::kNone;
+    mesh_options.order = kind == MeshKind::kFlat          ? InterpolantOrder::kConstant
+                         : kind == MeshKind::kInterpolant ? InterpolantOrder::kQuadratic
+                                                          : InterpolantOrder::kLinear;
+    IrradianceSampler sampler;
+    if (kind != MeshKind::kFlat) {
+      if (solver && !solver->SeenFromLeaves(context)) return std::nullopt;
+      sampler = Sampler();
+    }
+    MeshResult result = RunLocalPass(visibility, Solution(), sampler, mesh_options, context, &LocalPass());
+    if (context.Cancelled()) return std::nullopt;
+    done = result.report;
+    mesh = std::move(result.mesh);
+    triangulations = std::move(result.triangulations);
+    mesh_forest = Solution().forest;
+    triangle_errors.clear();
+    if (kind == MeshKind::kInterpolant && solver && options.refine != RefineBy::kTransport &&
+        !mesh.triangles.empty())
+      RefineShown(mesh_options, done, context);
+    return kind;
+  }
+
   // Runs one step of the solver, which says whether it was done, and counts what it left.
   template <class Step>
   bool Run(const ExecutionContext& context, const Step& step) {
@@ -277,7 +314,7 @@ Pipeline::Pipeline(const Scene& scene, const PipelineOptions& options, PipelineS
 Pipeline::~Pipeline() = default;
 
 void Pipeline::Link(const ExecutionContext& context) {
-  if (impl_->solver) return;
+  if (impl_->solver && impl_->solver->Linked()) return;
   context.Report("link", 0);
   const Stopwatch linking;
   if (impl_->stored) {
@@ -287,13 +324,15 @@ void Pipeline::Link(const ExecutionContext& context) {
     impl_->report.error_asked = impl_->options.error;
   }
   impl_->local_pass.reset();
-  impl_->visibility = PatchVisibility(impl_->scene);
+  if (impl_->solver) impl_->Forget();  // of a linking that was cancelled
+  impl_->visibility = PatchVisibility(impl_->scene, context);
   if (impl_->options.dense) {
     impl_->AddPhase("link", linking.Seconds());
-    return impl_->SolveDenseSystem(context);
+    impl_->SolveDenseSystem(context);
+    if (impl_->solver) return;
   }
   impl_->solver =
-      std::make_unique<HierarchicalSolver>(impl_->scene, impl_->visibility, impl_->resolved.solver);
+      std::make_unique<HierarchicalSolver>(impl_->scene, impl_->visibility, impl_->resolved.solver, context);
   impl_->AddPhase("link", linking.Seconds());
   impl_->Count();
 }
@@ -333,9 +372,16 @@ bool Pipeline::Relight(const ExecutionContext& context) {
 }
 
 void Pipeline::Solve(const ExecutionContext& context) {
-  const RunLimits limits(context, impl_->options.time_limit, impl_->options.memory_limit);
+  impl_->begun = RunLimits::Clock::now();
+  const RunLimits limits(context, impl_->options.time_limit, impl_->options.memory_limit, *impl_->begun);
   const ExecutionContext& running = limits.context();
   Link(running);
+  if (!impl_->solver->Linked()) {
+    if (const std::optional<std::string> limit = limits.Exceeded())
+      impl_->report.unmet.push_back(
+          fmt::format("link: ended by {}: nothing is linked, and dark but for what it emits", *limit));
+    return;
+  }
   if (impl_->options.dense) return;
   const int most = impl_->resolved.solver.max_iterations;
   for (int i = 0; i < most && !Converged() && !running.Cancelled(); ++i) {
@@ -356,40 +402,38 @@ void Pipeline::Solve(const ExecutionContext& context) {
 
 void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context) {
   if (impl_->mesh_kind == kind) return;
-  MeshOptions options;
-  options.discontinuities = impl_->resolved.discontinuities;
-  if (kind != MeshKind::kGouraudMesh && kind != MeshKind::kInterpolant)
-    options.discontinuities.choice = DiscontinuityChoice::kNone;
-  options.order = kind == MeshKind::kFlat          ? InterpolantOrder::kConstant
-                  : kind == MeshKind::kInterpolant ? InterpolantOrder::kQuadratic
-                                                   : InterpolantOrder::kLinear;
-  MeshResult result =
-      RunLocalPass(impl_->visibility, solution(), impl_->Sampler(), options, context, &impl_->LocalPass());
-  impl_->mesh = std::move(result.mesh);
-  impl_->triangulations = std::move(result.triangulations);
-  impl_->mesh_forest = solution().forest;
-  impl_->triangle_errors.clear();
-  if (kind == MeshKind::kInterpolant && impl_->solver && impl_->options.refine != RefineBy::kTransport &&
-      !impl_->mesh.triangles.empty())
-    impl_->RefineShown(options, result.report, context);
-  impl_->mesh_kind = context.Cancelled() ? std::nullopt : std::optional(kind);
+  const RunLimits limits = impl_->LimitsSinceSolve(context);
+  MeshReport report;
+  // What needs no irradiance at points is quick, and made whatever the limits say.
+  const bool flat = kind == MeshKind::kFlat;
+  std::optional<MeshKind> made = impl_->MakeMesh(kind, flat ? context : limits.context(), report);
+  if (!made && !flat && !context.Cancelled()) {
+    report = {};
+    made = impl_->MakeMesh(MeshKind::kFlat, context, report);
+  }
+  if (const std::optional<std::string> limit = limits.Exceeded(); limit && !flat)
+    impl_->report.unmet.push_back(
+        fmt::format("mesh: ended by {}, {}", *limit,
+                    made == kind ? "and not refined by what is shown"
+                                 : "before there were interpolants: leaves show their mean"));
+  impl_->mesh_kind = context.Cancelled() ? std::nullopt : made;
   impl_->locator = std::make_unique<MeshLocator>(impl_->scene, impl_->mesh);
 
-  impl_->AddPhase("discontinuities", result.report.seconds.discontinuities);
-  impl_->AddPhase("triangulate", result.report.seconds.triangulate);
-  impl_->AddPhase("interpolate", result.report.seconds.interpolate);
+  impl_->AddPhase("discontinuities", report.seconds.discontinuities);
+  impl_->AddPhase("triangulate", report.seconds.triangulate);
+  impl_->AddPhase("interpolate", report.seconds.interpolate);
   PipelineReport::Counts& counts = impl_->report.counts;
-  counts.discontinuities = result.report.counts.discontinuities;
-  counts.dsets_active = result.report.counts.dsets_active;
-  counts.most_merged = result.report.counts.most_merged;
-  counts.triangles = result.report.counts.triangles;
-  counts.interpolants = result.report.counts.interpolants;
-  counts.point_evaluations = result.report.counts.point_evaluations;
-  if (result.report.counts.refused_contacts > 0)
+  counts.discontinuities = report.counts.discontinuities;
+  counts.dsets_active = report.counts.dsets_active;
+  counts.most_merged = report.counts.most_merged;
+  counts.triangles = report.counts.triangles;
+  counts.interpolants = report.counts.interpolants;
+  counts.point_evaluations = report.counts.point_evaluations;
+  if (report.counts.refused_contacts > 0)
     impl_->report.unmet.push_back(
         fmt::format("discontinuities: {} contact edges left out, since a leaf would have more "
                     "than {} discontinuity edges",
-                    result.report.counts.refused_contacts, impl_->resolved.discontinuities.max_leaf_dsets));
+                    report.counts.refused_contacts, impl_->resolved.discontinuities.max_leaf_dsets));
 }
 
 void Pipeline::Measure(const ExecutionContext& context) {
@@ -407,6 +451,12 @@ void Pipeline::Measure(const ExecutionContext& context) {
         "{}: warning: the fronts of {} faces see nothing but backs, the first is face {} (counted "
         "from 0); if it is reversed, give its vertices in the other order",
         impl_->scene.name, report.views.reversed_faces.size(), report.views.reversed_faces[0]));
+  const RunLimits limits = impl_->LimitsSinceSolve(context);
+  if (impl_->solver && !impl_->solver->SeenFromLeaves(limits.context())) {
+    report.error_met = false;
+    report.unmet.push_back("error: not measured, since there was no time to find what the leaves see");
+    return;
+  }
   const std::size_t points = impl_->options.error_points;
   const std::uint64_t seed = impl_->options.seed;
   report.interpolant_error =

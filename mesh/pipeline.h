@@ -58,8 +58,9 @@ struct PipelineOptions {
   Acceleration acceleration = Acceleration::kAnderson;
   OracleKind oracle = OracleKind::kTransport;
   bool multigrid = false;
-  // Limits to linking, iterating and correcting in Solve(), which then ends with the last whole step. Linking
-  // the roots is one step that does not end early.
+  // Limits to Solve(), which then ends with the last whole step: in the dark, where that was not even
+  // linking. They go on for BuildMesh(), which leaves out refining by what is shown, or where there was no
+  // time for interpolants shows the mean of each leaf.
   std::optional<double> time_limit;    // [s]
   std::optional<double> memory_limit;  // [bytes] of the whole process
   int bounces = 0;                     // whose mean irradiance is reported
@@ -157,7 +158,7 @@ class Pipeline {
   // solution and report as they were before it.
   //
   // What sees what, and the links between the roots: dark but for what surfaces emit. The other steps begin
-  // with this one where it was left out.
+  // with this one where it was left out, or was cancelled, which leaves that darkness without links.
   void Link(const ExecutionContext& context);
   // One iteration: gather until the light settles, refine, gather. Nothing if it was cancelled.
   std::optional<IterationReport> Iterate(const ExecutionContext& context);

@@ -21,11 +21,11 @@ std::uint64_t ResidentBytes() {
 }
 
 RunLimits::RunLimits(const ExecutionContext& outer, std::optional<double> seconds,
-                     std::optional<double> bytes)
+                     std::optional<double> bytes, Clock::time_point begin)
     : outer_(outer),
       seconds_(seconds),
       bytes_(bytes),
-      begin_(std::chrono::steady_clock::now()),
+      begin_(begin),
       inner_([&outer](std::string_view phase, double fraction) { outer.Report(phase, fraction); }) {
   if (!watched()) return;
   Check();
@@ -43,7 +43,7 @@ RunLimits::~RunLimits() {
 }
 
 void RunLimits::Check() {
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+  const std::chrono::duration<double> elapsed = Clock::now() - begin_;
   if (seconds_ && elapsed.count() > *seconds_) late_ = true;
   if (bytes_ && static_cast<double>(ResidentBytes()) > *bytes_) large_ = true;
   if (late_ || large_ || outer_.Cancelled()) inner_.Cancel();

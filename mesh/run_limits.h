@@ -21,8 +21,11 @@ std::uint64_t ResidentBytes();
 // Watches a run from a thread of its own, while it lives. Without limits it only passes the context on.
 class RunLimits {
  public:
-  // `seconds` from now on; `bytes` that the whole process may take.
-  RunLimits(const ExecutionContext& outer, std::optional<double> seconds, std::optional<double> bytes);
+  using Clock = std::chrono::steady_clock;
+
+  // `seconds` from `begin` on; `bytes` that the whole process may take.
+  RunLimits(const ExecutionContext& outer, std::optional<double> seconds, std::optional<double> bytes,
+            Clock::time_point begin = Clock::now());
   ~RunLimits();
   RunLimits(const RunLimits&) = delete;
   RunLimits& operator=(const RunLimits&) = delete;
@@ -39,7 +42,7 @@ class RunLimits {
 
   const ExecutionContext& outer_;
   std::optional<double> seconds_, bytes_;
-  std::chrono::steady_clock::time_point begin_;
+  Clock::time_point begin_;
   ExecutionContext inner_;
   std::atomic<bool> late_{false}, large_{false}, done_{false};
   std::thread watcher_;

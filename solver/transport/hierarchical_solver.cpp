@@ -27,15 +27,18 @@ double ReferenceArea(const Scene& scene) {
   return area / 256;
 }
 
-LinkSet LinkRoots(const ElementForest& forest, const PatchVisibility& visibility,
-                  LinkFormFactors form_factors) {
+// Nothing if it was cancelled.
+std::optional<LinkSet> LinkRoots(const ElementForest& forest, const PatchVisibility& visibility,
+                                 LinkFormFactors form_factors, const ExecutionContext& context) {
   std::vector<LinkGroup> groups(forest.size());
   for (std::size_t p = 0; p < groups.size(); ++p) {
     groups[p].receiver = ElementForest::Root(static_cast<PatchId>(p));
     for (const PatchPair& pair : visibility.SourcesOf(static_cast<PatchId>(p)))
       groups[p].candidates.push_back({ElementForest::Root(pair.source), visibility.Blockers(pair)});
   }
-  return ReplaceLinks({}, {}, FormLinkGroups(forest, groups, form_factors, ExecutionContext()));
+  const std::vector<LinkSet> formed = FormLinkGroups(forest, groups, form_factors, context);
+  if (context.Cancelled()) return std::nullopt;
+  return ReplaceLinks({}, {}, formed);
 }
 
 }  // namespace
@@ -57,6 +60,7 @@ HierarchicalSolver::Snapshot HierarchicalSolver::TakeSnapshot() const {
 }
 
 void HierarchicalSolver::Restore(Snapshot before) {
+  if (solution_.forest.size() != before.elements) seen_from_leaves_.reset();
   solution_.forest.Truncate(before.elements);
   if (before.links) solution_.links = std::move(*before.links);
   solution_.fragments = std::move(before.fragments);
@@ -71,13 +75,15 @@ void HierarchicalSolver::Restore(Snapshot before) {
 }
 
 HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility,
-                                       const SolverOptions& options)
+                                       const SolverOptions& options, const ExecutionContext& context)
     : scene_(scene),
       visibility_(visibility),
       options_(options),
       eps_(options.multigrid ? kCoarsestEps * options.eps : options.eps) {
   solution_.forest = ElementForest(scene);
-  solution_.links = LinkRoots(solution_.forest, visibility, options.form_factors);
+  std::optional<LinkSet> links = LinkRoots(solution_.forest, visibility, options.form_factors, context);
+  linked_ = links.has_value();
+  if (links) solution_.links = std::move(*links);
   push_pull_ = std::make_unique<PushPull>(solution_);
 }
 
@@ -111,6 +117,7 @@ bool HierarchicalSolver::Settle(double cutoff, IterationReport& report, const Ex
 // Forms the links of the plan and puts them in their place. False if it was cancelled before that.
 bool HierarchicalSolver::Apply(const RefinementPlan& plan, Snapshot& before,
                                const ExecutionContext& context) {
+  seen_from_leaves_.reset();
   const std::vector<LinkSet> formed =
       FormLinkGroups(solution_.forest, plan.groups, options_.form_factors, context);
   if (context.Cancelled()) return false;
@@ -201,7 +208,12 @@ std::optional<double> HierarchicalSolver::Correct(LeafSampling sampling, const E
     LightFragments();
   }
   const std::span<const ElementId> leaves = push_pull_->leaves();
-  const PointIrradiance irradiance(solution_, visibility_);
+  const std::shared_ptr<const LeafVisibility> seen = SeenFromLeaves(context);
+  if (!seen) {
+    Restore(std::move(before));
+    return std::nullopt;
+  }
+  const PointIrradiance irradiance(solution_, visibility_, {}, seen);
   std::vector<LeafIrradiance> exact(leaves.size());
   ParallelFor(leaves.size(), kExactGrain, [&](std::size_t i) {
     if (!context.Cancelled()) exact[i] = ExactLeafIrradiance(solution_, irradiance, leaves[i], sampling);
@@ -253,6 +265,15 @@ bool HierarchicalSolver::CorrectTo(std::span<const Rgb> irradiance, std::vector<
   }
   LightFragments();
   return true;
+}
+
+std::shared_ptr<const LeafVisibility> HierarchicalSolver::SeenFromLeaves(const ExecutionContext& context) {
+  if (!seen_from_leaves_) {
+    auto seen = std::make_shared<const LeafVisibility>(solution_.forest, visibility_, context);
+    if (context.Cancelled()) return nullptr;
+    seen_from_leaves_ = std::move(seen);
+  }
+  return seen_from_leaves_;
 }
 
 // The light of fragments: their leaf's, and what sets them apart from it.

@@ -55,8 +55,10 @@ struct IterationReport {
 
 class HierarchicalSolver {
  public:
-  // Links the roots. The scene and the visibility must outlive the solver.
-  HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options);
+  // Links the roots. Cancelled, it leaves a solution without links. The scene and the visibility must outlive
+  // the solver.
+  HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
+                     const ExecutionContext& context = ExecutionContext());
   // Goes on from a solution of the same scene: its links and its light, corrections included.
   HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
                      RadiositySolution solution);
@@ -102,8 +104,13 @@ class HierarchicalSolver {
   // the emitters, then what that brings when it is reflected once, and so on.
   std::vector<Rgb> MeanIrradianceByBounce(int bounces) const;
 
+  // Whether the roots were linked, which a cancelled construction did not do.
+  bool Linked() const { return linked_; }
   bool Converged() const { return converged_; }
   const RadiositySolution& solution() const { return solution_; }
+  // What the leaves of the solution see: found when it is first asked for after they changed.
+  // Null if it was cancelled.
+  std::shared_ptr<const LeafVisibility> SeenFromLeaves(const ExecutionContext& context = ExecutionContext());
   RadiositySolution TakeSolution() && { return std::move(solution_); }
 
  private:
@@ -122,8 +129,10 @@ class HierarchicalSolver {
   double eps_;  // of the next iteration
   RadiositySolution solution_;
   std::unique_ptr<PushPull> push_pull_;
+  std::shared_ptr<const LeafVisibility> seen_from_leaves_;  // null after leaves changed
   std::vector<Rgb> correction_;       // per element: exact less linked irradiance of leaves [W/m^2]
   std::vector<Rgb> fragment_offset_;  // per fragment: exact irradiance less its leaf's [W/m^2]
+  bool linked_ = true;
   bool converged_ = false;
 };
 

@@ -24,12 +24,13 @@ constexpr double kLeastScreen = 0.02;
 }  // namespace
 
 PointIrradiance::PointIrradiance(const RadiositySolution& solution, const PatchVisibility& visibility,
-                                 const PointIrradianceOptions& options)
+                                 const PointIrradianceOptions& options,
+                                 std::shared_ptr<const LeafVisibility> leaves)
     : scene_(solution.forest.scene()),
       visibility_(visibility),
       forest_(&solution.forest),
       sources_(SourceSet::FromSolution(solution)),
-      leaves_(std::make_shared<LeafVisibility>(solution.forest, visibility)),
+      leaves_(leaves ? std::move(leaves) : std::make_shared<LeafVisibility>(solution.forest, visibility)),
       options_(options) {
   ChooseMethod();
   BuildHierarchies();

@@ -32,9 +32,11 @@ struct PointIrradianceResult {
 
 class PointIrradiance {
  public:
-  // From the leaves of a solution. Everything referred to must outlive this object.
+  // From the leaves of a solution. What they see is found where it is not given. Everything referred to must
+  // outlive this object.
   PointIrradiance(const RadiositySolution& solution, const PatchVisibility& visibility,
-                  const PointIrradianceOptions& options = {});
+                  const PointIrradianceOptions& options = {},
+                  std::shared_ptr<const LeafVisibility> leaves = nullptr);
   // From any set of sources, with the sources and blockers that the patches have: direct light, say.
   PointIrradiance(const Scene& scene, const PatchVisibility& visibility, SourceSet sources,
                   const PointIrradianceOptions& options = {});

@@ -57,5 +57,61 @@ TEST(RunLimits, EndASolveWithAValidSolution) {
   }
 }
 
+// A limit that is reached before anything is linked leaves the scene dark but for its emitters, says so, and
+// a mesh can be made of that, in no time; without the limit the same steps go on from there.
+TEST(RunLimits, EndLinking) {
+  Random random(4002);
+  const Scene scene = scene_test::FurnishedRoom(random, 12);
+  PipelineOptions options;
+  options.error_points = 20;
+  options.time_limit = 1e-6;
+  Pipeline pipeline(scene, options);
+  const ExecutionContext context;
+  pipeline.Solve(context);
+  ASSERT_EQ(pipeline.report().unmet.size(), 1U);
+  EXPECT_NE(pipeline.report().unmet[0].find("link: ended by the time limit"), std::string::npos);
+  EXPECT_TRUE(pipeline.solution().links.links.empty());
+  for (std::size_t p = 0; p < scene.patches.size(); ++p) {
+    EXPECT_TRUE((pipeline.solution().irradiance[p] == 0).all());
+    EXPECT_TRUE(
+        (pipeline.solution().radiosity[p] == scene.MaterialOf(static_cast<PatchId>(p)).emittance).all());
+  }
+  // Interpolants need irradiance at points, for which there is no time.
+  pipeline.BuildMesh(MeshKind::kInterpolant, context);
+  EXPECT_EQ(pipeline.mesh_kind(), MeshKind::kFlat);
+  EXPECT_FALSE(pipeline.mesh().triangles.empty());
+  EXPECT_NE(pipeline.report().unmet.back().find("mesh: ended by the time limit"), std::string::npos);
+  pipeline.Measure(context);
+  EXPECT_FALSE(pipeline.report().error_met);
+  ASSERT_TRUE(pipeline.Iterate(context));
+  EXPECT_FALSE(pipeline.solution().links.links.empty());
+  EXPECT_TRUE((pipeline.solution().irradiance[0] > 0).all());
+}
+
+// Cancelled before it begins, linking leaves a solver without links, and visibility without pairs.
+TEST(RunLimits, CancelledLinking) {
+  Random random(4003);
+  const Scene scene = scene_test::FurnishedRoom(random, 4);
+  ExecutionContext cancelled;
+  cancelled.Cancel();
+  const PatchVisibility none(scene, cancelled), all(scene);
+  for (std::size_t p = 0; p < scene.patches.size(); ++p)
+    EXPECT_TRUE(none.SourcesOf(static_cast<PatchId>(p)).empty());
+  HierarchicalSolver solver(scene, all, {}, cancelled);
+  EXPECT_FALSE(solver.Linked());
+  EXPECT_TRUE(solver.solution().links.links.empty());
+  EXPECT_EQ(solver.SeenFromLeaves(cancelled), nullptr);
+  EXPECT_NE(solver.SeenFromLeaves(), nullptr);
+  for (const bool dense : {false, true}) {
+    PipelineOptions options;
+    if (dense) options.dense = DenseOptions();
+    Pipeline pipeline(scene, options);
+    pipeline.Solve(cancelled);
+    EXPECT_TRUE(pipeline.solution().links.links.empty());
+    pipeline.Link(ExecutionContext());
+    EXPECT_FALSE(pipeline.solution().links.links.empty() && !dense);
+  }
+}
+
 }  // namespace
 }  // namespace penumbra
