@@ -11,6 +11,7 @@ extern const Study kDiscontinuityStudy;
 extern const Study kRefinementStudy;
 extern const Study kWholeSystemStudy;
 extern const Study kStabilityStudy;
+extern const Study kGrowthStudy;
 
 const std::vector<const Study*>& Studies() {
   static const std::vector<const Study*> studies = {
@@ -23,6 +24,7 @@ const std::vector<const Study*>& Studies() {
       &kRefinementStudy,           // 4.4.2
       &kWholeSystemStudy,          // 7
       &kStabilityStudy,            // what can go wrong
+      &kGrowthStudy,               // what bounds large scenes
   };
   return studies;
 }
