@@ -172,6 +172,10 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
   app.add_flag("--keep-hidden-discontinuities", solving->keep_hidden_discontinuities,
                "Also those parts that end at another blocker on their way, as in the thesis")
       ->group(group);
+  AddNumber(app, "--eee", &solving->triple_edge_tolerance, kNonNegative,
+            "Also triple-edge (EEE) discontinuities, as polylines that keep within so many metres of them; "
+            "0: none, as in the thesis")
+      ->group(group);
   AddInteger(app, "--max-leaf-dsets", &solving->max_leaf_dsets, 0, 1'000'000,
              "Most discontinuity lines in a leaf of the mesh")
       ->group(group);
@@ -312,6 +316,7 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["min_discontinuity_weight"] = mesh.min_weight;
     options["max_leaf_dsets"] = mesh.max_leaf_dsets;
     options["keep_hidden_discontinuities"] = mesh.keep_hidden;
+    options["eee"] = mesh.triple_edge_tolerance;
     options["error_samples"] = arguments.solving.error_samples;
     options["refine"] = ChoiceName(kRefinements, arguments.solving.refine);
     options["corrections"] = resolved->solver.max_corrections;
@@ -362,6 +367,7 @@ PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   solving.weight = ChoiceValue(kDiscontinuityWeights, options.value("weight", "thesis"));
   solving.discontinuities = ChoiceValue(kDiscontinuityChoices, options.value("discontinuities", "ranked"));
   solving.keep_hidden_discontinuities = options.value("keep_hidden_discontinuities", false);
+  solving.triple_edge_tolerance = options.value("eee", 0.0);
   options.at("error_samples").get_to(solving.error_samples);
   solving.refine = ChoiceValue(kRefinements, options.at("refine").get<std::string>());
   options.at("corrections").get_to(solving.max_corrections);

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "mesh/irradiance_jump.h"
+#include "mesh/triple_edge.h"
 #include "mesh/wedge_clip.h"
 #include "solver/base/check.h"
 #include "solver/geometry/segment_clip.h"
@@ -40,14 +41,16 @@ struct SourceView {
 
 }  // namespace
 
-double Weight(const Discontinuity& d, DiscontinuityWeight kind, double size) {
+double Weight(const Discontinuity& d, DiscontinuityWeight kind, double size, double margin) {
   if (d.kind == DiscontinuityKind::kContact) return kInfiniteWeight;
   if (kind == DiscontinuityWeight::kThesis) return d.geometric_weight * d.strength;
   double largest = 0;
+  const double kinked = std::min(kKinkError * size, margin);
+  const double bent = std::min(kBendError * size * size, 0.5 * margin * margin);
   for (const IrradianceJump& jump : d.jump) {
     const double kink = std::max(std::abs(jump.gradient), jump.largest_gradient);
-    largest = std::max(largest, std::min({jump.largest_value, kKinkError * size * kink,
-                                          kBendError * size * size * std::abs(jump.curvature)}));
+    largest =
+        std::max(largest, std::min({jump.largest_value, kinked * kink, bent * std::abs(jump.curvature)}));
   }
   return largest * d.strength;
 }
@@ -149,6 +152,8 @@ struct DiscontinuityFinder::Impl {
   void AddHorizon(const Receiver& r, const SourceView& s, Collector& out) const;
   void AddVertexEdge(const Receiver& r, const SourceView& s, Blockers blockers, Collector& out) const;
   void AddEdgeVertex(const Receiver& r, const SourceView& s, Blockers blockers, Collector& out) const;
+  void AddTripleEdges(const Receiver& r, const SourceView& s, Blockers blockers,
+                      const DiscontinuityOptions& options, Collector& out) const;
   void AddCornerEvents(const Receiver& r, const SourceView& s, Blockers blockers, PatchId blocker,
                        std::int32_t part, Collector& out) const;
   void MarkShared(const SourceView& s, std::int32_t source_edge, std::int32_t corner, const Vec3& from,
@@ -319,6 +324,36 @@ void DiscontinuityFinder::Impl::AddCornerEvents(const Receiver& r, const SourceV
   }
 }
 
+void DiscontinuityFinder::Impl::AddTripleEdges(const Receiver& r, const SourceView& s, Blockers blockers,
+                                               const DiscontinuityOptions& options, Collector& out) const {
+  const TripleEdgeOptions tracing = {options.triple_edge_tolerance, options.keep_hidden, r.gap, s.rounding};
+  for (const TripleEdgeTrace& trace : TraceTripleEdges(scene, silhouettes, r.id, s.id, blockers, tracing))
+    for (const TripleEdgeTrace::Piece& piece : trace.pieces) {
+      Discontinuity d;
+      d.kind = DiscontinuityKind::kEEE;
+      d.source = s.id;
+      d.blocker = trace.first.patch;
+      d.blocker_part = trace.first.k;
+      d.source_part = trace.source_edge;
+      d.second_blocker_edge = trace.second;
+      d.strength = s.strength;
+      for (const Transversal* line : {&piece.from, &piece.to}) {
+        const double lower = std::min(r.Height(line->on_edge[1]), r.Height(line->on_edge[2]));
+        d.geometric_weight =
+            std::max(d.geometric_weight, std::clamp(1 - lower / r.Height(line->on_edge[0]), 0.0, 1.0));
+      }
+      if (out.TooLight(d.geometric_weight * s.strength)) continue;
+      // The piece may run out of the receiver.
+      SegmentClip clip;
+      const Vec3 &a = piece.from.on_receiver, &b = piece.to.on_receiver;
+      for (std::size_t e = 0; e < s.lit.size() && !clip.Empty(); ++e) {
+        const Vec3 side = r.frame.n.cross(s.lit[(e + 1) % s.lit.size()] - s.lit[e]);
+        clip.Keep(side.dot(a - s.lit[e]), side.dot(b - s.lit[e]));
+      }
+      if (!clip.Empty()) out.Add(d, Between(a, b, clip.t0), Between(a, b, clip.t1));
+    }
+}
+
 // D1 if a silhouette edge at the corner lies in one plane with the source's edge.
 void DiscontinuityFinder::Impl::MarkShared(const SourceView& s, std::int32_t source_edge, std::int32_t corner,
                                            const Vec3& from, Discontinuity* d) const {
@@ -378,6 +413,7 @@ std::vector<Discontinuity> DiscontinuityFinder::FindFrom(PatchId receiver, const
   const Blockers blockers = impl_->visibility.Blockers(pair);
   impl_->AddVertexEdge(r, s, blockers, out);
   impl_->AddEdgeVertex(r, s, blockers, out);
+  if (options.triple_edge_tolerance > 0) impl_->AddTripleEdges(r, s, blockers, options, out);
   return found;
 }
 

@@ -4,8 +4,8 @@
 // between sources, blockers and the patch.
 //
 // Notation: R receiver, S source, b a point of a blocker, x the point of R's plane on the line from S through
-// b, h the height above R's plane. Everything lies on straight segments; triple-edge (EEE) surfaces are left
-// out, as in the thesis 5.2.
+// b, h the height above R's plane. Everything lies on straight segments, or on polylines where triple-edge
+// (EEE) surfaces are asked for, which the thesis leaves out (5.2).
 
 #pragma once
 
@@ -24,10 +24,10 @@
 
 namespace penumbra {
 
-enum class DiscontinuityKind : std::uint8_t { kVE, kEV, kHorizon, kContact };
+enum class DiscontinuityKind : std::uint8_t { kVE, kEV, kHorizon, kContact, kEEE };
 
-// The lowest derivative of the irradiance that jumps. Generic VE and EV events are D2, a horizon is D1 (so is
-// an event whose source edge and blocker edge share a plane), a contact D0.
+// The lowest derivative of the irradiance that jumps. Generic VE, EV and EEE events are D2, a horizon is D1
+// (so is an event whose source edge and blocker edge share a plane), a contact D0.
 enum class DiscontinuityDegree : std::uint8_t { kD0, kD1, kD2 };
 
 // What happens to the irradiance across a discontinuity, along the normal of its line in the receiver, for a
@@ -49,8 +49,9 @@ struct Discontinuity {
   PatchId source = kNoPatch;   // kNoPatch for a contact
   PatchId blocker = kNoPatch;  // kNoPatch for a horizon; the touching patch for a contact
   // VE: the source's vertex and the blocker's edge that meet; EV: the source's edge and the blocker's vertex.
-  // An edge has the number of the vertex where it starts.
+  // EEE: the source's edge and that of the blocker. An edge has the number of the vertex where it starts.
   std::int32_t source_part = -1, blocker_part = -1;
+  PatchEdge second_blocker_edge;  // EEE
   // Of a D1 event: the edges that lie in one plane.
   std::int32_t shared_source_edge = -1;
   PatchEdge shared_blocker_edge;
@@ -63,12 +64,15 @@ struct Discontinuity {
 
 inline constexpr double kInfiniteWeight = std::numeric_limits<double>::infinity();
 
-// What the discontinuity weighs on a leaf of the size [m], the root of its area.
-//  kThesis: geometric_weight times strength (thesis 5.3), on any leaf.
-//  kIrradiance: an estimate of the largest error of the quadratic through a leaf's nodes, if it has no edge
-//  there: kKinkError x size x jump of the gradient, or kBendError x size^2 x jump of the second derivative;
-//  at most what the largest changes allow.
-double Weight(const Discontinuity& d, DiscontinuityWeight kind, double size);
+// What the discontinuity weighs on a piece of the mesh of the size [m], across it, and no nearer than
+// `margin` [m] to the piece's borders.
+//  kThesis: geometric_weight times strength (thesis 5.3), on any piece.
+//  kIrradiance: an estimate of the largest error of the quadratic through the piece's nodes, if it has no
+//  edge there: kKinkError x size x jump of the gradient, or kBendError x size^2 x jump of the second
+//  derivative; beside a border what a straight line, or a parabola, that runs on to it is off by; at most
+//  what the largest changes allow.
+double Weight(const Discontinuity& d, DiscontinuityWeight kind, double size,
+              double margin = std::numeric_limits<double>::infinity());
 
 // The largest error over [0, 1] and over c of the quadratic through the values at 0, 1/2 and 1 of
 // max(0, x - c), and of max(0, x - c)^2 / 2. For a step it is its height.
@@ -98,6 +102,7 @@ class DiscontinuityFinder {
   //  (5) What comes within ContactGap() of the receiver touches it, and casts no shadow line of its own
   //  beside the
   //      contact.
+  //  (6) With options.triple_edge_tolerance also the pieces of EEE events.
   // Safe from any thread.
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
                                   const DiscontinuityOptions& options) const;

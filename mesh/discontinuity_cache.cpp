@@ -13,7 +13,8 @@ constexpr double kHeadroom = 0.5;
 
 // Whether what was found with the one holds for the other but for strengths and the minimum weight.
 bool SameGeometry(const DiscontinuityOptions& a, const DiscontinuityOptions& b) {
-  return a.weight == b.weight && a.keep_hidden == b.keep_hidden;
+  return a.weight == b.weight && a.keep_hidden == b.keep_hidden &&
+         a.triple_edge_tolerance == b.triple_edge_tolerance;
 }
 
 }  // namespace

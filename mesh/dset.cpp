@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "mesh/leaf_margins.h"
@@ -84,12 +85,31 @@ class Activation {
     return impinged_;
   }
 
-  // The size of the largest leaf whose inside it crosses [m]; 0 if there is none.
-  double LargestLeaf(const Discontinuity& d) {
-    double area = 0;
-    for (const Impinged& i : Meet(d))
-      if (i.inside) area = std::max(area, forest_[leaves[i.leaf]].area);
-    return std::sqrt(area);
+  // What leaving it out costs beside the active lines [W/m^2], in the irradiance weight: where it crosses a
+  // leaf's inside, on the piece between its neighbours. `line` is its own, -1 if that is not active.
+  double CostOfLeavingOut(const Discontinuity& d, std::span<const DiscontinuityLine> active,
+                          std::int32_t line) {
+    const double length = (d.end[1] - d.end[0]).norm();
+    const Vec2 along = (d.end[1] - d.end[0]) / length, across(-along.y(), along.x());
+    double cost = 0;
+    for (const Impinged& i : Meet(d)) {
+      if (!i.inside) continue;
+      const Polygon2& outline = nodes_[node_of_leaf_[i.leaf]].outline;
+      const LineInterval part = ClipLine(d.end[0], along, outline, 0);
+      const Vec2 middle = d.end[0] + 0.5 * (std::max(part.t0, 0.0) + std::min(part.t1, length)) * along;
+      const LineInterval width = ClipLine(middle, across, outline, 0);
+      double left = std::max(width.t1, 0.0), right = std::max(-width.t0, 0.0);
+      for (const std::int32_t other : inside_[i.leaf]) {
+        if (other == line) continue;
+        const double rate = Cross2(active[other].direction, across);
+        if (rate == 0) continue;
+        const double at = -active[other].Distance(middle) / rate;
+        double& side = at >= 0 ? left : right;
+        side = std::min(side, std::abs(at));
+      }
+      cost = std::max(cost, Weight(d, DiscontinuityWeight::kIrradiance, left + right, std::min(left, right)));
+    }
+    return cost;
   }
 
   bool Full(const Impinged& i, std::int32_t line) const {
@@ -140,6 +160,7 @@ class Activation {
     if (forest_[id].IsLeaf()) {
       nodes_[index].leaf = leaves.size();
       leaves.push_back(id);
+      node_of_leaf_.push_back(index);
       return;
     }
     const auto first = static_cast<std::int32_t>(nodes_.size());
@@ -169,6 +190,7 @@ class Activation {
   double snap_;
   std::size_t max_leaf_dsets_;
   std::vector<Node> nodes_;
+  std::vector<std::int32_t> node_of_leaf_;
   std::int32_t root_;
   std::vector<std::vector<std::int32_t>> inside_;
   std::vector<std::vector<std::size_t>> merged_;  // discontinuities of each line of `touching`
@@ -211,27 +233,49 @@ LineInterval ClipLine(const Vec2& origin, const Vec2& direction, const Polygon2&
 
 namespace {
 
-// Those to be tried, in the order in which they are.
-std::vector<std::size_t> InOrder(std::span<const Discontinuity> found, const DiscontinuityOptions& options,
-                                 PatchId patch, Activation& activation) {
-  std::vector<std::size_t> order;
-  if (!options.enabled()) return order;
-  std::vector<double> weight(found.size());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    weight[i] = found[i].weight;
-    if (options.weight == DiscontinuityWeight::kIrradiance)
-      weight[i] = Weight(found[i], options.weight, activation.LargestLeaf(found[i]));
-    if (weight[i] >= options.min_weight || options.choice == DiscontinuityChoice::kAll) order.push_back(i);
+// Those to be tried, one after the other: the heaviest first, of equal weight the one found first. Weights
+// only fall while lines are activated, so that one that is still the heaviest after it has been weighed again
+// is.
+class Order {
+ public:
+  using Weigh = std::function<double(std::size_t)>;
+
+  // With `weigh` weights are those of the moment.
+  Order(std::vector<double> weight, double least, Weigh weigh)
+      : weight_(std::move(weight)), least_(least), weigh_(std::move(weigh)) {
+    for (std::size_t i = 0; i < weight_.size(); ++i)
+      if (weight_[i] >= least_) heap_.push_back(i);
+    std::make_heap(heap_.begin(), heap_.end(), Later());
   }
-  if (options.choice == DiscontinuityChoice::kRandom) {
-    Random random(options.seed, static_cast<std::uint64_t>(patch));
-    for (std::size_t i = 0; i < found.size(); ++i)
-      if (found[i].kind != DiscontinuityKind::kContact) weight[i] = random.Uniform();
+
+  std::optional<std::size_t> Next() {
+    while (!heap_.empty()) {
+      std::pop_heap(heap_.begin(), heap_.end(), Later());
+      const std::size_t i = heap_.back();
+      heap_.pop_back();
+      if (!weigh_) return i;
+      const double now = std::min(weight_[i], weigh_(i));
+      if (now == weight_[i]) return i;
+      weight_[i] = now;
+      if (now < least_) continue;
+      heap_.push_back(i);
+      std::push_heap(heap_.begin(), heap_.end(), Later());
+    }
+    return std::nullopt;
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return weight[a] > weight[b]; });
-  return order;
-}
+
+ private:
+  std::function<bool(std::size_t, std::size_t)> Later() const {
+    return [this](std::size_t a, std::size_t b) {
+      return weight_[a] != weight_[b] ? weight_[a] < weight_[b] : a > b;
+    };
+  }
+
+  std::vector<double> weight_;
+  double least_;
+  Weigh weigh_;
+  std::vector<std::size_t> heap_;
+};
 
 }  // namespace
 
@@ -251,7 +295,32 @@ PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
 
   std::vector<std::int32_t> number(grouped.lines.size(), -1);  // of a line among the active ones
   std::vector<ElementId> full;
-  for (const std::size_t i : InOrder(found, options, patch, activation)) {
+  const auto cost = [&](std::size_t i) {
+    return found[i].kind == DiscontinuityKind::kContact
+               ? kInfiniteWeight
+               : activation.CostOfLeavingOut(found[i], result.lines, number[grouped.line_of[i]]);
+  };
+  const bool of_the_moment = options.weight == DiscontinuityWeight::kIrradiance;
+  std::vector<double> weight(options.enabled() ? found.size() : 0);
+  for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = of_the_moment ? cost(i) : found[i].weight;
+  double least = options.min_weight;
+  Order::Weigh weigh;
+  if (options.choice == DiscontinuityChoice::kAll) {
+    least = -kInfiniteWeight;
+  } else if (options.choice == DiscontinuityChoice::kRandom) {
+    // What is too light is left out, the rest shuffled.
+    Random random(options.seed, static_cast<std::uint64_t>(patch));
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const double place = random.Uniform();
+      if (found[i].kind != DiscontinuityKind::kContact) weight[i] = weight[i] < least ? -1 : place;
+    }
+    least = 0;
+  } else if (of_the_moment) {
+    weigh = cost;
+  }
+  Order order(std::move(weight), least, std::move(weigh));
+  while (const std::optional<std::size_t> next = order.Next()) {
+    const std::size_t i = *next;
     const Discontinuity& d = found[i];
     const bool contact = d.kind == DiscontinuityKind::kContact;
     std::int32_t& line = number[grouped.line_of[i]];

@@ -196,6 +196,55 @@ IrradianceJump EdgeVertex(const Scene& scene, const Silhouettes& silhouettes, co
   return jump;
 }
 
+IrradianceJump TripleEdge(const Scene& scene, const Silhouettes& silhouettes, const View& view,
+                          const Discontinuity& d) {
+  const Vec3& v = view.source.vertex[d.source_part];
+  const Vec3 along = view.source.vertex[(d.source_part + 1) % view.source.size] - v;
+  IrradianceJump jump;
+  // Of the three half planes that are seen where they overlap: their normals, outwards, and how fast they
+  // grow.
+  std::array<Vec3, 3> outward;
+  std::array<double, 3> speed = {0, 0, 0};
+  outward[0] = -view.source.normal.cross(along).normalized();  // the source lies to the left of its edge
+  Vec3 y = Vec3::Zero();
+  double chord = SourceDiameter(view.source);
+  const std::array<PatchEdge, 2> edges = {PatchEdge{d.blocker, d.blocker_part}, d.second_blocker_edge};
+  for (int i = 0; i < 2; ++i) {
+    const Patch& patch = scene.patches[edges[i].patch];
+    const Vec3 &a = patch.vertex[edges[i].k], &b = patch.vertex[(edges[i].k + 1) % patch.size];
+    const MovingEdge moving(view, a, b);
+    if (!moving.valid()) return jump;
+    if (i == 0) {  // where the three meet, on the source's edge
+      const Vec3 plane = (a - view.x).cross(b - view.x);
+      const double rate = plane.dot(along);
+      if (rate == 0) return jump;
+      y = v + (plane.dot(view.x - v) / rate) * along;
+    }
+    const int covered = CoveredSide(scene, silhouettes, edges[i].patch, edges[i].k, moving);
+    outward[i + 1] = covered * moving.line().across;
+    speed[i + 1] = covered * moving.SpeedAt(y);
+    const double magnified = (y - view.x).norm() / (0.5 * (a + b) - view.x).norm();
+    chord = std::min(chord, std::max(1.0, magnified) * (b - a).norm());
+  }
+  std::array<double, 3> sine;
+  double sum = 0, product = 1;
+  for (int i = 0; i < 3; ++i) {
+    sine[i] = view.source.normal.dot(outward[(i + 1) % 3].cross(outward[(i + 2) % 3]));
+    sum += sine[i] * speed[i];
+    product *= sine[i];
+  }
+  if (product == 0) return jump;
+  // Of one sign: the overlap is the triangle. Else the half plane whose sine is the odd one cuts it off a
+  // corner.
+  int odd = 0;
+  for (int i = 0; i < 3; ++i)
+    if ((sine[i] > 0) != (sine[(i + 1) % 3] > 0) && (sine[i] > 0) != (sine[(i + 2) % 3] > 0)) odd = i;
+  const double kernel = view.Kernel(y);
+  jump.curvature = kernel * (sum / sine[odd] > 0 ? 1 : -1) * sum * sum / std::abs(product);
+  BoundGradient(&jump, kernel, std::max(std::abs(speed[1]), std::abs(speed[2])), chord, view.source.area);
+  return jump;
+}
+
 // Beyond the source's plane there is nothing; before it the cosine at the source grows with the distance.
 IrradianceJump Horizon(const View& view) {
   const double tilt = std::abs(view.source.normal.dot(view.across));
@@ -248,6 +297,7 @@ IrradianceJump JumpAt(const Scene& scene, const Silhouettes& silhouettes, const 
   if (d.shared_source_edge >= 0)
     return EdgeEdge(scene, silhouettes, view, d.shared_source_edge, d.shared_blocker_edge.patch,
                     d.shared_blocker_edge.k);
+  if (d.kind == DiscontinuityKind::kEEE) return TripleEdge(scene, silhouettes, view, d);
   return d.kind == DiscontinuityKind::kVE ? VertexEdge(scene, silhouettes, view, d)
                                           : EdgeVertex(scene, silhouettes, view, d);
 }

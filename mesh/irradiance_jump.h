@@ -8,6 +8,10 @@
 // cuts out of the other changes its slope there, and the second derivative of the visible area, hence of the
 // irradiance, jumps by w^2 times that change. Where the two edges lie in one plane, the chord itself jumps by
 // the length that they share, and the gradient by w times that.
+//
+// Where three edges meet in one point of the image (EEE), they enclose a triangle on either side of the
+// event, whose area grows with the square of the way: (sum of lambda_i w_i)^2 / (2 |lambda_1 lambda_2
+// lambda_3|), lambda_i the sine of the angle between the other two. One such triangle comes or goes.
 
 #pragma once
 
@@ -17,7 +21,7 @@
 
 namespace penumbra {
 
-// At `x`, a point of the trace of a VE, EV or horizon discontinuity. `across` is a unit vector in the
+// At `x`, a point of the trace of a VE, EV, EEE or horizon discontinuity. `across` is a unit vector in the
 // receiver's plane, across the trace. The source's radiosity is taken as 1 W/m^2 all over it; what hides part
 // of it beside the event's own blocker is left out. All zero for a contact, which has no such estimate.
 IrradianceJump JumpAt(const Scene& scene, const Silhouettes& silhouettes, const Discontinuity& d,

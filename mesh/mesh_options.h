@@ -31,7 +31,10 @@ struct DiscontinuityOptions {
   double min_weight = 0;     // Tree::minDiscontWeight [W/m^2]
   int max_leaf_dsets = 10;   // Tree::maxLeafDSets: discontinuity edges within one leaf
   bool keep_hidden = false;  // also the parts of wedges that end at another blocker, as in the thesis
-  std::uint64_t seed = 1;    // of the random order
+  // Triple-edge (EEE) events as well, traced as polylines within this distance [m]; 0: none, as in the
+  // thesis.
+  double triple_edge_tolerance = 0;
+  std::uint64_t seed = 1;  // of the random order
   // Leaves that are too full for a discontinuity, which other leaves would take, are split as often as this;
   // 0: not, as in the thesis. None becomes smaller than the area [m^2].
   int crowded_splits = 0;

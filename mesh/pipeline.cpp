@@ -89,6 +89,7 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   mesh.min_weight = options.min_discontinuity_weight.value_or(from_error);
   mesh.max_leaf_dsets = options.max_leaf_dsets;
   mesh.keep_hidden = options.keep_hidden_discontinuities;
+  mesh.triple_edge_tolerance = options.triple_edge_tolerance;
   mesh.seed = options.seed;
   mesh.crowded_splits = kCrowdedSplits;
   mesh.min_split_area = resolved.solver.min_area;

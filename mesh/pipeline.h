@@ -47,6 +47,7 @@ struct PipelineOptions {
   DiscontinuityChoice discontinuities = DiscontinuityChoice::kRanked;
   std::optional<DiscontinuityWeight> weight;
   bool keep_hidden_discontinuities = false;
+  double triple_edge_tolerance = 0;       // DiscontinuityOptions::triple_edge_tolerance [m]
   std::optional<double> relative_cutoff;  // Appendix A, 7
   int error_samples = 1;                  // Appendix A, 8: MeasureTriangles()
   RefineBy refine = RefineBy::kBoth;

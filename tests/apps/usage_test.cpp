@@ -19,10 +19,18 @@ TEST(Help, ListsEveryOption) {
   const Sandbox sandbox;
   const std::vector<std::string> common = {
       "--emission-is-radiance", "--two-sided", "--max-reflectance", "--threads", "--seed", "--verbose"};
-  const std::vector<std::string> solving = {
-      "--error X=0.02",    "--eps",          "--min-area",        "--min-discontinuity-weight",
-      "--max-leaf-dsets",  "--weight",       "--discontinuities", "--keep-hidden-discontinuities",
-      "--relative-cutoff", "--error-points", "--iterations"};
+  const std::vector<std::string> solving = {"--error X=0.02",
+                                            "--eps",
+                                            "--min-area",
+                                            "--min-discontinuity-weight",
+                                            "--max-leaf-dsets",
+                                            "--weight",
+                                            "--eee X=0",
+                                            "--discontinuities",
+                                            "--keep-hidden-discontinuities",
+                                            "--relative-cutoff",
+                                            "--error-points",
+                                            "--iterations"};
   const std::vector<std::pair<std::string, std::vector<std::string>>> own = {
       {"solve", {"--report"}},
       {"render",

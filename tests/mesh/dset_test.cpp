@@ -158,6 +158,36 @@ TEST(ActivateDiscontinuities, OtherChoices) {
   TriangulateLeaves(square.forest, 0, dsets).Validate(square.scene.patches[0]);
 }
 
+// In the irradiance weight a discontinuity counts by what it costs beside those that are active: of ten lines
+// of which nine crowd together, the second place goes to the one that stands alone, though it is the
+// lightest; and when those in between would gain too little, they stay out.
+TEST(ActivateDiscontinuities, NeighboursTakeWeight) {
+  const QuarteredSquare square;
+  DiscontinuityOptions options;
+  options.weight = DiscontinuityWeight::kIrradiance;
+  options.max_leaf_dsets = 2;
+  std::vector<Discontinuity> found;
+  const auto add = [&](double x, double gradient) {
+    Discontinuity d = Segment({x, 0.05}, {x, 0.45}, 0, DiscontinuityDegree::kD1);
+    d.strength = 1;
+    for (IrradianceJump& jump : d.jump) jump = {gradient, 1e9, gradient, 1e9};
+    d.weight = Weight(d, options.weight, 1);
+    found.push_back(d);
+  };
+  for (int i = 0; i < 9; ++i) add(0.1 + 0.001 * i, 10 + i);
+  add(0.35, 5);
+  PatchDSets dsets = ActivateDiscontinuities(square.forest, 0, found, options);
+  ASSERT_EQ(dsets.lines.size(), 2U);
+  EXPECT_NEAR(dsets.lines[0].origin.x(), 0.108, 1e-12);
+  EXPECT_NEAR(dsets.lines[1].origin.x(), 0.35, 1e-12);
+  // The crowd is 0.008 wide: what is left out of it costs some 18 x 0.008 at most.
+  options.max_leaf_dsets = 10;
+  options.min_weight = 18 * 0.008;
+  EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options).activated, 2U);
+  options.min_weight = 0;
+  EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options).activated, 10U);
+}
+
 // Switched off, nothing is active.
 TEST(ActivateDiscontinuities, CanBeSwitchedOff) {
   const QuarteredSquare square;
