@@ -194,6 +194,12 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
       app, "--corrections", &solving->max_corrections, 0, 100,
       "Passes that correct the converged solution by exact irradiance; 0: links alone, as in the thesis")
       ->group(group);
+  AddNumber(
+      app, "--source-error", &solving->source_error, kPositive,
+      "The corrections cut sources into strips and pieces until constant light on each errs by about this "
+      "much, relative, where it arrives; grades them towards edges where walls meet (default: the mesh "
+      "cuts them)")
+      ->group(group);
   app.add_flag_callback(
          "--no-acceleration", [solving] { solving->acceleration = Acceleration::kNone; },
          "Sweep after sweep, as in the thesis, instead of guessing ahead (Anderson 1965)")
@@ -320,6 +326,7 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["error_samples"] = arguments.solving.error_samples;
     options["refine"] = ChoiceName(kRefinements, arguments.solving.refine);
     options["corrections"] = resolved->solver.max_corrections;
+    if (arguments.solving.source_error) options["source_error"] = *arguments.solving.source_error;
     options["acceleration"] = resolved->solver.acceleration == Acceleration::kAnderson;
     options["scheme"] = ChoiceName(kSchemes, resolved->solver.scheme);
     options["oracle"] = ChoiceName(kOracles, resolved->solver.oracle);
@@ -371,6 +378,7 @@ PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   options.at("error_samples").get_to(solving.error_samples);
   solving.refine = ChoiceValue(kRefinements, options.at("refine").get<std::string>());
   options.at("corrections").get_to(solving.max_corrections);
+  if (options.contains("source_error")) solving.source_error = options["source_error"].get<double>();
   solving.acceleration =
       options.at("acceleration").get<bool>() ? Acceleration::kAnderson : Acceleration::kNone;
   solving.relative_cutoff = options.at("relative_cutoff").get<double>();

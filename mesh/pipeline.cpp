@@ -73,6 +73,7 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   resolved.solver.relative_cutoff = options.relative_cutoff.value_or(kCutoffOfError * options.error);
   resolved.solver.max_iterations = options.max_iterations;
   resolved.solver.max_corrections = options.max_corrections;
+  resolved.solver.source_error = options.source_error.value_or(0);
   resolved.solver.form_factors = options.form_factors;
   resolved.solver.scheme = options.scheme;
   resolved.solver.acceleration = options.acceleration;
@@ -193,7 +194,7 @@ struct Pipeline::Impl {
 
   // Sources, then leaves of the mesh, as fine as the error asked for wants them. Adds to the report.
   void RefineShown(const MeshOptions& mesh_options, MeshReport& done, const ExecutionContext& context) {
-    if (!RefineSources(context)) return;
+    if (resolved.solver.source_error == 0 && !RefineSources(context)) return;
     MeshRefinementOptions refinement;
     refinement.error = kInterpolantShare * options.error;
     refinement.min_area = resolved.solver.min_area;

@@ -52,6 +52,8 @@ struct PipelineOptions {
   int error_samples = 1;                  // Appendix A, 8: MeasureTriangles()
   RefineBy refine = RefineBy::kBoth;
   int max_corrections = 2;  // SolverOptions::max_corrections
+  // SolverOptions::source_error. Where it is given, sources are not cut by the interpolants.
+  std::optional<double> source_error;
   int max_iterations = 100;
   LinkFormFactors form_factors = LinkFormFactors::kCubature;  // SolverOptions::form_factors
   // SolverOptions of these names.

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "solver/base/parallel.h"
+#include "solver/geometry/polygon_distance.h"
+#include "solver/transport/leaf_cells.h"
 
 namespace penumbra {
 namespace {
@@ -50,19 +52,6 @@ std::array<QuadraticPiece, 4> Quarters(const QuadraticPiece& piece) {
       quarters[i].sample[2 * k + 1] = q.At(0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1]));
     }
   return quarters;
-}
-
-double DistanceTo(const Patch& patch, const Vec3& p) {
-  const double height = patch.normal.dot(p - patch.vertex[0]);
-  if (ConvexContains(patch.Vertices(), patch.normal, p - height * patch.normal, 0)) return std::abs(height);
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::int32_t k = 0; k < patch.size; ++k) {
-    const Vec3 &a = patch.vertex[static_cast<std::size_t>(k)],
-               &b = patch.vertex[static_cast<std::size_t>((k + 1) % patch.size)];
-    const double along = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-    nearest = std::min(nearest, (p - a - along * (b - a)).norm());
-  }
-  return nearest;
 }
 
 // Divides the leaves of one patch.
@@ -134,17 +123,21 @@ class Divider {
 
   // The patches that may come within reach of a part of the leaf.
   void FindNeighbours(const Element& element, std::span<const PatchPair> seen) {
-    const Scene& scene = solution_.forest.scene();
     const Vec3 centre = Centroid(element.Vertices());
     const double size = Diameter(element.Vertices());
     neighbours_.clear();
     double nearest = std::numeric_limits<double>::infinity();
     for (const PatchPair& pair : seen) {
-      const double distance = DistanceTo(scene.patches[pair.source], centre);
+      const double distance = Distance(pair.source, centre);
       neighbours_.push_back({distance, pair.source});
       nearest = std::min(nearest, distance);
     }
     std::erase_if(neighbours_, [&](const auto& n) { return n.first > nearest + 2 * size; });
+  }
+
+  double Distance(PatchId patch, const Vec3& x) const {
+    const Patch& other = solution_.forest.scene().patches[static_cast<std::size_t>(patch)];
+    return DistanceToPolygon(other.Vertices(), other.normal, x);
   }
 
   // About the largest form factor of the polygon to a point of another patch; of a polygon whose light
@@ -153,8 +146,7 @@ class Divider {
     const Vec3 centre = Centroid(polygon);
     const double size = Diameter(polygon);
     double nearest = std::numeric_limits<double>::infinity();
-    for (const auto& [distance, patch] : neighbours_)
-      nearest = std::min(nearest, DistanceTo(solution_.forest.scene().patches[patch], centre));
+    for (const auto& [distance, patch] : neighbours_) nearest = std::min(nearest, Distance(patch, centre));
     const double gap = 1 + std::max(0.0, nearest / size - 0.5);
     return 0.5 / (gap * gap * gap);
   }
@@ -167,19 +159,6 @@ class Divider {
   Rgb reflectance_ = Rgb::Zero();
   std::vector<std::pair<double, PatchId>> neighbours_;
 };
-
-Rgb MeanReflected(const RadiositySolution& solution) {
-  const Scene& scene = solution.forest.scene();
-  Rgb sum = Rgb::Zero();
-  double area = 0;
-  for (std::size_t p = 0; p < scene.patches.size(); ++p) {
-    const auto patch = static_cast<PatchId>(p);
-    sum += scene.patches[p].area * scene.MaterialOf(patch).reflectance *
-           solution.irradiance[ElementForest::Root(patch)];
-    area += scene.patches[p].area;
-  }
-  return area > 0 ? Rgb(sum / area) : sum;
-}
 
 }  // namespace
 

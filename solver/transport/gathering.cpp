@@ -161,11 +161,13 @@ void Gathering::GatherVisible(Tree nodes) {
   }
   constexpr std::size_t kBatch = 128;
   std::array<double, kBatch> factor;
+  // The whole of a divided source tells how small its parts may be before their digits no longer matter.
+  const double whole = nodes.size() > 1 ? FormFactor(view_.SeeSource(Vertices(nodes[0])), at_.normal) : 0.0;
   const auto first = static_cast<std::size_t>(nodes[0].first_leaf);
   const auto end = first + static_cast<std::size_t>(nodes[0].leaf_count);
   for (std::size_t begin = first; begin < end; begin += kBatch) {
     const std::size_t stop = std::min(end, begin + kBatch);
-    FormFactors(sources_.LeafPolygons(), begin, stop, view_.SourceEye(), at_.normal, factor.data());
+    FormFactors(sources_.LeafPolygons(), begin, stop, view_.SourceEye(), at_.normal, factor.data(), whole);
     for (std::size_t i = begin; i < stop; ++i) Add(static_cast<std::int32_t>(i), factor[i - begin]);
   }
 }

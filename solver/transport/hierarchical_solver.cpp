@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "solver/base/parallel.h"
 #include "solver/base/stopwatch.h"
+#include "solver/transport/leaf_cells.h"
 #include "solver/transport/leaf_fragments.h"
 #include "solver/transport/point_irradiance.h"
 
@@ -13,6 +15,11 @@ namespace penumbra {
 namespace {
 
 constexpr std::size_t kExactGrain = 8;  // leaves that a task corrects
+// Radiosities below this share of what the fronts reflect on the whole count as that much, where sources are
+// cut.
+constexpr double kDark = 0.5;
+// By what passes that prepare the parts of leaves may err, and how it falls: by about what a pass gains.
+constexpr double kCoarsestCells = 0.1, kCellStep = 4;
 
 // How multigridding begins, and by what the bound falls from one iteration to the next. Coarse links need not
 // settle better than this.
@@ -133,6 +140,7 @@ void HierarchicalSolver::TakeCorrectionsBack() {
   solution_.fragments.clear();
   fragment_offset_.clear();
   correction_.clear();
+  leaf_parts_.clear();
 }
 
 std::optional<IterationReport> HierarchicalSolver::Iterate(const ExecutionContext& context) {
@@ -200,7 +208,58 @@ bool HierarchicalSolver::Relight(const ExecutionContext& context) {
   return true;
 }
 
+std::optional<double> HierarchicalSolver::CorrectByCells(double error, const ExecutionContext& context) {
+  const ElementForest& forest = solution_.forest;
+  std::vector<ElementId> leaves = forest.AllLeaves();
+  std::sort(leaves.begin(), leaves.end());
+  const LeafCellOptions options = {error, kDark * MeanReflected(solution_), options_.min_area};
+  std::vector<std::vector<Polygon3>> parts = leaf_parts_;
+  if (parts.empty()) {
+    const std::vector<Fragment> cuts = CutLeavesAtContacts(forest);
+    parts.resize(leaves.size());
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      for (const Fragment& cut : FragmentsOf(cuts, leaves[i])) parts[i].push_back(cut.polygon);
+      const auto whole = forest[leaves[i]].Vertices();
+      if (parts[i].empty()) parts[i].emplace_back(whole.begin(), whole.end());
+    }
+  }
+  const PointIrradiance exact(solution_, visibility_);
+  std::vector<std::vector<Fragment>> pieces(leaves.size());
+  std::vector<Rgb> irradiance(forest.size(), Rgb::Zero());
+  ParallelFor(leaves.size(), 1, [&](std::size_t i) {
+    if (context.Cancelled()) return;
+    const ElementId leaf = leaves[i];
+    Rgb& mean = irradiance[static_cast<std::size_t>(leaf)];
+    if ((scene_.MaterialOf(forest[leaf].patch).reflectance == 0).all()) {
+      mean = ExactLeafIrradiance(solution_, exact, leaf, LeafSampling::kCubature).mean;
+      return;
+    }
+    LeafCells cells = CutLeaf(solution_, exact, leaf, std::move(parts[i]), options);
+    mean = cells.Mean();
+    parts[i] = std::move(cells.parts);
+    if (cells.pieces.size() > 1) pieces[i] = std::move(cells.pieces);
+  });
+  if (context.Cancelled()) return std::nullopt;
+
+  double squares = 0, total = 0, area = 0;
+  std::vector<Fragment> fragments;
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const ElementId leaf = leaves[i];
+    const double a = forest[leaf].area;
+    const Rgb& now = irradiance[static_cast<std::size_t>(leaf)];
+    const double change = (now - solution_.irradiance[leaf]).abs().maxCoeff();
+    squares += a * change * change;
+    total += a * now.maxCoeff();
+    area += a;
+    std::move(pieces[i].begin(), pieces[i].end(), std::back_inserter(fragments));
+  }
+  if (!CorrectTo(irradiance, std::move(fragments), context)) return std::nullopt;
+  leaf_parts_ = std::move(parts);
+  return total > 0 ? std::sqrt(squares / area) / (total / area) : 0;
+}
+
 std::optional<double> HierarchicalSolver::Correct(LeafSampling sampling, const ExecutionContext& context) {
+  if (options_.source_error > 0) return CorrectByCells(options_.source_error, context);
   Snapshot before = TakeSnapshot();
   if (fragment_offset_.empty()) {
     solution_.fragments = CutLeavesAtContacts(solution_.forest);
@@ -307,6 +366,10 @@ std::vector<Rgb> HierarchicalSolver::MeanIrradianceByBounce(int bounces) const {
 }
 
 bool HierarchicalSolver::CorrectAll(const ExecutionContext& context) {
+  const bool cells = options_.source_error > 0 && options_.max_corrections > 0;
+  for (double error = kCoarsestCells; cells && error > options_.source_error && !context.Cancelled();
+       error /= kCellStep)
+    CorrectByCells(error, context);
   // All passes but the last only need to come near: the last one replaces what they added.
   for (int pass = 1; pass <= options_.max_corrections && !context.Cancelled(); ++pass) {
     context.Report("correct", static_cast<double>(pass - 1) / options_.max_corrections);

@@ -42,6 +42,10 @@ struct SolverOptions {
   bool multigrid = false;
   LinkFormFactors form_factors = LinkFormFactors::kCubature;
   int max_corrections = 2;  // passes of exact irradiance over the leaves; 0: links alone, as in the thesis
+  // About the largest relative error, where light arrives, that constant radiosity may cause: corrections cut
+  // leaves into as many parts as that takes (LeafCells), after some passes with fewer. 0: only where contacts
+  // cut them.
+  double source_error = 0;
 };
 
 struct IterationReport {
@@ -85,7 +89,8 @@ class HierarchicalSolver {
   bool Relight(const ExecutionContext& context);
 
   // One pass of deferred correction. Returns the root mean square change of the leaves' irradiance, relative
-  // to its mean; nothing if cancelled. An iteration that refines takes corrections back.
+  // to its mean; nothing if cancelled. An iteration that refines takes corrections back. With source_error
+  // the parts of leaves are chosen anew, and the sampling is as theirs.
   std::optional<double> Correct(LeafSampling sampling, const ExecutionContext& context);
   // Takes the leaves' irradiance, by element, and that of fragments for exact, and gathers the bounces of
   // what this changes over the links: a pass of deferred correction whose means somebody else has computed.
@@ -122,6 +127,8 @@ class HierarchicalSolver {
   bool Apply(const RefinementPlan& plan, Snapshot& before, const ExecutionContext& context);
   void TakeCorrectionsBack();
   void LightFragments();
+  // Correct() with parts of leaves that may err by so much.
+  std::optional<double> CorrectByCells(double error, const ExecutionContext& context);
 
   const Scene& scene_;
   const PatchVisibility& visibility_;
@@ -133,6 +140,8 @@ class HierarchicalSolver {
   std::vector<Rgb> correction_;       // per element: exact less linked irradiance of leaves [W/m^2]
   std::vector<Rgb> fragment_offset_;  // per fragment: exact irradiance less its leaf's [W/m^2]
   bool linked_ = true;
+  std::vector<std::vector<Polygon3>>
+      leaf_parts_;  // per leaf in ascending order, of LeafCells; empty at first
   bool converged_ = false;
 };
 

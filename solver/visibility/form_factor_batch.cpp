@@ -33,11 +33,11 @@ namespace {
   return rise / (length > 0 ? length : 1.0) * angle;
 }
 
-// out[i] is the sum over the edges of polygon i, to be done in another way where loss[i] > 0. c[3 k + axis]
-// points to the coordinates of the k-th vertices.
+// out[i] is the sum over the edges of polygon i, to be done in another way where loss[i] > 0; `whole` is what
+// it is a part of, times 2 pi. c[3 k + axis] points to the coordinates of the k-th vertices.
 PENUMBRA_VECTOR_CLONES
 void Kernel(const std::array<const double*, 12>& c, std::size_t count, double px, double py, double pz,
-            double nx, double ny, double nz, double* __restrict out, double* __restrict loss) {
+            double nx, double ny, double nz, double whole, double* __restrict out, double* __restrict loss) {
   const double* __restrict x0 = c[0], * __restrict y0 = c[1], * __restrict z0 = c[2];
   const double* __restrict x1 = c[3], * __restrict y1 = c[4], * __restrict z1 = c[5];
   const double* __restrict x2 = c[6], * __restrict y2 = c[7], * __restrict z2 = c[8];
@@ -51,7 +51,8 @@ void Kernel(const std::array<const double*, 12>& c, std::size_t count, double px
     // Counter-clockwise about a normal that points to the point: the sum is negative.
     const double sum = -((first + second) + (third + fourth));
     out[i] = (sum > 0 ? sum : 0) * (0.5 / std::numbers::pi);
-    loss[i] = angles - kFormFactorCancellation * (sum > 0 ? sum : -sum);
+    const double size = sum > 0 ? sum : -sum;
+    loss[i] = angles - kFormFactorCancellation * (size > whole ? size : whole);
   }
 }
 
@@ -76,7 +77,7 @@ void PolygonBatch::Add(std::span<const Vec3> polygon) {
 }
 
 void FormFactors(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
-                 const Vec3& normal, double* out) {
+                 const Vec3& normal, double* out, double whole) {
   constexpr std::size_t kBlock = 128;
   std::array<double, kBlock> loss;
   for (std::size_t first = begin; first < end; first += kBlock) {
@@ -86,7 +87,7 @@ void FormFactors(const PolygonBatch& batch, std::size_t begin, std::size_t end, 
     for (std::size_t k = 0; k < 4; ++k)
       for (std::size_t axis = 0; axis < 3; ++axis) corner[3 * k + axis] = batch.Coordinates(k, axis) + first;
     Kernel(corner, count, position.x(), position.y(), position.z(), normal.x(), normal.y(), normal.z(),
-           factor, loss.data());
+           2 * std::numbers::pi * whole, factor, loss.data());
     for (std::size_t i = 0; i < count; ++i)
       if (loss[i] > 0) factor[i] = ByQuadrature(batch, first + i, position, normal);
   }

@@ -31,8 +31,11 @@ class PolygonBatch {
 // the batch, for begin <= i < end, within kFormFactorError of the value. REQUIRES: the polygons lie above the
 // point's horizon and turn their fronts to it.
 //
+// The factors are parts of a sum of about `whole`: of each, what is below kFormFactorError of that may be
+// lost, which spares small parts the search for their last digits.
+//
 // Vectorised, with the width chosen when the program starts; the results are the same for every width.
 void FormFactors(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
-                 const Vec3& normal, double* out);
+                 const Vec3& normal, double* out, double whole = 0);
 
 }  // namespace penumbra

@@ -100,5 +100,39 @@ TEST(FormFactor, SumQuadratureAndBatchAgree) {
   EXPECT_LE(by_batch, 2 * kFormFactorError);
 }
 
+// Parts of a whole need digits relative to the whole only: a square in 64 x 64 adds up to its form factor.
+TEST(FormFactorBatch, PartsAddUpToTheWhole) {
+  Random random(513);
+  double worst = 0;
+  for (int i = 0; i < 20; ++i) {
+    const double height = random.LogUniform(1e-3, 10);
+    const Vec3 corner(random.Uniform(-1, 0), random.Uniform(-1, 0), height);
+    const Vec3 normal = (Vec3(random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3), 1)).normalized();
+    if (normal.dot(corner) <= 0 || normal.dot(corner + Vec3(1, 0, 0)) <= 0 ||
+        normal.dot(corner + Vec3(0, 1, 0)) <= 0 || normal.dot(corner + Vec3(1, 1, 0)) <= 0)
+      continue;
+    constexpr int kParts = 64;
+    PolygonBatch whole, parts;
+    const auto add = [&](PolygonBatch& batch, double x, double y, double size) {
+      // Its front looks down.
+      const Vec3 a = corner + Vec3(x, y, 0);
+      const Polygon3 square = {a, a + Vec3(0, size, 0), a + Vec3(size, size, 0), a + Vec3(size, 0, 0)};
+      batch.Add(square);
+    };
+    add(whole, 0, 0, 1);
+    for (int k = 0; k < kParts * kParts; ++k)
+      add(parts, static_cast<double>(k % kParts) / kParts, static_cast<double>(k / kParts) / kParts,
+          1.0 / kParts);
+    double want = 0, sum = 0;
+    FormFactors(whole, 0, 1, Vec3::Zero(), normal, &want);
+    std::vector<double> factor(parts.size());
+    FormFactors(parts, 0, parts.size(), Vec3::Zero(), normal, factor.data(), want);
+    for (const double f : factor) sum += f;
+    worst = std::max(worst, std::abs(sum / want - 1));
+  }
+  std::printf("seed 513: sums off by %.2g (bound %.2g)\n", worst, kFormFactorError);
+  EXPECT_LE(worst, kFormFactorError);
+}
+
 }  // namespace
 }  // namespace penumbra::scene_test
