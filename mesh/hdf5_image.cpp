@@ -14,7 +14,9 @@ namespace {
 constexpr std::size_t kGrowth = std::size_t{1} << 20;            // of the image in memory [bytes]
 constexpr std::size_t kChunk = std::size_t{1} << 20;             // what is compressed at a time [bytes]
 constexpr std::size_t kWorthCompressing = std::size_t{1} << 12;  // [bytes]
-constexpr unsigned kDeflateLevel = 1;  // higher levels save some hundredths and cost several times as long
+// Of an office of 13,551 triangles: 3.41 MB without, 1.60 in 0.04 s with level 1, 1.57 with 6, 1.56 in 0.25 s
+// with 9.
+constexpr unsigned kDeflateLevel = 1;
 
 // An identifier of the library, closed when it goes out of scope.
 class Handle {

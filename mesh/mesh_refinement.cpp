@@ -13,6 +13,8 @@ namespace {
 // Triangles whose gradients jump by less than what leads to this share of the error asked for are not
 // measured.
 constexpr double kSuspicion = 0.3;
+// Beyond this, a triangle that was found good is looked at once more, at finer points.
+constexpr double kDoubt = 1;
 // What halving the size makes of the error where the irradiance is smooth.
 constexpr double kSmoothGain = 8;
 
@@ -95,6 +97,13 @@ RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolutio
     MeasuredTriangles measured =
         MeasureTriangles(scene, refined.mesh, suspects, options.samples, mean, sampler, &cache);
     refined.errors = std::move(measured.errors);
+    evaluations += measured.point_evaluations;
+    std::vector<std::uint32_t> doubtful;
+    for (const std::uint32_t t : suspects)
+      if (refined.errors[t].max <= options.error && guess[t] > kDoubt * options.error) doubtful.push_back(t);
+    measured = MeasureTriangles(scene, refined.mesh, doubtful, options.samples + 1, mean, sampler, &cache);
+    for (const std::uint32_t t : doubtful)
+      if (measured.errors[t].max > refined.errors[t].max) refined.errors[t] = measured.errors[t];
     evaluations += measured.point_evaluations;
     seconds.interpolate += interpolating.Seconds();
 

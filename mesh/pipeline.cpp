@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include <fmt/format.h>
@@ -35,6 +36,12 @@ constexpr double kCoarseEps = 4;
 // The shares of the error that the interpolants and their sources may make, each at its 99th percentile:
 // seldom both at one point.
 constexpr double kInterpolantShare = 0.65, kSourceShare = 0.4;
+// What interpolants' samples may leave out of their sources' detail, as a share of the error; and those of
+// the first look, whose means become the sources' light, so that what is off in all of them grows from bounce
+// to bounce.
+constexpr double kNearShare = 0.1, kFirstNearShare = 0.03;
+// The first look, which only sources are made of, takes edges of this times the least weight.
+constexpr double kFirstWeight = 2;
 // Cells of sources are divided while their score is above this times the error.
 constexpr double kFinestScore = 1;
 // Random points that choose the sources, and at most that measure them.
@@ -199,8 +206,8 @@ struct Pipeline::Impl {
     refinement.error = kInterpolantShare * options.error;
     refinement.min_area = resolved.solver.min_area;
     refinement.samples = options.error_samples;
-    RefinedMesh refined = RefineMesh(visibility, solver->solution(), Sampler(), mesh_options, refinement,
-                                     context, &LocalPass());
+    RefinedMesh refined = RefineMesh(visibility, solver->solution(), NearSampler(kNearShare), mesh_options,
+                                     refinement, context, &LocalPass());
     if (context.Cancelled()) return;
     mesh = std::move(refined.mesh);
     triangulations = std::move(refined.triangulations);
@@ -230,6 +237,19 @@ struct Pipeline::Impl {
     return [&exact](PatchId patch, const ReceiverPoint& at) { return exact.OnPatch(patch, at); };
   }
 
+  // For interpolants.
+  IrradianceSampler NearSampler(double share) {
+    const PointIrradiance& exact = Irradiance();
+    return [&exact, tolerance = share * options.error](PatchId patch, const ReceiverPoint& at) {
+      return exact.NearlyOnPatch(patch, at, tolerance);
+    };
+  }
+
+  // Whether the interpolants' means make the last correction.
+  bool RefinesShown() const {
+    return options.refine != RefineBy::kTransport && !options.dense && !options.source_error;
+  }
+
   // What is left of the limits to Solve(); none without it.
   RunLimits LimitsSinceSolve(const ExecutionContext& context) const {
     return RunLimits(context, begun ? options.time_limit : std::nullopt,
@@ -247,21 +267,22 @@ struct Pipeline::Impl {
     mesh_options.order = kind == MeshKind::kFlat          ? InterpolantOrder::kConstant
                          : kind == MeshKind::kInterpolant ? InterpolantOrder::kQuadratic
                                                           : InterpolantOrder::kLinear;
+    const bool refines = kind == MeshKind::kInterpolant && solver && options.refine != RefineBy::kTransport;
+    MeshOptions first = mesh_options;
+    if (refines) first.discontinuities.min_weight *= kFirstWeight;
     IrradianceSampler sampler;
     if (kind != MeshKind::kFlat) {
       if (solver && !solver->SeenFromLeaves(context)) return std::nullopt;
-      sampler = Sampler();
+      sampler = NearSampler(refines ? kFirstNearShare : kNearShare);
     }
-    MeshResult result = RunLocalPass(visibility, Solution(), sampler, mesh_options, context, &LocalPass());
+    MeshResult result = RunLocalPass(visibility, Solution(), sampler, first, context, &LocalPass());
     if (context.Cancelled()) return std::nullopt;
     done = result.report;
     mesh = std::move(result.mesh);
     triangulations = std::move(result.triangulations);
     mesh_forest = Solution().forest;
     triangle_errors.clear();
-    if (kind == MeshKind::kInterpolant && solver && options.refine != RefineBy::kTransport &&
-        !mesh.triangles.empty())
-      RefineShown(mesh_options, done, context);
+    if (refines && !mesh.triangles.empty()) RefineShown(mesh_options, done, context);
     return kind;
   }
 
@@ -354,8 +375,8 @@ bool Pipeline::Converged() const { return impl_->solver && impl_->solver->Conver
 
 bool Pipeline::Correct(const ExecutionContext& context) {
   Link(context);
-  return impl_->Run(context, [](HierarchicalSolver& solver, const ExecutionContext& running) {
-    return solver.CorrectAll(running);
+  return impl_->Run(context, [this](HierarchicalSolver& solver, const ExecutionContext& running) {
+    return solver.CorrectAll(running, /*but_the_last=*/impl_->RefinesShown());
   });
 }
 

@@ -9,6 +9,7 @@ extern const Study kHierarchicalStudy;
 extern const Study kContinuousRadiosityStudy;
 extern const Study kDiscontinuityStudy;
 extern const Study kRefinementStudy;
+extern const Study kErrorLadderStudy;
 extern const Study kWholeSystemStudy;
 extern const Study kStabilityStudy;
 extern const Study kGrowthStudy;
@@ -22,6 +23,7 @@ const std::vector<const Study*>& Studies() {
       &kContinuousRadiosityStudy,  // 4, against what is known exactly
       &kDiscontinuityStudy,        // 5
       &kRefinementStudy,           // 4.4.2
+      &kErrorLadderStudy,          // 4.4.2, what a user is promised
       &kWholeSystemStudy,          // 7
       &kStabilityStudy,            // what can go wrong
       &kGrowthStudy,               // what bounds large scenes

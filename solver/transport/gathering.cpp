@@ -22,6 +22,23 @@ Clipper& ThreadClipper() {
   return clipper;
 }
 
+// Polygons whose form factors are still to be added.
+struct Listed {
+  PolygonBatch polygons;
+  std::vector<Rgb> radiosity;
+  std::vector<double> factor, angles;
+
+  void Clear() {
+    polygons.Clear();
+    radiosity.clear();
+  }
+};
+
+Listed& ThreadListed() {
+  thread_local Listed listed;
+  return listed;
+}
+
 }  // namespace
 
 Gathering::Gathering(const Scene& scene, const SourceSet& sources, const ReceiverPoint& at,
@@ -34,6 +51,11 @@ Gathering::Gathering(const Scene& scene, const SourceSet& sources, const Receive
       view_(scene, at, options.method ? *options.method : FastestExactMethod(), options.source_push_off),
       occluders_(view_.occluder_stack()),
       clipper_(ThreadClipper()) {}
+
+void Gathering::SeeAsOne(double tolerance) {
+  tolerance_ = tolerance;
+  ThreadListed().Clear();
+}
 
 // Turns to the source; false if nothing of it can be seen.
 bool Gathering::Face(PatchId source, DirectionPolygon* seen) {
@@ -93,6 +115,10 @@ void Gathering::Gather(PatchId source, const DirectionPolygon& seen, std::span<c
   occluders_.clear();
   if (!view_.FindBlockers(candidates, own, seen, occluders_)) return;
   const Tree tree = sources_.Tree(source);
+  if (tolerance_ > 0) {
+    source_normal_ = scene_.patches[static_cast<std::size_t>(source)].normal;
+    whole_ = FormFactor(seen, at_.normal);
+  }
   if (occluders_.empty())
     GatherVisible(tree);
   else
@@ -132,6 +158,8 @@ void Gathering::GatherNode(Tree tree, std::size_t i, const DirectionPolygon& see
   const Overlap overlap = clipper_.Narrow(seen, candidates, &own);
   if (overlap == Overlap::kNone) {
     GatherVisible(tree.subspan(i, skip));
+  } else if (overlap == Overlap::kPart && skip > 1 && tolerance_ > 0 && IsOne(node, false)) {
+    clipper_.CutOut(seen, own, -1 - static_cast<std::int32_t>(sources_.IndexOf(node)));
   } else if (overlap == Overlap::kPart && skip == 1) {
     if (!method_ || parts_) clipper_.CutOut(seen, own, node.first_leaf);
     if (method_) {
@@ -150,6 +178,7 @@ void Gathering::GatherNode(Tree tree, std::size_t i, const DirectionPolygon& see
 
 // Adds all leaves of a subtree that nothing hides.
 void Gathering::GatherVisible(Tree nodes) {
+  if (tolerance_ > 0) return GatherAsOne(nodes);
   if (parts_)
     for (const Node& node : nodes)
       if (node.skip == 1)
@@ -159,17 +188,92 @@ void Gathering::GatherVisible(Tree nodes) {
       if (node.skip == 1) Add(node.first_leaf, FormFactor(view_.SeeSource(Vertices(node)), at_.normal));
     return;
   }
-  constexpr std::size_t kBatch = 128;
-  std::array<double, kBatch> factor;
-  // The whole of a divided source tells how small its parts may be before their digits no longer matter.
-  const double whole = nodes.size() > 1 ? FormFactor(view_.SeeSource(Vertices(nodes[0])), at_.normal) : 0.0;
   const auto first = static_cast<std::size_t>(nodes[0].first_leaf);
-  const auto end = first + static_cast<std::size_t>(nodes[0].leaf_count);
-  for (std::size_t begin = first; begin < end; begin += kBatch) {
-    const std::size_t stop = std::min(end, begin + kBatch);
-    FormFactors(sources_.LeafPolygons(), begin, stop, view_.SourceEye(), at_.normal, factor.data(), whole);
-    for (std::size_t i = begin; i < stop; ++i) Add(static_cast<std::int32_t>(i), factor[i - begin]);
+  const auto count = static_cast<std::size_t>(nodes[0].leaf_count);
+  thread_local std::vector<double> factor, angles;
+  factor.resize(count);
+  angles.resize(count);
+  FormFactorSums(sources_.LeafPolygons(), first, first + count, view_.SourceEye(), at_.normal, factor.data(),
+                 angles.data());
+  // What the sums may have lost counts beside the light of all leaves together.
+  double turned = 0, together = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double radiosity = sources_.LeafRadiosities()[first + i].maxCoeff();
+    turned += angles[i] * radiosity;
+    together += factor[i] * radiosity;
   }
+  if (turned > 2 * std::numbers::pi * kFormFactorCancellation * together)
+    FormFactors(sources_.LeafPolygons(), first, first + count, view_.SourceEye(), at_.normal, factor.data());
+  for (std::size_t i = 0; i < count; ++i) Add(static_cast<std::int32_t>(first + i), factor[i]);
+}
+
+// Whether a subtree may be seen as one, with its radiosity's moment where nothing hides it: the error beside
+// its own light is small, or the light beside that of the whole source.
+bool Gathering::IsOne(const Node& node, bool visible) const {
+  if (node.spread <= tolerance_) return true;
+  const Vec3 to = node.centre - at_.position;
+  const double distance = to.norm(), gap = distance - node.radius;
+  if (gap <= 0) return false;
+  double error = node.spread;
+  // Form factors per area fall with the square of the distance, and about as fast with the two angles.
+  constexpr double kSteepness = 3;
+  if (visible) {
+    const double reach = kSteepness * node.radius / gap;
+    if (reach < 1) error *= reach * reach;
+    if (error <= tolerance_) return true;
+  }
+  const double high = std::min(1.0, (at_.normal.dot(to) + node.radius) / distance),
+               deep = std::min(1.0, (source_normal_.dot(-to) + node.radius) / distance);
+  // Shadows tend to begin where it is darker; errors there do not average out.
+  constexpr double kShadowed = 0.3;
+  const double allowed = (visible ? tolerance_ : kShadowed * tolerance_) * whole_;
+  return error * node.area * high * deep <= allowed * std::numbers::pi * gap * gap;
+}
+
+// Adds a subtree that nothing hides, in parts that may be seen as one.
+void Gathering::GatherAsOne(Tree nodes) {
+  const bool plain = view_.SourceIsPlain();
+  Listed& listed = ThreadListed();
+  for (std::size_t i = 0; i < nodes.size();) {
+    const Node& node = nodes[i];
+    if (node.skip > 1 && !IsOne(node, true)) {
+      ++i;
+      continue;
+    }
+    i += static_cast<std::size_t>(node.skip);
+    // Well above the horizon it is seen as it is.
+    if (plain || (!view_.SourceInContact() && at_.normal.dot(node.centre - at_.position) > node.radius)) {
+      listed.polygons.Add(Vertices(node));
+      listed.radiosity.push_back(node.radiosity);
+      if (node.skip > 1) AddMoment(node);
+    } else {
+      AddNode(node, FormFactor(view_.SeeSource(Vertices(node)), at_.normal));
+    }
+  }
+}
+
+// Adds what the node's radiosity makes by varying as the form factor per area does.
+void Gathering::AddMoment(const Node& node) {
+  const Vec3 r = node.centre - at_.position;
+  const double d2 = r.squaredNorm();
+  if (d2 < 4 * node.radius * node.radius) return;
+  const double high = at_.normal.dot(r), deep = -source_normal_.dot(r);
+  // Of high deep / (pi d^4), along the source's plane.
+  const Vec3 gradient = deep / (std::numbers::pi * d2 * d2) * (at_.normal - 4 * high / d2 * r);
+  irradiance_ += (node.moment * gradient).array();
+}
+
+// Adds what GatherAsOne() has listed. It need not be as exact as the rest.
+void Gathering::AddListed() {
+  if (tolerance_ == 0) return;
+  Listed& listed = ThreadListed();
+  const std::size_t count = listed.radiosity.size();
+  listed.factor.resize(count);
+  listed.angles.resize(count);
+  FormFactorSums(listed.polygons, 0, count, view_.SourceEye(), at_.normal, listed.factor.data(),
+                 listed.angles.data());
+  for (std::size_t i = 0; i < count; ++i) irradiance_ += listed.factor[i] * listed.radiosity[i];
+  listed.Clear();
 }
 
 // A leaf that fits into no image.
@@ -201,7 +305,11 @@ void Gathering::AddVisiblePieces(const ImageFrame& frame, double factor_before) 
   for (std::size_t p = 0; p < visible.Pieces(); ++p) {
     const double factor = cancels ? visible.PieceByQuadrature(frame, at_.normal, p)
                                   : 0.5 * std::numbers::inv_pi * visible.PieceSum(p);
-    Add(visible.Owner(p), std::max(0.0, factor));
+    const std::int32_t owner = visible.Owner(p);
+    if (owner >= 0)
+      Add(owner, std::max(0.0, factor));
+    else
+      AddNode(sources_.NodeAt(static_cast<std::size_t>(-1 - owner)), std::max(0.0, factor));
   }
 }
 
@@ -232,6 +340,11 @@ void Gathering::Add(std::int32_t leaf, double factor) {
   factor_ += factor;
   if (!factors_.empty()) factors_[static_cast<std::size_t>(leaf)] += factor;
   irradiance_ += factor * sources_.LeafRadiosities()[static_cast<std::size_t>(leaf)];
+}
+
+void Gathering::AddNode(const Node& node, double factor) {
+  factor_ += factor;
+  irradiance_ += factor * node.radiosity;
 }
 
 void Gathering::AddGradient(std::int32_t leaf, const Vec3& gradient) {

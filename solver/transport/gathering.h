@@ -61,7 +61,14 @@ class Gathering {
   // Adds the form factors of the set's leaves to these, by their number.
   void RecordFactors(std::span<double> factors) { factors_ = factors; }
 
-  const Rgb& irradiance() const { return irradiance_; }
+  // From here on parts of trees may be seen as one of their mean radiosity where that costs at most this
+  // share of the light that they send (SourceSet::Node::ErrorAsOne).
+  void SeeAsOne(double tolerance);
+
+  const Rgb& irradiance() {
+    AddListed();
+    return irradiance_;
+  }
   bool one_sided() const { return view_.one_sided(); }
 
  private:
@@ -74,10 +81,15 @@ class Gathering {
   void GatherNode(Tree tree, std::size_t i, const DirectionPolygon& seen,
                   const Clipper::Candidates& candidates);
   void GatherVisible(Tree nodes);
+  void GatherAsOne(Tree nodes);
+  bool IsOne(const SourceSet::Node& node, bool visible) const;
+  void AddMoment(const SourceSet::Node& node);
+  void AddListed();
   void GatherUnfit(const SourceSet::Node& leaf, const DirectionPolygon& seen);
   void AddVisiblePieces(const ImageFrame& frame, double visible_before);
   void AddGradientOfPieces(const ImageFrame& frame);
   void Add(std::int32_t leaf, double factor);
+  void AddNode(const SourceSet::Node& node, double factor);
   void AddGradient(std::int32_t leaf, const Vec3& gradient);
 
   const Scene& scene_;
@@ -88,6 +100,11 @@ class Gathering {
   PointView view_;
   std::vector<Occluder>& occluders_;  // of the source at hand
   Clipper& clipper_;
+  double tolerance_ = 0;
+  // Of the source at hand, with a tolerance: its normal, and the form factor of all that is above the
+  // horizon.
+  Vec3 source_normal_ = Vec3::Zero();
+  double whole_ = 0;
   double factor_ = 0;  // of the source at hand, so far
   Rgb irradiance_ = Rgb::Zero();
   std::span<double> factors_;  // per leaf of the set; empty: not asked for

@@ -223,7 +223,9 @@ std::optional<double> HierarchicalSolver::CorrectByCells(double error, const Exe
       if (parts[i].empty()) parts[i].emplace_back(whole.begin(), whole.end());
     }
   }
-  const PointIrradiance exact(solution_, visibility_);
+  const std::shared_ptr<const LeafVisibility> seen = SeenFromLeaves(context);
+  if (!seen) return std::nullopt;
+  const PointIrradiance exact(solution_, visibility_, {}, seen);
   std::vector<std::vector<Fragment>> pieces(leaves.size());
   std::vector<Rgb> irradiance(forest.size(), Rgb::Zero());
   ParallelFor(leaves.size(), 1, [&](std::size_t i) {
@@ -365,13 +367,15 @@ std::vector<Rgb> HierarchicalSolver::MeanIrradianceByBounce(int bounces) const {
   return means;
 }
 
-bool HierarchicalSolver::CorrectAll(const ExecutionContext& context) {
+bool HierarchicalSolver::CorrectAll(const ExecutionContext& context, bool but_the_last) {
   const bool cells = options_.source_error > 0 && options_.max_corrections > 0;
   for (double error = kCoarsestCells; cells && error > options_.source_error && !context.Cancelled();
        error /= kCellStep)
     CorrectByCells(error, context);
-  // All passes but the last only need to come near: the last one replaces what they added.
-  for (int pass = 1; pass <= options_.max_corrections && !context.Cancelled(); ++pass) {
+  // All passes but the last only need to come near: the last one, here or by CorrectTo(), replaces what they
+  // added.
+  const int passes = options_.max_corrections - (but_the_last ? 1 : 0);
+  for (int pass = 1; pass <= passes && !context.Cancelled(); ++pass) {
     context.Report("correct", static_cast<double>(pass - 1) / options_.max_corrections);
     Correct(pass < options_.max_corrections ? LeafSampling::kCentroid : LeafSampling::kCubature, context);
   }

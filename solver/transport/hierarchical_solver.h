@@ -99,7 +99,7 @@ class HierarchicalSolver {
   bool CorrectTo(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
                  const ExecutionContext& context);
   // All passes that the options ask for. False if cancelled, which leaves those that were done.
-  bool CorrectAll(const ExecutionContext& context);
+  bool CorrectAll(const ExecutionContext& context, bool but_the_last = false);
 
   // Iterates to convergence, to the most iterations, or until the context is cancelled, then corrects. A
   // cancelled run leaves the solution of the last whole step. Returns the whole iterations.

@@ -95,6 +95,15 @@ PointIrradianceResult PointIrradiance::OnPatch(PatchId patch, const ReceiverPoin
   return {gathering.irradiance(), gathering.one_sided()};
 }
 
+PointIrradianceResult PointIrradiance::NearlyOnPatch(PatchId patch, const ReceiverPoint& given,
+                                                     double tolerance) const {
+  const ReceiverPoint at = Nudged(given);
+  Gathering gathering(scene_, sources_, at, options_, nullptr);
+  if (options_.method == nullptr) gathering.SeeAsOne(tolerance);
+  GatherOnPatch(patch, at, gathering);
+  return {gathering.irradiance(), gathering.one_sided()};
+}
+
 Rgb PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given, std::span<double> factors) const {
   PENUMBRA_CHECK(factors.size() == sources_.LeafRadiosities().size());
   std::fill(factors.begin(), factors.end(), 0.0);

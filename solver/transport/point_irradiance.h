@@ -50,8 +50,12 @@ class PointIrradiance {
   PointIrradianceResult OnPatch(PatchId patch, const ReceiverPoint& at,
                                 IrradianceParts* parts = nullptr) const;
 
-  // The same, and what each leaf of the source set contributes to it: `factors` gets their form factors, seen
-  // parts only, by their number. REQUIRES: it has as many as there are leaves.
+  // The same for interpolants: what is seen of a source may be seen as one of its mean radiosity where that
+  // costs at most about `tolerance` of the light from there (Gathering::SeeAsOne).
+  PointIrradianceResult NearlyOnPatch(PatchId patch, const ReceiverPoint& at, double tolerance) const;
+
+  // The same as OnPatch(), and what each leaf of the source set contributes to it: `factors` gets their form
+  // factors, seen parts only, by their number. REQUIRES: it has as many as there are leaves.
   Rgb OnPatch(PatchId patch, const ReceiverPoint& at, std::span<double> factors) const;
 
   const SourceSet& sources() const { return sources_; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solver/geometry/polygon.h"
 #include "solver/transport/solution.h"
 
 namespace penumbra {
@@ -69,6 +70,7 @@ SourceSet SourceSet::FromSolution(const RadiositySolution& solution, std::span<c
   }
   set.first_.push_back(set.nodes_.size());
   set.NumberLeaves();
+  set.MeasureSpread();
   return set;
 }
 
@@ -82,6 +84,7 @@ SourceSet SourceSet::Emitters(const Scene& scene) {
   }
   set.first_.push_back(set.nodes_.size());
   set.NumberLeaves();
+  set.MeasureSpread();
   return set;
 }
 
@@ -98,6 +101,59 @@ void SourceSet::NumberLeaves() {
   }
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     nodes_[i].leaf_count = before[i + static_cast<std::size_t>(nodes_[i].skip)] - before[i];
+}
+
+// Means and spreads of subtrees, from their leaves.
+void SourceSet::MeasureSpread() {
+  // In dark places radiosities count relative to this share of the reflected light's mean.
+  constexpr double kDark = 0.5;
+  struct Moments {
+    double area = 0;
+    Rgb sum = Rgb::Zero(), squares = Rgb::Zero();
+    Vec3 place = Vec3::Zero();
+    Eigen::Matrix3d places = Eigen::Matrix3d::Zero();
+  };
+  Rgb reflected = Rgb::Zero();
+  double area = 0;
+  std::vector<Moments> moments(nodes_.size());
+  for (std::size_t p = 0; p + 1 < first_.size(); ++p)
+    for (std::size_t i = first_[p]; i < first_[p + 1]; ++i) {
+      Node& node = nodes_[i];
+      const std::span<const Vec3> polygon(node.vertex.data(), static_cast<std::size_t>(node.size));
+      node.centre = Centroid(polygon);
+      for (const Vec3& v : polygon) node.radius = std::max(node.radius, (v - node.centre).norm());
+      node.area = VectorArea(polygon).norm();
+      if (node.skip != 1) continue;
+      Moments& own = moments[i];
+      own.area = node.area;
+      own.sum = own.area * node.radiosity;
+      own.squares = own.area * node.radiosity.square();
+      own.place = own.area * node.centre;
+      own.places = own.sum.matrix() * node.centre.transpose();
+      reflected += own.area * (node.radiosity - emittance_[p]);
+      area += own.area;
+    }
+  if (area > 0) reflected /= area;
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    Node& node = nodes_[i];
+    if (node.skip == 1) continue;
+    Moments& own = moments[i];
+    for (std::size_t child = i + 1; child < i + static_cast<std::size_t>(node.skip);
+         child += static_cast<std::size_t>(nodes_[child].skip)) {
+      own.area += moments[child].area;
+      own.sum += moments[child].sum;
+      own.squares += moments[child].squares;
+      own.place += moments[child].place;
+      own.places += moments[child].places;
+    }
+    node.radiosity = own.sum / own.area;
+    node.moment = own.places - node.radiosity.matrix() * own.place.transpose();
+    const Rgb deviation = (own.squares / own.area - node.radiosity.square()).max(0.0).sqrt();
+    for (int c = 0; c < 3; ++c) {
+      const double around = std::max(node.radiosity[c], kDark * reflected[c]);
+      if (around > 0) node.spread = std::max(node.spread, deviation[c] / around);
+    }
+  }
 }
 
 }  // namespace penumbra

@@ -29,8 +29,17 @@ class SourceSet {
     std::int32_t size = 0;                        // corners: 3 or 4
     std::int32_t skip = 1;                        // nodes in this subtree, this one counted: a leaf has 1
     std::int32_t first_leaf = 0, leaf_count = 1;  // the subtree's leaves, among all of the set
-    Rgb radiosity = Rgb::Zero();                  // [W/m^2]; of a leaf
+    Rgb radiosity = Rgb::Zero();                  // [W/m^2]; of a subtree, the mean by area
     std::int32_t fragment = -1;                   // that the node is a part of; -1: of none
+    // Of a subtree: how far its leaves' radiosities are from their mean, relative to that or, where it is
+    // darker, to the reflected light around; root mean square, the worst channel [1].
+    double spread = 0;
+    Vec3 centre = Vec3::Zero();  // of the polygon [m]
+    double radius = 0;           // about it [m]
+    double area = 0;             // [m^2]
+
+    // One row a channel: its leaves' radiosities less their mean, times areas and places, summed [W m].
+    Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
   };
 
   // What the leaves of the solution emit and reflect.
@@ -39,6 +48,9 @@ class SourceSet {
   static SourceSet FromSolution(const RadiositySolution& solution, std::span<const Fragment> fragments);
   // What surfaces emit of themselves: direct light.
   static SourceSet Emitters(const Scene& scene);
+
+  const Node& NodeAt(std::size_t i) const { return nodes_[i]; }
+  std::size_t IndexOf(const Node& node) const { return static_cast<std::size_t>(&node - nodes_.data()); }
 
   // The tree of a patch; empty if it sends no light.
   std::span<const Node> Tree(PatchId patch) const {
@@ -63,6 +75,7 @@ class SourceSet {
 
  private:
   void NumberLeaves();
+  void MeasureSpread();
 
   std::vector<std::size_t> first_;  // per patch, into nodes_
   std::vector<Node> nodes_;

@@ -33,11 +33,11 @@ namespace {
   return rise / (length > 0 ? length : 1.0) * angle;
 }
 
-// out[i] is the sum over the edges of polygon i, to be done in another way where loss[i] > 0; `whole` is what
-// it is a part of, times 2 pi. c[3 k + axis] points to the coordinates of the k-th vertices.
+// out[i] is the sum over the edges of polygon i, turned[i] that of their angles. c[3 k + axis] points to the
+// coordinates of the k-th vertices.
 PENUMBRA_VECTOR_CLONES
 void Kernel(const std::array<const double*, 12>& c, std::size_t count, double px, double py, double pz,
-            double nx, double ny, double nz, double whole, double* __restrict out, double* __restrict loss) {
+            double nx, double ny, double nz, double* __restrict out, double* __restrict turned) {
   const double* __restrict x0 = c[0], * __restrict y0 = c[1], * __restrict z0 = c[2];
   const double* __restrict x1 = c[3], * __restrict y1 = c[4], * __restrict z1 = c[5];
   const double* __restrict x2 = c[6], * __restrict y2 = c[7], * __restrict z2 = c[8];
@@ -51,12 +51,14 @@ void Kernel(const std::array<const double*, 12>& c, std::size_t count, double px
     // Counter-clockwise about a normal that points to the point: the sum is negative.
     const double sum = -((first + second) + (third + fourth));
     out[i] = (sum > 0 ? sum : 0) * (0.5 / std::numbers::pi);
-    const double size = sum > 0 ? sum : -sum;
-    loss[i] = angles - kFormFactorCancellation * (size > whole ? size : whole);
+    turned[i] = angles;
   }
 }
 
-double ByQuadrature(const PolygonBatch& batch, std::size_t i, const Vec3& position, const Vec3& normal) {
+}  // namespace
+
+double FormFactorByQuadrature(const PolygonBatch& batch, std::size_t i, const Vec3& position,
+                              const Vec3& normal) {
   const auto vertex = [&](std::size_t k) {
     return Vec3(batch.Coordinates(k, 0)[i], batch.Coordinates(k, 1)[i], batch.Coordinates(k, 2)[i]);
   };
@@ -66,8 +68,6 @@ double ByQuadrature(const PolygonBatch& batch, std::size_t i, const Vec3& positi
   return FormFactorByQuadrature(first - position, offset, normal);
 }
 
-}  // namespace
-
 void PolygonBatch::Add(std::span<const Vec3> polygon) {
   PENUMBRA_CHECK(polygon.size() == 3 || polygon.size() == 4);
   for (std::size_t k = 0; k < 4; ++k)
@@ -76,20 +76,30 @@ void PolygonBatch::Add(std::span<const Vec3> polygon) {
           polygon[std::min(k, polygon.size() - 1)][static_cast<Eigen::Index>(axis)]);
 }
 
+void PolygonBatch::Clear() {
+  for (std::vector<double>& coordinates : coordinate_) coordinates.clear();
+}
+
+void FormFactorSums(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
+                    const Vec3& normal, double* out, double* angles) {
+  std::array<const double*, 12> corner;
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis) corner[3 * k + axis] = batch.Coordinates(k, axis) + begin;
+  Kernel(corner, end - begin, position.x(), position.y(), position.z(), normal.x(), normal.y(), normal.z(),
+         out, angles);
+}
+
 void FormFactors(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
-                 const Vec3& normal, double* out, double whole) {
+                 const Vec3& normal, double* out) {
   constexpr std::size_t kBlock = 128;
-  std::array<double, kBlock> loss;
+  std::array<double, kBlock> angles;
   for (std::size_t first = begin; first < end; first += kBlock) {
     const std::size_t count = std::min(kBlock, end - first);
     double* factor = out + (first - begin);
-    std::array<const double*, 12> corner;
-    for (std::size_t k = 0; k < 4; ++k)
-      for (std::size_t axis = 0; axis < 3; ++axis) corner[3 * k + axis] = batch.Coordinates(k, axis) + first;
-    Kernel(corner, count, position.x(), position.y(), position.z(), normal.x(), normal.y(), normal.z(),
-           2 * std::numbers::pi * whole, factor, loss.data());
+    FormFactorSums(batch, first, first + count, position, normal, factor, angles.data());
     for (std::size_t i = 0; i < count; ++i)
-      if (loss[i] > 0) factor[i] = ByQuadrature(batch, first + i, position, normal);
+      if (angles[i] > 2 * std::numbers::pi * kFormFactorCancellation * factor[i])
+        factor[i] = FormFactorByQuadrature(batch, first + i, position, normal);
   }
 }
 

@@ -18,6 +18,7 @@ class PolygonBatch {
  public:
   std::size_t size() const { return coordinate_[0].size(); }
   void Add(std::span<const Vec3> polygon);
+  void Clear();
   // The coordinates of all k-th vertices along an axis.
   const double* Coordinates(std::size_t k, std::size_t axis) const {
     return coordinate_[3 * k + axis].data();
@@ -31,11 +32,17 @@ class PolygonBatch {
 // the batch, for begin <= i < end, within kFormFactorError of the value. REQUIRES: the polygons lie above the
 // point's horizon and turn their fronts to it.
 //
-// The factors are parts of a sum of about `whole`: of each, what is below kFormFactorError of that may be
-// lost, which spares small parts the search for their last digits.
-//
 // Vectorised, with the width chosen when the program starts; the results are the same for every width.
 void FormFactors(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
-                 const Vec3& normal, double* out, double whole = 0);
+                 const Vec3& normal, double* out);
+
+// The sums over edges alone, which for small polygons from afar cancel in part. angles[i - begin], the sum of
+// the angles of the edges, tells: a factor is within kFormFactorError of this over 2 pi
+// kFormFactorCancellation, or of its value where that is more.
+void FormFactorSums(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
+                    const Vec3& normal, double* out, double* angles);
+// One of the factors, by quadrature, which does not cancel.
+double FormFactorByQuadrature(const PolygonBatch& batch, std::size_t i, const Vec3& position,
+                              const Vec3& normal);
 
 }  // namespace penumbra

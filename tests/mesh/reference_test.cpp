@@ -88,6 +88,7 @@ TEST(Reference, ExactProbeIsWithinTheErrorAskedFor) {
     options.error = asked;
     Pipeline pipeline(scene, options);
     pipeline.Solve({});
+    pipeline.BuildMesh(MeshKind::kInterpolant, {});  // refines the sources
     std::vector<double> off;
     Rgb sum = Rgb::Zero(), true_sum = Rgb::Zero();
     for (const Reference& reference : references) {

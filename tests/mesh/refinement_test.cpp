@@ -141,6 +141,36 @@ TEST(Refinement, ReachesTheErrorAskedFor) {
   }
 }
 
+// Sources seen as one leave out no more than they may, at either sign: what they make of the mean is much
+// less. The default tolerance of an error of 0.05, and one that shows.
+TEST(Refinement, SourcesSeenAsOneCostLittle) {
+  const Scene scene = Room();
+  Pipeline pipeline(scene, Options(0.05));
+  pipeline.Solve({});
+  pipeline.BuildMesh(MeshKind::kInterpolant, {});
+  ASSERT_FALSE(pipeline.solution().fragments.empty());
+  constexpr std::size_t kPoints = 1000;
+  const std::vector<SurfacePoint> points = SpreadPoints(scene, kPoints, 11);
+  for (const double tolerance : {0.005, 0.02}) {
+    std::vector<Rgb> near, exact;
+    Rgb near_sum = Rgb::Zero(), sum = Rgb::Zero();
+    for (const SurfacePoint& p : points) {
+      ReceiverPoint at;
+      at.position = p.position;
+      at.normal = scene.patches[static_cast<std::size_t>(p.patch)].normal;
+      near.push_back(pipeline.irradiance().NearlyOnPatch(p.patch, at, tolerance).irradiance);
+      exact.push_back(pipeline.irradiance().OnPatch(p.patch, at).irradiance);
+      near_sum += near.back();
+      sum += exact.back();
+    }
+    const double p99 = Quantile(RelativeErrors(near, exact), 0.99), mean = (near_sum / sum - 1)[0];
+    std::printf("tolerance %.3g: p99 %.2g, mean off by %.2g\n", tolerance, p99, mean);
+    EXPECT_GT(p99, 0.0);
+    EXPECT_LE(p99, tolerance);
+    EXPECT_LE(std::abs(mean), 0.25 * tolerance);
+  }
+}
+
 // Dividing leaves for the mesh evaluates new nodes only, leaves the solution alone, and lowers the share of
 // the area that errs.
 TEST(Refinement, KeepsSamplesAndSolution) {

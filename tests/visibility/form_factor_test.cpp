@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdio>
+#include <numbers>
 #include <vector>
 
 #include "solver/visibility/form_factor_batch.h"
@@ -92,6 +93,10 @@ TEST(FormFactor, SumQuadratureAndBatchAgree) {
     double got = 0;
     FormFactors(batch, i, i + 1, Vec3::Zero(), normals[i], &got);
     by_batch = std::max(by_batch, std::abs(got / wanted[i] - 1));
+    double sum = 0, angles = 0;
+    FormFactorSums(batch, i, i + 1, Vec3::Zero(), normals[i], &sum, &angles);
+    const double scale = std::max(wanted[i], angles / (2 * std::numbers::pi * kFormFactorCancellation));
+    EXPECT_NEAR(sum, wanted[i], 2 * kFormFactorError * scale);
   }
   std::printf("seed 512, %zu polygons, %d below 1e-3: sum off by %.2g, batch by %.2g (bound %.2g each)\n",
               wanted.size(), cancelled, by_sum, by_batch, kFormFactorError);
@@ -125,8 +130,8 @@ TEST(FormFactorBatch, PartsAddUpToTheWhole) {
           1.0 / kParts);
     double want = 0, sum = 0;
     FormFactors(whole, 0, 1, Vec3::Zero(), normal, &want);
-    std::vector<double> factor(parts.size());
-    FormFactors(parts, 0, parts.size(), Vec3::Zero(), normal, factor.data(), want);
+    std::vector<double> factor(parts.size()), angles(parts.size());
+    FormFactorSums(parts, 0, parts.size(), Vec3::Zero(), normal, factor.data(), angles.data());
     for (const double f : factor) sum += f;
     worst = std::max(worst, std::abs(sum / want - 1));
   }
