@@ -4,16 +4,23 @@
 
 #include <cstdio>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "apps/camera_arguments.h"
 #include "apps/commands.h"
+#include "apps/export_file.h"
+#include "apps/option_values.h"
+#include "apps/output.h"
 #include "apps/scene_arguments.h"
+#include "apps/solve_run.h"
 #include "display/viewer/script.h"
 #include "display/viewer/user_files.h"
 #include "display/viewer/viewer.h"
 #include "display/viewer/window.h"
+#include "solver/base/check.h"
 
 namespace penumbra {
 namespace {
@@ -23,6 +30,7 @@ struct ViewArguments {
   CameraArguments camera;
   std::optional<std::string> script;
   bool no_solve = false;
+  std::optional<double> scale;  // of text and panels
 };
 
 void PrintLine(const std::string& line) {
@@ -30,19 +38,94 @@ void PrintLine(const std::string& line) {
   std::fflush(stdout);
 }
 
+// What files bring into the window, and what it writes into them.
+class ViewedScene {
+ public:
+  explicit ViewedScene(const SceneArguments& arguments) : arguments_(arguments) {}
+
+  viewer::OpenedScene Take(LoadedScene loaded) {
+    const std::lock_guard lock(mutex_);
+    viewer::OpenedScene opened;
+    opened.scene = std::move(loaded.owner);
+    stored_options_.reset();
+    if (loaded.stored) {
+      stored_options_ = loaded.stored->options;
+      opened.solving = loaded.stored->solving;
+      opened.stored = std::make_shared<PipelineState>(std::move(loaded.stored->state));
+    }
+    return opened;
+  }
+
+  // Another scene is read as this one was; changes of materials were made to this one alone.
+  viewer::OpenedScene Open(const std::string& name) {
+    SceneArguments other = arguments_;
+    other.app = nullptr;
+    other.scene = name;
+    other.emittance.clear();
+    other.reflectance.clear();
+    LoadedScene loaded = LoadScene(other);
+    {
+      const std::lock_guard lock(mutex_);
+      arguments_ = std::move(other);
+    }
+    return Take(std::move(loaded));
+  }
+
+  // Called from the solver's thread.
+  void Save(const std::string& path, const Pipeline& pipeline) const {
+    const std::lock_guard lock(mutex_);
+    SceneArguments told = arguments_;
+    told.solving = pipeline.options();
+    const nlohmann::ordered_json options = stored_options_
+                                               ? StoredOptions(*stored_options_, told, pipeline.resolved())
+                                               : OptionsUsed(told, &pipeline.resolved());
+    WriteResult(path, SolutionFileOf(pipeline, options));
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  SceneArguments arguments_;
+  std::optional<nlohmann::ordered_json> stored_options_;
+};
+
+viewer::ViewerFiles FilesOf(ViewedScene& viewed) {
+  viewer::ViewerFiles files;
+  files.open = [&viewed](const std::string& name) { return viewed.Open(name); };
+  files.save_solution = [&viewed](const std::string& path, const Pipeline& pipeline) {
+    viewed.Save(path, pipeline);
+  };
+  files.exports_mesh = [](const std::string& path) {
+    if (const std::optional<std::string> error = ExportFormatError(path)) throw InputError(*error);
+    return ExportsMesh(path);
+  };
+  files.export_file = [](const std::string& path, const Scene& scene, const IrradianceMesh* mesh,
+                         const Camera& camera) {
+    if (mesh)
+      ExportMesh(path, scene, *mesh, std::nullopt);
+    else
+      ExportScene(path, scene, camera);
+  };
+  return files;
+}
+
 void View(const ViewArguments& arguments) {
   std::optional<viewer::Script> script;
   if (arguments.script) script = viewer::ReadScript(*arguments.script);
   LoadedScene loaded = LoadScene(arguments.scene);
   // Chosen before the window opens: a camera that is not there is a usage error.
-  Camera camera = ChooseCamera(loaded.scene, arguments.camera);
+  const Camera camera = ChooseCamera(loaded.scene, arguments.camera);
+  if (arguments.scene.verbose) {
+    const ResolvedOptions resolved = Resolve(loaded.scene, arguments.scene.solving);
+    PrintOptionsUsed(loaded.stored ? loaded.stored->options : OptionsUsed(arguments.scene, &resolved));
+  }
 
+  ViewedScene viewed(arguments.scene);
   // A script must not depend on what someone did before, nor leave anything behind.
   std::optional<viewer::UserFiles> files;
   if (!script) files.emplace();
   viewer::ViewerOptions options;
   options.scene_name = arguments.scene.scene;
-  options.reading = arguments.scene.reading;
+  options.files = FilesOf(viewed);
   options.solving = arguments.scene.solving;
   options.solve = !arguments.no_solve;
   options.print = &PrintLine;
@@ -53,17 +136,23 @@ void View(const ViewArguments& arguments) {
     if (opened_in) opened_in->SetRecent(files->Recent());
   };
   options.opened = remember;
-  viewer::Viewer viewer(std::make_shared<const Scene>(std::move(loaded.scene)), std::move(options));
+  if (files) {
+    options.kept_cameras = [&files](const std::string& scene) { return files->Cameras(scene); };
+    options.keep_camera = [&files](const std::string& scene, const Camera& kept) {
+      files->KeepCamera(scene, kept);
+    };
+  }
+  viewer::Viewer viewer(viewed.Take(std::move(loaded)), std::move(options));
   opened_in = &viewer;
   viewer.GoTo(camera);
   remember(arguments.scene.scene);
-  viewer::RunWindow(viewer, script ? &*script : nullptr, files ? &*files : nullptr);
+  viewer::RunWindow(viewer, script ? &*script : nullptr, files ? &*files : nullptr, arguments.scale);
 }
 
 // The options that a script can set, with what they may be.
 std::string SettingsHelp() {
   std::string help = "Options for `set`, with their values at the start:\n";
-  const viewer::Viewer viewer(std::make_shared<const Scene>(), [] {
+  const viewer::Viewer viewer(viewer::OpenedScene(std::make_shared<const Scene>()), [] {
     viewer::ViewerOptions options;
     options.solve = false;
     return options;
@@ -82,8 +171,8 @@ std::string SettingsHelp() {
 }  // namespace
 
 Command AddViewCommand(CLI::App& program) {
-  CLI::App* app =
-      program.add_subcommand("view", "Open a window on a scene: solve it, walk through it, look into it");
+  CLI::App* app = program.add_subcommand(
+      "view", "Open a window on a scene or a solution: solve it, walk through it, look into it");
   const auto arguments = std::make_shared<ViewArguments>();
   AddSceneArguments(*app, &arguments->scene);
   app->add_option(
@@ -92,6 +181,10 @@ Command AddViewCommand(CLI::App& program) {
       ->type_name("FILE")
       ->group("Window");
   app->add_flag("--no-solve", arguments->no_solve, "Do not begin to solve: wait for the user")
+      ->group("Window");
+  AddNumber(*app, "--scale", &arguments->scale,
+            {[](double x) { return x >= 0.5 && x <= 8; }, "a number from 0.5 to 8"},
+            "Text and panels so many times as large (default: as the monitor has it; with --script 1)")
       ->group("Window");
   app->add_flag_callback(
          "--help-script",

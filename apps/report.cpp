@@ -154,6 +154,7 @@ PipelineReport PipelineReportFrom(const Json& lasting) {
     from.at("links").get_to(iteration.links);
     from.at("sweeps").get_to(iteration.sweeps);
     from.at("links_split").get_to(iteration.links_split);
+    iteration.eps = from.value("eps", 0.0);
   }
   const Json& energy = lasting.at("energy");
   energy.at("emitted").get_to(report.energy.emitted);

@@ -70,6 +70,7 @@ bool IsSolution(const std::string& path) {
 
 // Options that say how a scene is read or solved have no place beside a solution.
 void RefuseSceneOptions(const SceneArguments& arguments) {
+  if (!arguments.app) return;
   for (const CLI::Option* option : arguments.app->get_options())
     if (option->count() > 0 && (option->get_group() == kSceneGroup || option->get_group() == kSolvingGroup))
       throw UsageError(fmt::format(

@@ -20,7 +20,7 @@
 namespace penumbra {
 
 struct SceneArguments {
-  const CLI::App* app = nullptr;  // which options were given
+  const CLI::App* app = nullptr;  // which options were given; null: nobody gave any
   std::string scene;              // a path, or the name of a built-in scene
   SceneOptions reading;
   std::vector<MaterialChange> emittance, reflectance;

@@ -32,17 +32,27 @@ nlohmann::ordered_json StartOptions(const SceneArguments& arguments, const Loade
   // Whatever a solve may be told has to come back out of a file.
   SceneArguments told = arguments;
   told.solving = loaded.stored->solving;
-  nlohmann::ordered_json again = options;
-  again.update(OptionsUsed(told, &pipeline.resolved()));
-  for (const char* reading : {"scene", "emission_is_radiance", "two_sided"})
-    again[reading] = options[reading];
-  PENUMBRA_DCHECK(LastingOptions(again) == options);
+  PENUMBRA_DCHECK(LastingOptions(StoredOptions(options, told, pipeline.resolved())) == options);
   options["solution"] = arguments.scene;
   options["threads"] = ThreadCount();
   return options;
 }
 
 }  // namespace
+
+nlohmann::ordered_json StoredOptions(const nlohmann::ordered_json& stored, const SceneArguments& arguments,
+                                     const ResolvedOptions& resolved) {
+  nlohmann::ordered_json options = stored;
+  options.update(OptionsUsed(arguments, &resolved));
+  for (const char* reading : {"scene", "emission_is_radiance", "two_sided"})
+    options[reading] = stored.at(reading);
+  return options;
+}
+
+std::string SolutionFileOf(const Pipeline& pipeline, const nlohmann::ordered_json& options) {
+  return EncodeSolution(pipeline, LastingOptions(options).dump(), LastingReportJson(pipeline.report()),
+                        PENUMBRA_VERSION);
+}
 
 SolveRun::SolveRun(const SceneArguments& arguments, LoadedScene& loaded,
                    const nlohmann::ordered_json& command_options)
@@ -66,10 +76,7 @@ void SolveRun::Run(std::optional<MeshKind> kind, bool measure) {
   });
 }
 
-std::string SolveRun::SolutionFile() const {
-  return EncodeSolution(pipeline_, LastingOptions(options_).dump(), LastingReportJson(pipeline_.report()),
-                        PENUMBRA_VERSION);
-}
+std::string SolveRun::SolutionFile() const { return SolutionFileOf(pipeline_, options_); }
 
 void SolveRun::Tell() const {
   for (const std::string& warning : pipeline_.report().warnings) fmt::print(stderr, "{}\n", warning);

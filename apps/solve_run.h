@@ -12,6 +12,15 @@
 
 namespace penumbra {
 
+// What a file keeps of the options of a solution that came from a file with `stored` options: those of
+// reading are the scene's there.
+nlohmann::ordered_json StoredOptions(const nlohmann::ordered_json& stored, const SceneArguments& arguments,
+                                     const ResolvedOptions& resolved);
+
+// The bytes of a solution file, the same for every number of threads. REQUIRES: the pipeline is solved, has
+// interpolants, and is measured.
+std::string SolutionFileOf(const Pipeline& pipeline, const nlohmann::ordered_json& options);
+
 // A scene on its way through the pipeline, as commands drive it: options are told, progress is shown, an
 // interrupt ends it, the report is written.
 class SolveRun {

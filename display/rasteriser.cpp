@@ -21,7 +21,12 @@ namespace {
 constexpr double kHalfOpen = 0x1p-14;
 
 constexpr std::size_t kTrianglesPerBin = 1024;
-constexpr std::size_t kVerticesPerTask = 4096;
+
+// How far normals and heights of triangles may be apart that are culled together: unit vectors, and parts of
+// the mesh's extent. Far above rounding; what they really are apart is counted when a cluster is culled.
+constexpr double kFlat = 1e-9;
+// A cluster is taken for turned away only beyond this part of its distance: above the rounding of that.
+constexpr double kTurnedAway = 1e-12;
 
 // A vertex in homogeneous picture coordinates: it projects to (x / z, y / z), z is its depth [m].
 struct ScreenVertex {
@@ -37,9 +42,15 @@ Plane EdgePlane(const ScreenVertex& a, const ScreenVertex& b) {
   return {b.y * a.z - b.z * a.y, b.z * a.x - b.x * a.z, b.x * a.y - b.y * a.x};
 }
 
+// A plane with its slopes as tiles take them.
+struct TilePlane {
+  Plane plane;
+  float x, y;
+};
+
 struct ScreenTriangle {
-  Plane edge[3];    // signed distance [pixels], positive inside
-  Plane inverse_z;  // [1/m]
+  TilePlane edge[3];    // signed distance [pixels], positive inside
+  TilePlane inverse_z;  // [1/m]
   float max_inverse_z;
   std::uint32_t id;
   int x_begin, x_end, y_begin, y_end;  // pixels that it may cover
@@ -51,13 +62,39 @@ struct Bin {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> hits;  // tile, index in `triangles`
   std::vector<std::uint32_t> first;                           // per tile: where its part of `sorted` begins
   std::vector<std::uint32_t> sorted;  // indices in `triangles`, ascending in each tile
+  std::vector<float> nearest;         // per tile: the largest inverse_z there, or above it
+};
+
+// Triangles that follow one another in one plane: a patch, or part of it. They are culled together.
+struct Cluster {
+  std::uint32_t first_triangle, end_triangle;
+  std::uint32_t first_vertex, end_vertex;
+  Vec3 normal = Vec3::Zero();
+  double deviation = 0;  // of the triangles' normals from it
+  double low = 0;        // the least height of a vertex along it [m]
+  Vec3 centre = Vec3::Zero();
+  double radius = 0;  // of a ball that holds all vertices [m]
+};
+
+// The planes of the picture's pyramid as functions of directions from the eye, positive inside.
+struct Pyramid {
+  std::array<Vec3, 5> side;  // left, right, top, bottom, front
+
+  // Whether all of the ball is beyond one of them.
+  bool Misses(const Vec3& centre, double radius) const {
+    return std::any_of(side.begin(), side.end(), [&](const Vec3& s) {
+      return s.dot(centre) < -(1 + kTurnedAway) * s.norm() * radius - kTurnedAway * s.norm() * centre.norm();
+    });
+  }
 };
 
 // Floats that keep their sign and need no digits beyond this.
 float Narrow(double value) { return static_cast<float>(std::clamp(value, -1e30, 1e30)); }
 
-TileTriangle::Affine ToTile(const Plane& plane, int x, int y) {
-  return {Narrow(plane.x), Narrow(plane.y), Narrow(plane.At(x + 0.5, y + 0.5))};
+TilePlane ForTiles(const Plane& plane) { return {plane, Narrow(plane.x), Narrow(plane.y)}; }
+
+TileTriangle::Affine ToTile(const TilePlane& f, int x, int y) {
+  return {f.x, f.y, Narrow(f.plane.At(x + 0.5, y + 0.5))};
 }
 
 // The half-open rule: of an edge's two directions one is exclusive.
@@ -80,34 +117,116 @@ std::pair<int, int> PixelRange(double low, double high, int size) {
 }  // namespace
 
 struct Rasteriser::Impl {
-  std::vector<Vec3> positions;
-  std::vector<VertexIndices> triangles;
+  std::vector<Vec3> positions;           // cluster by cluster
+  std::vector<VertexIndices> triangles;  // indices in `positions`
+  std::vector<Cluster> clusters;
+  std::vector<std::size_t> first_cluster;  // of each bin, and the end
 
   // The picture that is being drawn.
   int width = 0, height = 0;
   TileGrid tiles;
-  std::vector<ScreenVertex> vertices;
+  Vec3 eye = Vec3::Zero();
+  Eigen::Matrix3d to_picture = Eigen::Matrix3d::Identity();
+  Pyramid pyramid;
+  std::vector<ScreenVertex> vertices;  // valid for clusters that may be seen
   std::vector<Bin> bins;
   std::vector<Plane> barycentric;  // three a triangle, valid for those in a bin: proportional to the
                                    // coordinates of its vertices, their sum is 1 / depth
 
-  void Transform(const PixelRays& rays);
+  Impl(const std::vector<Vec3>& all_positions, std::vector<VertexIndices> all_triangles);
+  void AddCluster(std::size_t begin, std::size_t end, const std::vector<Vec3>& all_positions,
+                  std::vector<std::uint32_t>* local);
+  void Aim(const PixelRays& rays);
+  bool MayBeSeen(const Cluster& cluster) const;
+  void Transform(const Cluster& cluster);
   bool SetUp(std::uint32_t id, ScreenTriangle* out);
   void Fill(std::size_t bin);
   void AddHits(const ScreenTriangle& triangle, std::uint32_t index, Bin* bin) const;
   void SortHits(Bin* bin) const;
+  void Draw(const Bin& bin, std::size_t index, const RegionDepths& farthest, Tile* tile) const;
 };
 
-Rasteriser::Rasteriser(std::vector<Vec3> positions, std::vector<VertexIndices> triangles)
-    : impl_(std::make_unique<Impl>()) {
+namespace {
+
+// Twice the area, along the front's normal.
+Vec3 AreaNormal(const std::vector<Vec3>& positions, const VertexIndices& t) {
+  return (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]);
+}
+
+}  // namespace
+
+Rasteriser::Impl::Impl(const std::vector<Vec3>& all_positions, std::vector<VertexIndices> all_triangles)
+    : triangles(std::move(all_triangles)) {
+  double extent = 0;
+  for (const Vec3& p : all_positions) extent = std::max(extent, (p - all_positions.front()).norm());
+  std::vector<std::uint32_t> local(all_positions.size(), kNoTriangle);
+  first_cluster.push_back(0);
+  for (std::size_t begin = 0; begin < triangles.size();) {
+    // As many as lie in the plane of the first, up to the end of its bin.
+    const std::size_t limit = std::min(triangles.size(), (begin / kTrianglesPerBin + 1) * kTrianglesPerBin);
+    const Vec3 normal = AreaNormal(all_positions, triangles[begin]).stableNormalized();
+    const Vec3& foot = all_positions[triangles[begin][0]];
+    const auto fits = [&](const VertexIndices& t) {
+      return std::all_of(t.begin(), t.end(),
+                         [&](std::uint32_t v) {
+                           return std::abs(normal.dot(all_positions[v] - foot)) <= kFlat * extent;
+                         }) &&
+             (AreaNormal(all_positions, t).stableNormalized() - normal).norm() <= kFlat;
+    };
+    std::size_t end = begin + 1;
+    while (end < limit && fits(triangles[end])) ++end;
+    AddCluster(begin, end, all_positions, &local);
+    begin = end;
+    if (begin == limit) first_cluster.push_back(clusters.size());
+  }
+  vertices.resize(positions.size());
+  barycentric.resize(3 * triangles.size());
+  bins.resize(first_cluster.size() - 1);
+}
+
+// `local` is empty before and afterwards: where a vertex of the cluster is in `positions`.
+void Rasteriser::Impl::AddCluster(std::size_t begin, std::size_t end, const std::vector<Vec3>& all_positions,
+                                  std::vector<std::uint32_t>* local) {
+  Cluster cluster{};
+  cluster.first_triangle = static_cast<std::uint32_t>(begin);
+  cluster.end_triangle = static_cast<std::uint32_t>(end);
+  cluster.first_vertex = static_cast<std::uint32_t>(positions.size());
+  cluster.normal = AreaNormal(all_positions, triangles[begin]).stableNormalized();
+  std::vector<std::uint32_t> used;
+  for (std::size_t i = begin; i < end; ++i) {
+    cluster.deviation =
+        std::max(cluster.deviation,
+                 (AreaNormal(all_positions, triangles[i]).stableNormalized() - cluster.normal).norm());
+    for (std::uint32_t& v : triangles[i]) {
+      std::uint32_t& place = (*local)[v];
+      if (place == kNoTriangle) {
+        place = static_cast<std::uint32_t>(positions.size());
+        positions.push_back(all_positions[v]);
+        used.push_back(v);
+      }
+      v = place;
+    }
+  }
+  for (const std::uint32_t v : used) (*local)[v] = kNoTriangle;
+  cluster.end_vertex = static_cast<std::uint32_t>(positions.size());
+  Vec3 low = positions[cluster.first_vertex], high = low;
+  cluster.low = std::numeric_limits<double>::infinity();
+  for (std::uint32_t v = cluster.first_vertex; v < cluster.end_vertex; ++v) {
+    low = low.cwiseMin(positions[v]);
+    high = high.cwiseMax(positions[v]);
+    cluster.low = std::min(cluster.low, cluster.normal.dot(positions[v]));
+  }
+  cluster.centre = 0.5 * (low + high);
+  for (std::uint32_t v = cluster.first_vertex; v < cluster.end_vertex; ++v)
+    cluster.radius = std::max(cluster.radius, (positions[v] - cluster.centre).norm());
+  clusters.push_back(cluster);
+}
+
+Rasteriser::Rasteriser(std::vector<Vec3> positions, std::vector<VertexIndices> triangles) {
   PENUMBRA_CHECK(triangles.size() < kNoTriangle);
   for (const VertexIndices& triangle : triangles)
     for (const std::uint32_t v : triangle) PENUMBRA_CHECK(v < positions.size());
-  impl_->vertices.resize(positions.size());
-  impl_->barycentric.resize(3 * triangles.size());
-  impl_->bins.resize((triangles.size() + kTrianglesPerBin - 1) / kTrianglesPerBin);
-  impl_->positions = std::move(positions);
-  impl_->triangles = std::move(triangles);
+  impl_ = std::make_unique<Impl>(positions, std::move(triangles));
 }
 
 Rasteriser::~Rasteriser() = default;
@@ -116,12 +235,28 @@ Rasteriser& Rasteriser::operator=(Rasteriser&&) noexcept = default;
 
 std::size_t Rasteriser::TriangleCount() const { return impl_->triangles.size(); }
 
-void Rasteriser::Impl::Transform(const PixelRays& rays) {
+void Rasteriser::Impl::Aim(const PixelRays& rays) {
   Eigen::Matrix3d to_space;
   to_space << rays.dx, rays.dy, rays.corner;
-  const Eigen::Matrix3d to_picture = to_space.inverse();
-  ParallelFor(positions.size(), kVerticesPerTask, [&](std::size_t i) {
-    const Vec3 p = to_picture * (positions[i] - rays.eye);
+  to_picture = to_space.inverse();
+  eye = rays.eye;
+  const Vec3 x = to_picture.row(0), y = to_picture.row(1), z = to_picture.row(2);
+  pyramid.side = {x, width * z - x, y, height * z - y, z};
+}
+
+// False only where none of its triangles would be drawn.
+bool Rasteriser::Impl::MayBeSeen(const Cluster& cluster) const {
+  const Vec3 centre = cluster.centre - eye;
+  if (pyramid.Misses(centre, cluster.radius)) return false;
+  // How far the eye is before the plane of any of the triangles, at most.
+  const double reach = centre.norm() + cluster.radius;
+  const double before = cluster.normal.dot(eye) - cluster.low + cluster.deviation * reach;
+  return before >= -kTurnedAway * (reach + eye.norm());
+}
+
+void Rasteriser::Impl::Transform(const Cluster& cluster) {
+  for (std::uint32_t i = cluster.first_vertex; i < cluster.end_vertex; ++i) {
+    const Vec3 p = to_picture * (positions[i] - eye);
     ScreenVertex v{p.x(), p.y(), p.z(), 0, 0, 0};
     v.outside =
         static_cast<std::uint8_t>((v.x < 0 ? 1 : 0) | (v.x > width * v.z ? 2 : 0) | (v.y < 0 ? 4 : 0) |
@@ -132,7 +267,7 @@ void Rasteriser::Impl::Transform(const PixelRays& rays) {
       v.py = v.y * inverse;
     }
     vertices[i] = v;
-  });
+  }
 }
 
 // Prepares a triangle; false if it cannot be seen.
@@ -166,11 +301,11 @@ bool Rasteriser::Impl::SetUp(std::uint32_t id, ScreenTriangle* out) {
 
   Plane* coordinates = &barycentric[3 * static_cast<std::size_t>(id)];
   for (std::size_t k = 0; k < 3; ++k) {
-    out->edge[k] = ToPixelDistance(edges[k]);
+    out->edge[k] = ForTiles(ToPixelDistance(edges[k]));
     coordinates[k] = edges[k].Scaled(scale);
   }
   const Plane &p = coordinates[0], &q = coordinates[1], &r = coordinates[2];
-  out->inverse_z = {p.x + q.x + r.x, p.y + q.y + r.y, p.c + q.c + r.c};
+  out->inverse_z = ForTiles({p.x + q.x + r.x, p.y + q.y + r.y, p.c + q.c + r.c});
   out->id = id;
   return true;
 }
@@ -179,13 +314,16 @@ void Rasteriser::Impl::Fill(std::size_t bin_index) {
   Bin& bin = bins[bin_index];
   bin.triangles.clear();
   bin.hits.clear();
-  const std::size_t begin = bin_index * kTrianglesPerBin;
-  const std::size_t end = std::min(triangles.size(), begin + kTrianglesPerBin);
-  for (std::size_t i = begin; i < end; ++i) {
-    ScreenTriangle triangle;
-    if (!SetUp(static_cast<std::uint32_t>(i), &triangle)) continue;
-    AddHits(triangle, static_cast<std::uint32_t>(bin.triangles.size()), &bin);
-    bin.triangles.push_back(triangle);
+  for (std::size_t c = first_cluster[bin_index]; c < first_cluster[bin_index + 1]; ++c) {
+    const Cluster& cluster = clusters[c];
+    if (!MayBeSeen(cluster)) continue;
+    Transform(cluster);
+    for (std::uint32_t i = cluster.first_triangle; i < cluster.end_triangle; ++i) {
+      ScreenTriangle triangle;
+      if (!SetUp(i, &triangle)) continue;
+      AddHits(triangle, static_cast<std::uint32_t>(bin.triangles.size()), &bin);
+      bin.triangles.push_back(triangle);
+    }
   }
   SortHits(&bin);
 }
@@ -194,7 +332,8 @@ void Rasteriser::Impl::AddHits(const ScreenTriangle& triangle, std::uint32_t ind
   const int x0 = triangle.x_begin / kTileSize, x1 = (triangle.x_end - 1) / kTileSize;
   const int y0 = triangle.y_begin / kTileSize, y1 = (triangle.y_end - 1) / kTileSize;
   const auto meets = [&](int tile_x, int tile_y) {
-    for (const Plane& edge : triangle.edge) {
+    for (const TilePlane& f : triangle.edge) {
+      const Plane& edge = f.plane;
       // The edge function at the pixel centre of the tile where it is largest.
       const double x = tile_x * kTileSize + (edge.x > 0 ? kTileSize - 0.5 : 0.5);
       const double y = tile_y * kTileSize + (edge.y > 0 ? kTileSize - 0.5 : 0.5);
@@ -220,29 +359,58 @@ void Rasteriser::Impl::SortHits(Bin* bin) const {
   // Each entry now holds its tile's end, which is the next one's beginning.
   for (std::size_t tile = bin->first.size() - 1; tile > 0; --tile) bin->first[tile] = bin->first[tile - 1];
   bin->first[0] = 0;
+  bin->nearest.assign(tiles.Count(), 0.0f);
+  for (const auto& [tile, index] : bin->hits)
+    bin->nearest[tile] = std::max(bin->nearest[tile], bin->triangles[index].max_inverse_z);
 }
 
+void Rasteriser::Impl::Draw(const Bin& bin, std::size_t index, const RegionDepths& farthest,
+                            Tile* tile) const {
+  const int x0 = tile->x, x1 = std::min(x0 + kTileSize, width);
+  const int y0 = tile->y, y1 = std::min(y0 + kTileSize, height);
+  for (std::uint32_t k = bin.first[index]; k < bin.first[index + 1]; ++k) {
+    const ScreenTriangle& triangle = bin.triangles[bin.sorted[k]];
+    TileTriangle local;
+    local.column_begin = std::max(triangle.x_begin, x0) - x0;
+    local.column_end = std::min(triangle.x_end, x1) - x0;
+    local.row_begin = std::max(triangle.y_begin, y0) - y0;
+    local.row_end = std::min(triangle.y_end, y1) - y0;
+    bool hidden = true;
+    for (int y = local.row_begin / kRegionSize; y <= (local.row_end - 1) / kRegionSize; ++y)
+      for (int x = local.column_begin / kRegionSize; x <= (local.column_end - 1) / kRegionSize; ++x)
+        hidden =
+            hidden && triangle.max_inverse_z < farthest[static_cast<std::size_t>(y * kRegionsAcross + x)];
+    if (hidden) continue;
+    for (std::size_t e = 0; e < 3; ++e) local.edge[e] = ToTile(triangle.edge[e], x0, y0);
+    local.inverse_z = ToTile(triangle.inverse_z, x0, y0);
+    local.max_inverse_z = triangle.max_inverse_z;
+    local.id = triangle.id;
+    DrawTileTriangle(local, tile);
+  }
+}
+
+// Bins from the nearest to the farthest: what is drawn later is more often hidden altogether.
 void Rasteriser::DrawTileIds(std::size_t index, Tile* tile) const {
   const Impl& impl = *impl_;
   tile->x = impl.tiles.X(index);
   tile->y = impl.tiles.Y(index);
   ClearTile(tile);
-  const int x0 = tile->x, x1 = std::min(x0 + kTileSize, impl.width);
-  const int y0 = tile->y, y1 = std::min(y0 + kTileSize, impl.height);
+  // Beyond the picture's border nothing is far.
+  if (tile->x + kTileSize > impl.width || tile->y + kTileSize > impl.height)
+    for (int y = 0; y < kTileSize; ++y)
+      for (int x = 0; x < kTileSize; ++x)
+        if (tile->x + x >= impl.width || tile->y + y >= impl.height)
+          tile->inverse_z[TileIndex(x, y) + x % kBlockSize] = std::numeric_limits<float>::max();
+  thread_local std::vector<std::pair<float, const Bin*>> order;  // keeps its memory
+  order.clear();
   for (const Bin& bin : impl.bins)
-    for (std::uint32_t k = bin.first[index]; k < bin.first[index + 1]; ++k) {
-      const ScreenTriangle& triangle = bin.triangles[bin.sorted[k]];
-      TileTriangle local;
-      for (std::size_t e = 0; e < 3; ++e) local.edge[e] = ToTile(triangle.edge[e], x0, y0);
-      local.inverse_z = ToTile(triangle.inverse_z, x0, y0);
-      local.max_inverse_z = triangle.max_inverse_z;
-      local.id = triangle.id;
-      local.column_begin = std::max(triangle.x_begin, x0) - x0;
-      local.column_end = std::min(triangle.x_end, x1) - x0;
-      local.row_begin = std::max(triangle.y_begin, y0) - y0;
-      local.row_end = std::min(triangle.y_end, y1) - y0;
-      DrawTileTriangle(local, tile);
-    }
+    if (bin.first[index] < bin.first[index + 1]) order.emplace_back(-bin.nearest[index], &bin);
+  std::sort(order.begin(), order.end());
+  RegionDepths farthest{};
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    impl.Draw(*order[k].second, index, farthest, tile);
+    if (k + 1 < order.size()) FindFarthest(*tile, &farthest);
+  }
 }
 
 void Rasteriser::DrawTileBarycentrics(Tile* tile) const { FillBarycentrics(impl_->barycentric.data(), tile); }
@@ -253,7 +421,7 @@ void Rasteriser::Prepare(const PixelRays& rays, int width, int height) {
   impl.width = width;
   impl.height = height;
   impl.tiles = TileGrid(width, height);
-  impl.Transform(rays);
+  impl.Aim(rays);
   ParallelFor(impl.bins.size(), 1, [&](std::size_t bin) { impl.Fill(bin); });
 }
 

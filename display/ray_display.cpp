@@ -63,6 +63,19 @@ RayDisplay::RayDisplay(const Scene& scene, RayShader shader, int samples)
   picture_.samples = samples;
 }
 
+RaySample RayDisplay::Sample(const PixelRays& rays, double x, double y) const {
+  const Vec3 direction = rays.Direction(x, y);
+  const RayCaster::Hit hit = rays_.CastToFront(rays.eye, direction);
+  RaySample sample;
+  if (hit.patch == kNoPatch) return sample;
+  const Material& material = scene_.MaterialOf(hit.patch);
+  sample.radiosity = material.emittance;
+  if ((material.reflectance > 0).any())
+    sample.radiosity += material.reflectance * shader_(MeetPlane(scene_, hit, rays.eye, direction));
+  sample.kind = (material.emittance > 0).any() ? PixelKind::kEmitter : PixelKind::kSurface;
+  return sample;
+}
+
 const SampledPicture& RayDisplay::Render(const Camera& camera, int width, int height,
                                          const ExecutionContext& context) {
   const PixelRays rays = MakePixelRays(camera, width, height);
@@ -75,17 +88,11 @@ const SampledPicture& RayDisplay::Render(const Camera& camera, int width, int he
   const auto shade = [&](std::size_t pixel, std::size_t sample) {
     const double x = static_cast<double>(pixel % across) + AdditiveRecurrence(sample, kR2Alpha[0]);
     const double y = static_cast<double>(pixel / across) + AdditiveRecurrence(sample, kR2Alpha[1]);
-    const Vec3 direction = rays.Direction(x, y);
-    const RayCaster::Hit hit = rays_.CastToFront(rays.eye, direction);
-    if (hit.patch == kNoPatch) return;
-    const Material& material = scene_.MaterialOf(hit.patch);
-    Rgb radiosity = material.emittance;
-    if ((material.reflectance > 0).any())
-      radiosity += material.reflectance * shader_(MeetPlane(scene_, hit, rays.eye, direction));
+    const RaySample sampled = Sample(rays, x, y);
     const std::size_t at = pixel * per_pixel + sample;
     for (std::size_t c = 0; c < 3; ++c)
-      picture_.linear.channel[c][at] = static_cast<float>(radiosity[static_cast<Eigen::Index>(c)]);
-    picture_.kind[at] = (material.emittance > 0).any() ? PixelKind::kEmitter : PixelKind::kSurface;
+      picture_.linear.channel[c][at] = static_cast<float>(sampled.radiosity[static_cast<Eigen::Index>(c)]);
+    picture_.kind[at] = sampled.kind;
   };
   const std::size_t pixels = across * static_cast<std::size_t>(height);
   for (std::size_t begin = 0; begin < pixels && !context.Cancelled(); begin += kPixelsPerReport) {

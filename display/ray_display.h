@@ -9,6 +9,7 @@
 #include <functional>
 #include <vector>
 
+#include "display/camera.h"
 #include "display/image.h"
 #include "mesh/irradiance_mesh.h"
 #include "solver/base/progress.h"
@@ -40,6 +41,12 @@ struct SampledPicture {
   std::vector<PixelKind> kind;  // one a sample
 };
 
+// What one ray meets.
+struct RaySample {
+  Rgb radiosity = Rgb::Zero();  // [W/m^2], emittance included
+  PixelKind kind = PixelKind::kBackground;
+};
+
 class RayDisplay {
  public:
   // The scene must outlive the display.
@@ -51,6 +58,9 @@ class RayDisplay {
   const SampledPicture& Render(const Camera& camera, int width, int height, const ExecutionContext& context);
 
   const SampledPicture& picture() const { return picture_; }
+
+  // The ray through the point (x, y) of a picture. Safe from several threads at once.
+  RaySample Sample(const PixelRays& rays, double x, double y) const;
 
  private:
   const Scene& scene_;

@@ -113,4 +113,16 @@ void ToneMap(const RgbImage& image, std::span<const PixelKind> kinds, const Tone
                   });
 }
 
+Srgb8Image ShrinkScreen(const Srgb8Image& screen, int k) {
+  RgbImage linear(screen.width, screen.height);
+  std::array<float, 256> value;
+  for (std::size_t code = 0; code < value.size(); ++code)
+    value[code] = static_cast<float>(LinearFromSrgb(static_cast<double>(code) / 255));
+  for (std::size_t i = 0; i < linear.PixelCount(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) linear.channel[c][i] = value[screen.pixels[3 * i + c]];
+  Srgb8Image out;
+  EncodeSrgb(Downsample(linear, k, k), false, &out);
+  return out;
+}
+
 }  // namespace penumbra

@@ -46,6 +46,10 @@ const float* DitherOffsets();
 // An exposed image in 8-bit sRGB.
 void EncodeSrgb(const RgbImage& exposed, bool dither, Srgb8Image* out);
 
+// A screen with k x k pixels in the place of each, averaged in linear light. REQUIRES: k > 0 divides width
+// and height.
+Srgb8Image ShrinkScreen(const Srgb8Image& screen, int k);
+
 // Expose and EncodeSrgb in one go, reusing the memory of `out`.
 void ToneMap(const RgbImage& image, std::span<const PixelKind> kinds, const ToneMapping& settings,
              Srgb8Image* out);

@@ -136,7 +136,7 @@ void DrawTileTriangle(const TileTriangle& triangle, Tile* tile) {
       if (inside_all) {
         for (std::size_t i = 0; i < kBlockPixels; ++i) {
           const float w = Min(At(inverse_z, left + kLaneX[i], top + kLaneY[i]), w_max);
-          const bool nearer = w > z[i];
+          const bool nearer = (w > z[i]) | ((w == z[i]) & (id < ids[i]));
           z[i] = nearer ? w : z[i];
           ids[i] = nearer ? id : ids[i];
         }
@@ -147,12 +147,31 @@ void DrawTileTriangle(const TileTriangle& triangle, Tile* tile) {
         const float w = Min(At(inverse_z, x, y), w_max);
         const float inside = Min(At(e0, x, y), Min(At(e1, x, y), At(e2, x, y)));
         const float w_drawn = w + w * Min(inside, 0.0f);
-        const bool drawn = (inside >= -kFringe) & (w_drawn > z[i]) & (x >= column_begin) & (x < column_end) &
+        const bool nearer = (w_drawn > z[i]) | ((w_drawn == z[i]) & (id < ids[i]));
+        const bool drawn = (inside >= -kFringe) & nearer & (x >= column_begin) & (x < column_end) &
                            (y >= row_begin) & (y < row_end);
         z[i] = drawn ? w_drawn : z[i];
         ids[i] = drawn ? id : ids[i];
       }
     }
+  }
+}
+
+PENUMBRA_VECTOR_CLONES
+void FindFarthest(const Tile& tile, RegionDepths* farthest) {
+  constexpr int kBlocks = kRegionSize / kBlockSize;  // of a region, a side
+  for (int region = 0; region < kRegionsAcross * kRegionsAcross; ++region) {
+    alignas(64) float least[kBlockPixels];
+    std::fill(std::begin(least), std::end(least), std::numeric_limits<float>::max());
+    const int first = region / kRegionsAcross * kBlocks * kBlocksAcross + region % kRegionsAcross * kBlocks;
+    for (int block = 0; block < kBlocks * kBlocks; ++block) {
+      const float* z =
+          tile.inverse_z + (first + block / kBlocks * kBlocksAcross + block % kBlocks) * kBlockPixels;
+      for (int i = 0; i < kBlockPixels; ++i) least[i] = Min(least[i], z[i]);
+    }
+    float least_of_all = least[0];
+    for (const float z : least) least_of_all = Min(least_of_all, z);
+    (*farthest)[static_cast<std::size_t>(region)] = least_of_all;
   }
 }
 

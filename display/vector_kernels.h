@@ -86,9 +86,17 @@ struct Tile {
 // Nothing in the whole tile yet.
 void ClearTile(Tile* tile);
 
-// Draws the triangle into `inverse_z` and `ids`. A nearer triangle wins; of equally near ones the one drawn
-// first.
+// Draws the triangle into `inverse_z` and `ids`. A nearer triangle wins; of equally near ones the lower id:
+// the order does not matter.
 void DrawTileTriangle(const TileTriangle& triangle, Tile* tile);
+
+// Parts of a tile that know how far the farthest of their pixels is: what lies behind it all is not drawn.
+inline constexpr int kRegionSize = 16;  // pixels a side
+inline constexpr int kRegionsAcross = kTileSize / kRegionSize;
+using RegionDepths = std::array<float, kRegionsAcross * kRegionsAcross>;
+
+// The least `inverse_z` of each region.
+void FindFarthest(const Tile& tile, RegionDepths* farthest);
 
 // Collects `runs` from `ids`.
 void FindRuns(Tile* tile);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "display/false_colour.h"
 #include "solver/base/check.h"
@@ -39,9 +40,21 @@ std::vector<std::string> PartsOf(const std::string& path) {
 
 constexpr float kGap = 8;
 
+// How much larger than plain everything is.
+float Scale() { return ImGui::GetFontSize() / kPlainFontSize; }
+
+// Where a panel opens the first time: there, in plain pixels, as far as the window has room.
 void PlaceNext(float x, float y, float width, float height) {
-  ImGui::SetNextWindowPos(ImVec2(x, y), ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize(ImVec2(width, height), ImGuiCond_FirstUseEver);
+  const float scale = Scale();
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const auto fit = [scale](float at, float size, float room) {
+    const float length = std::min(scale * size, std::max(room - 2 * kGap, 1.0F));
+    return std::pair(std::min(scale * at, std::max(room - kGap - length, kGap)), length);
+  };
+  const auto [left, across] = fit(x, width, display.x);
+  const auto [top, down] = fit(y, height, display.y - 22 * scale);  // below the menus
+  ImGui::SetNextWindowPos(ImVec2(left, std::max(top, 22 * scale + kGap)), ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize(ImVec2(across, down), ImGuiCond_FirstUseEver);
 }
 
 }  // namespace
@@ -97,12 +110,12 @@ void Panels::MenuBar(Viewer& viewer) {
 void Panels::Status(Viewer& viewer) {
   const SessionStatus status = viewer.status();
   std::string text = status.cancelling ? "ending " + status.phase : status.phase;
-  if (!status.busy)
-    text = viewer.analysing() ? "analysing" : viewer.snapshot().light ? "ready" : "not solved";
+  if (!status.busy) text = viewer.activity();
   const double fps = viewer.seconds_a_frame() > 0 ? 1 / viewer.seconds_a_frame() : 0;
   const std::string rate = fmt::format("{:.0f} fps", fps);
-  const float bar = 90, width = ImGui::CalcTextSize(text.c_str()).x + ImGui::CalcTextSize(rate.c_str()).x +
-                                (status.busy ? bar + 80 : 0) + 4 * kGap;
+  const float bar = 90 * Scale(), width = ImGui::CalcTextSize(text.c_str()).x +
+                                          ImGui::CalcTextSize(rate.c_str()).x +
+                                          (status.busy ? bar + 80 * Scale() : 0) + 4 * kGap;
   ImGui::SameLine(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width));
   if (status.busy) {
     // Where a phase does not say how far it is, the bar shows that it moves.
@@ -175,7 +188,7 @@ void Panels::ControlPanel(Viewer& viewer) {
   if (!viewer.panels().control) return;
   PlaceNext(kGap, 30, 330, 620);
   if (ImGui::Begin("Drawing Control Panel", &viewer.panels().control)) {
-    ImGui::PushItemWidth(120);
+    ImGui::PushItemWidth(120 * Scale());
     for (const char* group : {"Drawing", "Exposure", "Visualisations", "Links", "Graphs", "Viewing"})
       if (ImGui::CollapsingHeader(group, ImGuiTreeNodeFlags_DefaultOpen)) Group(viewer, group);
     ImGui::PopItemWidth();
@@ -187,7 +200,7 @@ void Panels::Parameters(Viewer& viewer) {
   if (!viewer.panels().parameters) return;
   PlaceNext(350, 30, 420, 360);
   if (ImGui::Begin("Parameters", &viewer.panels().parameters)) {
-    ImGui::PushItemWidth(150);
+    ImGui::PushItemWidth(150 * Scale());
     Group(viewer, "Solving");
     ImGui::PopItemWidth();
     ImGui::TextDisabled("The next iteration starts over where they differ.");
@@ -302,7 +315,7 @@ void Panels::Dialog(Viewer& viewer) {
       text_[0] = '\0';
       ImGui::SetKeyboardFocusHere();
     }
-    ImGui::PushItemWidth(460);
+    ImGui::PushItemWidth(std::min(460 * Scale(), std::max(ImGui::GetIO().DisplaySize.x - 60, 60.0F)));
     const bool entered =
         ImGui::InputText("##value", text_, sizeof text_, ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::PopItemWidth();
@@ -341,19 +354,19 @@ void Panels::Legend(Viewer& viewer) {
   const bool errors = view.error_map;
   if (!errors && !view.false_colour) return;
   const double top = errors ? view.error_map_max : viewer.picture().scale_top();
-  const float width = 18, height = 220;
+  const float scale = Scale(), width = 18 * scale, height = 220 * scale;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const ImVec2 at(size.x - 110, size.y - height - 40);
+  const ImVec2 at(size.x - 110 * scale, size.y - height - 40 * scale);
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
-  draw->AddRectFilled(ImVec2(at.x - 12, at.y - 34), ImVec2(at.x + 100, at.y + height + 16),
-                      IM_COL32(20, 20, 20, 190), 4);
+  draw->AddRectFilled(ImVec2(at.x - 12 * scale, at.y - 34 * scale),
+                      ImVec2(at.x + 100 * scale, at.y + height + 16 * scale), IM_COL32(20, 20, 20, 190), 4);
   constexpr int kSteps = 64;
   for (int i = 0; i < kSteps; ++i) {
     const float y = at.y + height * static_cast<float>(kSteps - 1 - i) / kSteps;
     draw->AddRectFilled(ImVec2(at.x, y), ImVec2(at.x + width, y + height / kSteps + 1),
                         ToImGui(FalseColour((i + 0.5) / kSteps)));
   }
-  draw->AddText(ImVec2(at.x - 4, at.y - 28), IM_COL32_WHITE, errors ? "rel. error" : "W/m^2");
+  draw->AddText(ImVec2(at.x - 4 * scale, at.y - 28 * scale), IM_COL32_WHITE, errors ? "rel. error" : "W/m^2");
   constexpr int kTicks = 4;
   for (int i = 0; i <= kTicks; ++i) {
     const float y = at.y + height * static_cast<float>(kTicks - i) / kTicks;

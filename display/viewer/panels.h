@@ -8,6 +8,9 @@ namespace penumbra::viewer {
 
 // Draws menus and panels with Dear ImGui, and runs what the user does with them. REQUIRES: within a frame of
 // ImGui.
+// The letters' height where nothing is enlarged [pixels]; panels grow with them.
+inline constexpr float kPlainFontSize = 13;
+
 class Panels {
  public:
   void Draw(Viewer& viewer);

@@ -20,22 +20,24 @@ MeshKind MeshOf(DrawMode mode) {
     case DrawMode::kGouraudMesh:
       return MeshKind::kGouraudMesh;
     case DrawMode::kInterpolant:
+    case DrawMode::kExact:
+    case DrawMode::kLerp:
       break;
   }
   return MeshKind::kInterpolant;
 }
 
-double MeterSparsely(const RenderedFrame& frame) {
-  const int columns = (frame.width + kMeterStride - 1) / kMeterStride;
-  const int rows = (frame.height + kMeterStride - 1) / kMeterStride;
+double MeterSparsely(const RgbImage& linear, const std::vector<PixelKind>& kinds) {
+  const int columns = (linear.width + kMeterStride - 1) / kMeterStride;
+  const int rows = (linear.height + kMeterStride - 1) / kMeterStride;
   RgbImage sparse(columns, rows);
-  std::vector<PixelKind> kinds(sparse.PixelCount());
+  std::vector<PixelKind> sparse_kinds(sparse.PixelCount());
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < columns; ++x) {
-      sparse.Set(x, y, frame.linear.At(kMeterStride * x, kMeterStride * y));
-      kinds[sparse.Index(x, y)] = frame.kind[frame.linear.Index(kMeterStride * x, kMeterStride * y)];
+      sparse.Set(x, y, linear.At(kMeterStride * x, kMeterStride * y));
+      sparse_kinds[sparse.Index(x, y)] = kinds[linear.Index(kMeterStride * x, kMeterStride * y)];
     }
-  return MeterExposure(sparse, kinds);
+  return MeterExposure(sparse, sparse_kinds);
 }
 
 void PictureMaker::ChooseMesh(const OverlayContext& context, const ViewState& view) {
@@ -71,17 +73,36 @@ void PictureMaker::PaintErrors(const ErrorMap& errors, double top, Srgb8Image* o
       SetPixel(out, i, FalseColour(static_cast<double>(errors.error[frame.triangle[i]]) / top));
 }
 
+// Modes that cast rays have the passes' picture until the rays are there. What is isolated has no picture by
+// rays: they meet the whole scene.
+void PictureMaker::CastRays(const OverlayContext& context, const ViewState& view, int width, int height) {
+  const bool lerp = view.mode == DrawMode::kLerp;
+  const auto& interpolants = context.snapshot.Mesh(MeshKind::kInterpolant);
+  by_rays_ = CastsRays(view.mode) && !isolated_ && !view.error_map && context.snapshot.light &&
+             (!lerp || interpolants);
+  if (!by_rays_) {
+    rays_.Clear();
+    return;
+  }
+  rays_.Show({context.snapshot.light, lerp ? interpolants : nullptr, view.camera, width, height});
+  ray_linear_ = display_->frame().linear;
+  ray_kind_ = display_->frame().kind;
+  rays_.Paint(&ray_linear_, &ray_kind_);
+}
+
 // From the last frame to the screen.
 void PictureMaker::Shade(const OverlayContext& context, const ViewState& view, Srgb8Image* out) {
-  const RenderedFrame& frame = display_->frame();
+  const std::vector<PixelKind>& kinds = by_rays_ ? ray_kind_ : display_->frame().kind;
   const bool rho = view.mode == DrawMode::kRho || (view.mode == DrawMode::kFlat && view.trees_by_reflectance);
-  exposure_ = rho ? 1 : view.auto_exposure ? MeterSparsely(frame) : view.exposure;
+  exposure_ = rho ? 1 : view.auto_exposure ? MeterSparsely(linear(), kinds) : view.exposure;
   scale_top_ = view.false_colour_max > 0 ? view.false_colour_max : 1 / exposure_;
   if (view.error_map && context.results.error_map) {
     *out = display_->ToneMap({exposure_, true}).screen;
     PaintErrors(*context.results.error_map, view.error_map_max, out);
   } else if (view.false_colour && !rho) {
-    PaintFalseColours(frame.linear, frame.kind, scale_top_, out);
+    PaintFalseColours(linear(), kinds, scale_top_, out);
+  } else if (by_rays_) {
+    ToneMap(linear(), kinds, {exposure_, true}, out);
   } else {
     *out = display_->ToneMap({exposure_, true}).screen;
   }
@@ -97,6 +118,7 @@ const Srgb8Image& PictureMaker::Make(const OverlayContext& context, const ViewSt
   const PixelRays rays = MakePixelRays(view.camera, w, h);
   const bool rho = view.mode == DrawMode::kRho || (view.mode == DrawMode::kFlat && view.trees_by_reflectance);
   display_->Render(view.camera, w, h, rho ? ShadingMode::kReflectance : ShadingMode::kRadiosity);
+  CastRays(context, view, w, h);
   const bool see_through = !view.faces || view.overlays.hidden_lines;
   depth_.emplace(rays, display_->frame(), drawn_->mesh());
   if (view.split) {

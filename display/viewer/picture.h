@@ -7,10 +7,12 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "display/two_pass_display.h"
 #include "display/viewer/overlay.h"
 #include "display/viewer/overlay_painter.h"
+#include "display/viewer/ray_picture.h"
 
 namespace penumbra::viewer {
 
@@ -20,9 +22,18 @@ class PictureMaker {
   const Srgb8Image& Make(const OverlayContext& context, const ViewState& view, const OverlayDrawing& drawing,
                          int width, int height);
 
+  // Rays that are still under way, or are not shown yet.
+  bool Busy() const { return rays_.Busy(); }
+  // The last picture is by rays, as far as they are there.
+  bool by_rays() const { return by_rays_; }
+  double RayFraction() const { return rays_.Fraction(); }
+  void CancelRays() { rays_.Cancel(); }
+
   // Of the last picture:
   const Srgb8Image& screen() const { return screen_; }
   const RenderedFrame* frame() const { return display_ ? &display_->frame() : nullptr; }
+  // What the screen was made of: radiosity [W/m^2] or reflectance.
+  const RgbImage& linear() const { return by_rays_ ? ray_linear_ : display_->frame().linear; }
   const DepthMap* depth() const { return depth_ ? &*depth_ : nullptr; }
   // The mesh that frame() was drawn of.
   const IrradianceMesh& drawn() const { return drawn_->mesh(); }
@@ -34,6 +45,7 @@ class PictureMaker {
 
  private:
   void ChooseMesh(const OverlayContext& context, const ViewState& view);
+  void CastRays(const OverlayContext& context, const ViewState& view, int width, int height);
   void Shade(const OverlayContext& context, const ViewState& view, Srgb8Image* out);
   void PaintErrors(const ErrorMap& errors, double top, Srgb8Image* out) const;
 
@@ -43,6 +55,10 @@ class PictureMaker {
   AnalysisResults isolated_by_;
   std::optional<TwoPassDisplay> display_;
   std::optional<DepthMap> depth_;
+  RayPicture rays_;
+  bool by_rays_ = false;  // the last picture
+  RgbImage ray_linear_;
+  std::vector<PixelKind> ray_kind_;
   Srgb8Image screen_, part_;
   MeshKind kind_ = MeshKind::kFlat;
   double exposure_ = 1, scale_top_ = 1;
@@ -50,7 +66,7 @@ class PictureMaker {
 };
 
 // Exposure as MeterExposure() has it, from every kMeterStride-th pixel of every kMeterStride-th row.
-double MeterSparsely(const RenderedFrame& frame);
+double MeterSparsely(const RgbImage& linear, const std::vector<PixelKind>& kinds);
 inline constexpr int kMeterStride = 4;
 
 }  // namespace penumbra::viewer

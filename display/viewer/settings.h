@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,16 @@ class Settings {
     return AddChoice(
         name, group, help, std::move(choices), [value] { return static_cast<std::size_t>(*value); },
         [value](std::size_t i) { *value = static_cast<Enum>(i); });
+  }
+  // The same, with `auto` for nothing.
+  template <class Enum>
+  Setting& OptionalChoice(const std::string& name, const std::string& group, const std::string& help,
+                          std::optional<Enum>* value, std::vector<std::string> choices) {
+    choices.insert(choices.begin(), "auto");
+    return AddChoice(
+        name, group, help, std::move(choices),
+        [value] { return *value ? static_cast<std::size_t>(**value) + 1 : 0; },
+        [value](std::size_t i) { *value = i == 0 ? std::nullopt : std::optional(static_cast<Enum>(i - 1)); });
   }
   Setting& Vector(const std::string& name, const std::string& group, const std::string& help,
                   std::function<Vec3()> get, std::function<void(const Vec3&)> set);

@@ -5,11 +5,8 @@
 
 #include "display/viewer/leaf_mesh.h"
 #include "mesh/local_pass.h"
-#include "mesh/representation_error.h"
-#include "mesh/source_error.h"
+#include "mesh/run_limits.h"
 #include "solver/base/check.h"
-#include "solver/transport/energy.h"
-#include "solver/transport/solution_error.h"
 
 namespace penumbra::viewer {
 namespace {
@@ -30,10 +27,27 @@ IrradianceSampler SamplerOf(const LightState& light) {
   return [exact](PatchId patch, const ReceiverPoint& at) { return exact->OnPatch(patch, at); };
 }
 
+// What a snapshot of the scene becomes with the pipeline's light.
+std::shared_ptr<Snapshot> LightOf(const Pipeline& pipeline, const Snapshot& before,
+                                  std::shared_ptr<const PatchVisibility> visibility) {
+  auto next = std::make_shared<Snapshot>(before);
+  next->mesh = {};
+  next->measured.reset();
+  next->light = std::make_shared<const LightState>(before.scene, std::move(visibility), pipeline.solution(),
+                                                   pipeline.options().point);
+  const RadiositySolution& solution = next->light->solution();
+  next->mesh[static_cast<std::size_t>(MeshKind::kFlat)] =
+      std::make_shared<const MeshState>(before.scene, LeafMesh(solution.forest, solution.irradiance));
+  next->iterations = pipeline.report().iterations;
+  return next;
+}
+
 }  // namespace
 
-SolverSession::SolverSession(std::shared_ptr<const Scene> scene, const PipelineOptions& options)
-    : snapshot_(DarkSnapshot(std::move(scene))), options_(options), thread_([this] { Work(); }) {}
+SolverSession::SolverSession(const OpenedScene& opened, const PipelineOptions& options)
+    : snapshot_(DarkSnapshot(opened.scene)), options_(options), thread_([this] { Work(); }) {
+  if (opened.stored) SetScene(opened);
+}
 
 SolverSession::~SolverSession() {
   Cancel();
@@ -66,9 +80,9 @@ void SolverSession::SetOptions(const PipelineOptions& options) {
   stale_links_ = true;
 }
 
-void SolverSession::SetScene(std::shared_ptr<const Scene> scene) {
+void SolverSession::SetScene(const OpenedScene& opened) {
   Cancel();
-  Enqueue("load", [this, scene](const ExecutionContext&) { Restart(scene); });
+  Enqueue("load", [this, opened](const ExecutionContext&) { DoLoad(opened); });
 }
 
 void SolverSession::Link() {
@@ -93,6 +107,15 @@ void SolverSession::BuildMesh(MeshKind kind) {
 
 void SolverSession::Measure() {
   Enqueue("measure", [this](const ExecutionContext& context) { DoMeasure(context); });
+}
+
+void SolverSession::Save(std::function<void(const Pipeline&)> write) {
+  Enqueue("save", [this, write = std::move(write)](const ExecutionContext& context) {
+    DoMeasure(context);
+    if (context.Cancelled()) return;
+    context.Report("save", 0);
+    write(*pipeline_);
+  });
 }
 
 void SolverSession::Run(const std::string& phase,
@@ -163,28 +186,38 @@ void SolverSession::Publish(std::shared_ptr<Snapshot> next) {
   snapshot_ = std::move(next);
 }
 
-void SolverSession::Restart(std::shared_ptr<const Scene> scene) {
+void SolverSession::DoLoad(const OpenedScene& opened) {
   pipeline_.reset();
   visibility_.reset();
-  Publish(DarkSnapshot(std::move(scene)));
+  settled_ = stored_ = opened.stored != nullptr;
+  const std::shared_ptr<Snapshot> dark = DarkSnapshot(opened.scene);
+  if (!opened.stored) {
+    Publish(dark);
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    options_ = opened.solving;
+  }
+  pipeline_ = std::make_unique<Pipeline>(*opened.scene, opened.solving, std::move(*opened.stored));
+  visibility_ = std::make_shared<const PatchVisibility>(pipeline_->visibility());
+  const std::shared_ptr<Snapshot> next = LightOf(*pipeline_, *dark, visibility_);
+  next->mesh[static_cast<std::size_t>(*pipeline_->mesh_kind())] =
+      std::make_shared<const MeshState>(opened.scene, pipeline_->mesh());
+  next->converged = true;
+  next->measured = pipeline_->report();
+  Publish(next);
 }
 
-// A copy of the solver's state goes out, with its leaves as a mesh; meshes of earlier states are dropped.
-void SolverSession::PublishLight(std::size_t corrections) {
-  const std::shared_ptr<const Snapshot> before = snapshot();
-  auto next = std::make_shared<Snapshot>(*before);
-  next->mesh = {};
-  next->measured.reset();
-  next->light =
-      std::make_shared<const LightState>(before->scene, visibility_, pipeline_->solution(), options().point);
-  const RadiositySolution& solution = next->light->solution();
-  next->mesh[static_cast<std::size_t>(MeshKind::kFlat)] =
-      std::make_shared<const MeshState>(before->scene, LeafMesh(solution.forest, solution.irradiance));
+// The solver's state now, with its leaves as a mesh; meshes of earlier states are dropped.
+std::shared_ptr<Snapshot> SolverSession::NextLight(std::size_t corrections) const {
+  std::shared_ptr<Snapshot> next = LightOf(*pipeline_, *snapshot(), visibility_);
   next->corrections = corrections;
   next->converged = pipeline_->Converged();
-  next->iterations = pipeline_->report().iterations;
-  Publish(std::move(next));
+  return next;
 }
+
+void SolverSession::PublishLight(std::size_t corrections) { Publish(NextLight(corrections)); }
 
 void SolverSession::DoLink(const ExecutionContext& context) {
   context.Report("link", 0);
@@ -199,35 +232,48 @@ void SolverSession::DoLink(const ExecutionContext& context) {
   pipeline->Link(context);
   if (context.Cancelled()) return;
   pipeline_ = std::move(pipeline);
+  stored_ = false;
+  settled_ = options.dense.has_value();
   visibility_ = std::make_shared<const PatchVisibility>(pipeline_->visibility());
   PublishLight(0);
 }
 
 bool SolverSession::MustLink() const {
   const std::lock_guard lock(mutex_);
-  return !pipeline_ || stale_links_;
+  return !pipeline_ || stale_links_ || stored_;
 }
 
 void SolverSession::DoIterate(const ExecutionContext& context) {
   if (MustLink()) DoLink(context);
-  if (!pipeline_ || context.Cancelled()) return;
+  // A dense system is solved with its links.
+  if (!pipeline_ || context.Cancelled() || pipeline_->options().dense) return;
   context.Report("iterate", 0);
   const std::optional<IterationReport> report = pipeline_->Iterate(context);
-  if (report) PublishLight(report->links_split > 0 ? 0 : snapshot()->corrections);
+  if (!report) return;
+  settled_ = pipeline_->Converged();
+  PublishLight(report->links_split > 0 ? 0 : snapshot()->corrections);
 }
 
-void SolverSession::DoConverge(const ExecutionContext& context) {
-  const int most = options().max_iterations;
-  for (int i = 0; i < most && !context.Cancelled(); ++i) {
-    if (!MustLink() && pipeline_->Converged()) break;
+void SolverSession::DoConverge(const ExecutionContext& outer) {
+  const PipelineOptions options = this->options();
+  const RunLimits limits(outer, options.time_limit, options.memory_limit);
+  const ExecutionContext& context = limits.context();
+  if (MustLink()) DoLink(context);
+  for (int i = 0; i < options.max_iterations && !context.Cancelled() && !options.dense; ++i) {
+    if (pipeline_->Converged()) break;
     DoIterate(context);
   }
   if (!context.Cancelled()) DoCorrect(context);
+  if (!outer.Cancelled()) settled_ = true;
+  if (const std::optional<std::string> limit = limits.Exceeded(); limit && context.Cancelled()) {
+    const std::lock_guard lock(mutex_);
+    status_.message = "ended by " + *limit;
+  }
 }
 
 void SolverSession::DoCorrect(const ExecutionContext& context) {
-  if (!pipeline_) DoIterate(context);
-  if (!pipeline_ || context.Cancelled()) return;
+  if (MustLink()) DoIterate(context);
+  if (!pipeline_ || context.Cancelled() || pipeline_->options().dense) return;
   context.Report("correct", 0);
   if (pipeline_->Correct(context)) PublishLight(snapshot()->corrections + 1);
 }
@@ -235,9 +281,9 @@ void SolverSession::DoCorrect(const ExecutionContext& context) {
 void SolverSession::DoBuildMesh(MeshKind kind, const ExecutionContext& context) {
   const std::shared_ptr<const Snapshot> before = snapshot();
   if (!before->light || before->Mesh(kind)) return;
-  const ResolvedOptions resolved = Resolve(*before->scene, options());
+  if (kind == MeshKind::kInterpolant && settled_) return DoInterpolants(context);
   MeshOptions mesh;
-  mesh.discontinuities = resolved.discontinuities;
+  mesh.discontinuities = pipeline_->resolved().discontinuities;
   if (kind != MeshKind::kGouraudMesh && kind != MeshKind::kInterpolant)
     mesh.discontinuities.choice = DiscontinuityChoice::kNone;
   mesh.order = kind == MeshKind::kInterpolant ? InterpolantOrder::kQuadratic : InterpolantOrder::kLinear;
@@ -250,26 +296,30 @@ void SolverSession::DoBuildMesh(MeshKind kind, const ExecutionContext& context) 
   Publish(std::move(next));
 }
 
-void SolverSession::DoMeasure(const ExecutionContext& context) {
-  DoBuildMesh(MeshKind::kInterpolant, context);
+// The pipeline's own: they may refine sources, and so the light, before they are what is shown.
+void SolverSession::DoInterpolants(const ExecutionContext& context) {
+  if (!pipeline_ || pipeline_->mesh_kind() == MeshKind::kInterpolant) return;
   const std::shared_ptr<const Snapshot> before = snapshot();
-  if (!before->Mesh(MeshKind::kInterpolant) || context.Cancelled()) return;
-  context.Report("measure", 0);
-  const PipelineOptions options = this->options();
-  const RadiositySolution& solution = before->light->solution();
-  const IrradianceMesh& mesh = before->Mesh(MeshKind::kInterpolant)->mesh();
-  const IrradianceSampler sampler = SamplerOf(*before->light);
-  PipelineReport report;
-  report.energy = MeasureEnergy(solution);
-  report.interpolant_error =
-      MeasureRepresentationError(*before->scene, mesh, sampler, options.error_points, options.seed);
-  report.solution_error_estimate =
-      EstimateSolutionError(solution, before->light->Exact(), options.error_points, options.seed) +
-      EstimateSourceError(solution, mesh, sampler, options.error_points, options.seed);
-  report.error_asked = options.error;
-  report.error_met = report.interpolant_error.p99 + report.solution_error_estimate <= options.error;
-  auto next = std::make_shared<Snapshot>(*before);
-  next->measured = std::move(report);
+  pipeline_->BuildMesh(MeshKind::kInterpolant, context);
+  if (context.Cancelled()) return;
+  const PipelineOptions& options = pipeline_->options();
+  const bool refined = !options.dense && options.refine != RefineBy::kTransport;
+  std::shared_ptr<Snapshot> next =
+      refined ? NextLight(before->corrections) : std::make_shared<Snapshot>(*before);
+  next->converged = before->converged;
+  next->mesh[static_cast<std::size_t>(MeshKind::kInterpolant)] =
+      std::make_shared<const MeshState>(before->scene, pipeline_->mesh());
+  Publish(std::move(next));
+}
+
+void SolverSession::DoMeasure(const ExecutionContext& context) {
+  if (!pipeline_) throw InputError("nothing is solved yet: iterate first");
+  if (snapshot()->measured) return;
+  DoInterpolants(context);
+  if (context.Cancelled()) return;
+  pipeline_->Measure(context);
+  auto next = std::make_shared<Snapshot>(*snapshot());
+  next->measured = pipeline_->report();
   Publish(std::move(next));
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <thread>
 
+#include "display/viewer/opened_scene.h"
 #include "display/viewer/snapshot.h"
 #include "mesh/pipeline.h"
 #include "solver/base/progress.h"
@@ -30,7 +31,8 @@ struct SessionStatus {
 // Tasks are done one after the other, in the order asked for.
 class SolverSession {
  public:
-  SolverSession(std::shared_ptr<const Scene> scene, const PipelineOptions& options);
+  // Of a solution, its own options count.
+  SolverSession(const OpenedScene& opened, const PipelineOptions& options);
   // Cancels, and waits for the step at hand to end.
   ~SolverSession();
   SolverSession(const SolverSession&) = delete;
@@ -40,18 +42,22 @@ class SolverSession {
   std::shared_ptr<const Snapshot> snapshot() const;
   SessionStatus status() const;
 
-  // Starts over with another scene.
-  void SetScene(std::shared_ptr<const Scene> scene);
+  // Starts over with another scene, or goes on from a solution.
+  void SetScene(const OpenedScene& opened);
   // For what is done from now on. Where options of the links change, the next iteration starts over.
   void SetOptions(const PipelineOptions& options);
   PipelineOptions options() const;
 
-  void Link();                    // from the beginning
-  void Iterate();                 // links where there are none yet
-  void Converge();                // iterates until it is done, then corrects
-  void Correct();                 // by exact irradiance
-  void BuildMesh(MeshKind kind);  // for a display mode, from the state then
-  void Measure();                 // energy and errors of the interpolants, built where they are not there
+  void Link();      // from the beginning
+  void Iterate();   // links where there are none yet
+  void Converge();  // iterates until it is done, then corrects
+  void Correct();   // by exact irradiance
+  // For a display mode, from the state then. Once the solver has settled, interpolants refine the solution as
+  // well, as they do for Pipeline::BuildMesh.
+  void BuildMesh(MeshKind kind);
+  void Measure();  // energy and errors of the interpolants, built where they are not there
+  // Writes what is solved, after Measure().
+  void Save(std::function<void(const Pipeline&)> write);
   // Anything else that takes long and reads the latest state. What it throws as InputError is shown.
   void Run(const std::string& phase,
            std::function<void(const Snapshot&, const ExecutionContext& context)> work);
@@ -70,8 +76,10 @@ class SolverSession {
   void DoConverge(const ExecutionContext& context);
   void DoCorrect(const ExecutionContext& context);
   void DoBuildMesh(MeshKind kind, const ExecutionContext& context);
+  void DoInterpolants(const ExecutionContext& context);
   void DoMeasure(const ExecutionContext& context);
-  void Restart(std::shared_ptr<const Scene> scene);
+  void DoLoad(const OpenedScene& opened);
+  std::shared_ptr<Snapshot> NextLight(std::size_t corrections) const;
   void PublishLight(std::size_t corrections);
   void Publish(std::shared_ptr<Snapshot> next);
 
@@ -88,6 +96,8 @@ class SolverSession {
   // Of the solver's thread alone.
   std::shared_ptr<const PatchVisibility> visibility_;
   std::unique_ptr<Pipeline> pipeline_;
+  bool settled_ = false;  // its iterations have come to their end
+  bool stored_ = false;   // it shows what a file brought, and cannot go on from there
 
   std::thread thread_;
 };

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "solver/scene/scene.h"
+
 namespace penumbra::viewer {
 
 class UserFiles {
@@ -23,6 +25,11 @@ class UserFiles {
   std::vector<std::string> Recent() const;
   // Puts a scene first. A path is kept absolute.
   void AddRecent(const std::string& scene) const;
+
+  // The cameras that were named in a scene, oldest first; the scene as in AddRecent.
+  std::vector<Camera> Cameras(const std::string& scene) const;
+  // Keeps a camera; another one of its name in that scene goes.
+  void KeepCamera(const std::string& scene, const Camera& camera) const;
 
  private:
   std::optional<std::string> folder_;

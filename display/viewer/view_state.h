@@ -13,7 +13,10 @@
 namespace penumbra::viewer {
 
 // How faces are drawn: modes of `penumbra render`.
-enum class DrawMode : std::uint8_t { kFlat, kGouraud, kGouraudMesh, kInterpolant, kRho };
+enum class DrawMode : std::uint8_t { kFlat, kGouraud, kGouraudMesh, kInterpolant, kExact, kLerp, kRho };
+
+// Modes that cast rays: what the passes show stands in until they are there.
+inline bool CastsRays(DrawMode mode) { return mode == DrawMode::kExact || mode == DrawMode::kLerp; }
 
 // The mesh that a mode draws.
 MeshKind MeshOf(DrawMode mode);
@@ -77,6 +80,7 @@ struct ViewState {
   double false_colour_max = 0;  // top of the scale [W/m^2]; 0: the value that the exposure makes white
   bool error_map = false;
   double error_map_max = 0.1;  // top of the scale, relative
+  int supersampling = 2;       // of pictures that are saved: samples a side of a pixel
   bool isolate = true;         // only what is selected is drawn
 
   OverlaySettings overlays;

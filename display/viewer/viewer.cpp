@@ -4,27 +4,25 @@
 
 #include <algorithm>
 
-#include "display/image_io.h"
 #include "display/viewer/selection.h"
 #include "display/viewer/walk.h"
 #include "solver/base/check.h"
-#include "solver/scene/named_scene.h"
 
 namespace penumbra::viewer {
 
-Viewer::Viewer(std::shared_ptr<const Scene> scene, ViewerOptions options)
-    : options_(std::move(options)), session_(std::move(scene), options_.solving) {
+Viewer::Viewer(const OpenedScene& opened, ViewerOptions options)
+    : options_(std::move(options)), session_(opened, options_.solving) {
+  if (opened.stored) options_.solving = opened.solving;
   view_.mode = DrawMode::kInterpolant;
   snapshot_ = session_.snapshot();
   tools_ = ToolsMesh();
-  cameras_ = snapshot_->scene->cameras;
   AddViewSettings();
   AddSolveSettings();
   AddFileSettings();
   AddMenus();
-  AddCameraMenu();
+  ListCameras();
   Home();
-  if (options_.solve) session_.Converge();
+  if (options_.solve && !opened.stored) session_.Converge();
 }
 
 void Viewer::Home() {
@@ -36,37 +34,10 @@ void Viewer::GoTo(const Camera& camera) {
   view_.camera = camera;
 }
 
-void Viewer::Open(const std::string& name) {
-  auto scene = std::make_shared<Scene>(ReadNamedScene(name, options_.reading));
-  options_.scene_name = name;
-  session_.SetScene(scene);
-  if (options_.solve) session_.Converge();
-  if (options_.opened) options_.opened(name);
-}
-
 void Viewer::AddCamera(const Camera& camera) {
   std::erase_if(cameras_, [&](const Camera& c) { return c.name == camera.name; });
   cameras_.push_back(camera);
   AddCameraMenu();
-}
-
-void Viewer::SaveCamera(const std::string& name) {
-  if (name.empty() || name.find('/') != name.npos)
-    throw InputError("a camera's name has a letter or more, and no /");
-  Camera camera = view_.camera;
-  camera.name = name;
-  AddCamera(camera);
-}
-
-void Viewer::SavePicture(const std::string& path) {
-  if (!picture_.frame()) throw InputError("there is no picture yet");
-  if (path.ends_with(".exr")) {
-    WriteExr(path, picture_.frame()->linear);
-  } else if (path.ends_with(".png")) {
-    WritePng(path, picture_.screen());
-  } else {
-    throw InputError(fmt::format("'{}' ends neither in .png nor in .exr", path));
-  }
 }
 
 void Viewer::Unselect() {
@@ -103,6 +74,12 @@ void Viewer::AskForMeshes() {
     Want(MeshKind::kInterpolant);
 }
 
+std::string Viewer::activity() {
+  if (picture_.Busy()) return fmt::format("casting rays, {:.0f} %", 100 * picture_.RayFraction());
+  if (analyses_.Busy()) return "analysing";
+  return snapshot_->light ? "ready" : "not solved";
+}
+
 std::string Viewer::message() const {
   if (!message_.empty()) return message_;
   return session_.status().message;
@@ -118,8 +95,7 @@ const Srgb8Image& Viewer::Frame(int width, int height, double seconds) {
   if (latest->scene != snapshot_->scene) {
     snapshot_ = latest;
     Unselect();
-    cameras_ = latest->scene->cameras;
-    AddCameraMenu();
+    ListCameras();
     Home();
   }
   snapshot_ = latest;
@@ -156,7 +132,7 @@ const Srgb8Image& Viewer::Frame(int width, int height, double seconds) {
 }
 
 bool Viewer::Idle() {
-  if (session_.status().busy || analyses_.Busy() || !fresh_) return false;
+  if (session_.status().busy || analyses_.Busy() || picture_.Busy() || !fresh_) return false;
   // A result that came since the last frame has to be drawn first, and may ask for more.
   if (session_.snapshot() != snapshot_) return false;
   AskForMeshes();

@@ -17,11 +17,11 @@
 #include "display/viewer/arcball.h"
 #include "display/viewer/input.h"
 #include "display/viewer/menu.h"
+#include "display/viewer/opened_scene.h"
 #include "display/viewer/picture.h"
 #include "display/viewer/settings.h"
 #include "display/viewer/solver_session.h"
 #include "display/viewer/view_state.h"
-#include "solver/scene/scene_options.h"
 
 namespace penumbra::viewer {
 
@@ -34,18 +34,21 @@ struct PanelState {
 
 struct ViewerOptions {
   std::string scene_name;  // as the user gave it
-  SceneOptions reading;    // of scenes that are opened
+  ViewerFiles files;
   PipelineOptions solving;
   bool solve = true;  // begin at once
   // Where the line of each probe goes.
   std::function<void(const std::string&)> print;
-  // Told of each scene that was opened.
+  // Told of each scene that was opened, by its name.
   std::function<void(const std::string&)> opened;
+  // The cameras that users named in a scene before, and where one goes that is named now.
+  std::function<std::vector<Camera>(const std::string& scene)> kept_cameras;
+  std::function<void(const std::string& scene, const Camera& camera)> keep_camera;
 };
 
 class Viewer {
  public:
-  Viewer(std::shared_ptr<const Scene> scene, ViewerOptions options);
+  Viewer(const OpenedScene& opened, ViewerOptions options);
 
   // A frame: takes over what the solver and the analyses have done since the last, moves a walking camera by
   // `seconds`, and draws width x height pixels.
@@ -69,7 +72,8 @@ class Viewer {
   const PictureMaker& picture() const { return picture_; }
   const std::vector<Camera>& cameras() const { return cameras_; }
   SessionStatus status() const { return session_.status(); }
-  bool analysing() { return analyses_.Busy(); }
+  // What is going on beside the solver, in a few words.
+  std::string activity();
   // What to tell the user: what went wrong last; empty: nothing.
   std::string message() const;
   void Dismiss() { message_.clear(); }
@@ -103,11 +107,17 @@ class Viewer {
   void Walk(double seconds);
   void Probe(const InputEvent& event, bool backproject);
 
-  void Open(const std::string& name);
   void Home();
 
+  // viewer_files.cpp
+  void Open(const std::string& name);
   void SaveCamera(const std::string& name);
   void SavePicture(const std::string& path);
+  void SaveRayPicture(const std::string& path);
+  void SaveSolution(const std::string& path);
+  void Export(const std::string& path);
+  void ListCameras();
+
   void Unselect();
   void Want(MeshKind kind);
   std::shared_ptr<const MeshState> ToolsMesh() const;
@@ -116,6 +126,7 @@ class Viewer {
   void SolvingChanged() { session_.SetOptions(options_.solving); }
 
   ViewerOptions options_;
+  DenseOptions dense_;  // of the dense solver, whether it is chosen or not
   SolverSession session_;
   std::shared_ptr<const Snapshot> snapshot_;
   std::shared_ptr<const MeshState> tools_;

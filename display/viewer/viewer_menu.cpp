@@ -26,6 +26,8 @@ void Viewer::AddMenus() {
   };
 
   ask("File/Open...", "ctrl+o", "open");
+  ask("File/Save solution...", "ctrl+s", "save-solution");
+  ask("File/Export...", "ctrl+e", "export");
   ask("File/Save picture...", "ctrl+p", "save-picture");
   add("File/Quit", "ctrl+q", "End the program", [this] { panels_.quit = true; });
 
@@ -51,6 +53,8 @@ void Viewer::AddMenus() {
   choose("Drawing/Gouraud shading with discontinuities", "3", "mode", "gouraud-mesh");
   choose("Drawing/Interpolant rendering", "4", "mode", "interpolant");
   choose("Drawing/Reflectance", "5", "mode", "rho");
+  choose("Drawing/Exact irradiance, by rays", "6", "mode", "exact");
+  choose("Drawing/Interpolants, by rays", "7", "mode", "lerp");
   toggle("Drawing/Draw faces", "f", "faces");
   toggle("Drawing/Draw trees using rho", "r", "trees-by-reflectance");
   toggle("Drawing/Split view", "v", "split");
@@ -101,6 +105,10 @@ void Viewer::AddMenus() {
     session_.Measure();
   });
   add("Iteration/Cancel", "backspace", "End what is being computed after its last whole step", [this] {
+    if (picture_.Busy()) {
+      picture_.CancelRays();
+      return;
+    }
     declined_ = session_.snapshot()->number;
     session_.Cancel();
   });

@@ -16,10 +16,11 @@ Setting Optional(const std::string& name, const std::string& help, std::optional
   constexpr double kHigh = 1e12;
   Setting setting{name, "Solving", help, SettingKind::kNumber, low, kHigh, true, true, {}, {}, {}};
   setting.get = [value, otherwise = std::move(otherwise)] {
-    return *value ? TextOf(**value) : fmt::format("auto ({:.4g})", otherwise());
+    if (*value) return TextOf(**value);
+    return otherwise ? fmt::format("auto ({:.4g})", otherwise()) : std::string("none");
   };
   setting.set = [=, changed = std::move(changed)](const std::string& text) {
-    *value = text == "auto" ? std::nullopt : std::optional(NumberFrom(text, low, kHigh));
+    *value = text == "auto" || text == "none" ? std::nullopt : std::optional(NumberFrom(text, low, kHigh));
     changed();
   };
   return setting;
@@ -30,10 +31,11 @@ Setting Optional(const std::string& name, const std::string& help, std::optional
 void Viewer::AddViewSettings() {
   Settings& s = settings_;
   s.Choice("mode", "Drawing", "Drawing mode", &view_.mode,
-           {"flat", "gouraud", "gouraud-mesh", "interpolant", "rho"});
+           {"flat", "gouraud", "gouraud-mesh", "interpolant", "exact", "lerp", "rho"});
   s.Toggle("faces", "Drawing", "Faces", &view_.faces);
   s.Toggle("trees-by-reflectance", "Drawing", "Flat faces by reflectance", &view_.trees_by_reflectance);
   s.Toggle("split", "Drawing", "Ids, coordinates, depth and picture", &view_.split);
+  s.Integer("supersampling", "Drawing", "Saved pictures: samples a side", &view_.supersampling, 1, 8);
   s.Toggle("auto-exposure", "Exposure", "Automatic exposure", &view_.auto_exposure);
   Setting& exposure =
       s.Number("exposure", "Exposure", "Irradiance-2-Pixel [m^2/W]", &view_.exposure, 1e-9, 1e9, true);
@@ -118,6 +120,14 @@ void Viewer::AddSolveSettings() {
   s.Add(Optional(
       "min-discontinuity-weight", "Minimum discontinuity weight [W/m^2]", &o.min_discontinuity_weight, 0,
       [this] { return Resolve(*snapshot_->scene, options_.solving).discontinuities.min_weight; }, changed));
+  also(s.Choice("refine", "Solving", "Refine by", &o.refine, {"transport", "representation", "both"}));
+  also(s.Choice("mesh-discontinuities", "Solving", "Discontinuities in the mesh", &o.discontinuities,
+                {"ranked", "adaptive", "none", "random", "all"}));
+  also(s.OptionalChoice("weight", "Solving", "Weight of discontinuities", &o.weight,
+                        {"thesis", "irradiance"}));
+  also(s.Toggle("keep-hidden-discontinuities", "Solving", "Hidden discontinuities, too",
+                &o.keep_hidden_discontinuities));
+  also(s.Integer("error-samples", "Solving", "Error samples a side of a triangle", &o.error_samples, 1, 100));
   also(s.Integer("max-leaf-dsets", "Solving", "Max leaf discontinuity segments", &o.max_leaf_dsets, 0,
                  1'000'000));
   s.Add(Optional(
@@ -131,6 +141,39 @@ void Viewer::AddSolveSettings() {
   also(s.Choice("oracle", "Solving", "Refinement of links", &o.oracle,
                 {"transport", "visibility", "gradient", "thesis"}));
   also(s.Toggle("multigrid", "Solving", "Coarse links first", &o.multigrid));
+  also(s.Choice("form-factors", "Solving", "Form factors of links", &o.form_factors, {"cubature", "exact"}));
+  s.Add(Optional("time-limit", "Time limit [s]", &o.time_limit, 1e-9, {}, changed));
+  s.Add(Optional("memory-limit", "Memory limit [bytes]", &o.memory_limit, 1, {}, changed));
+  also(s.Integer("bounces", "Solving", "Bounces that are reported", &o.bounces, 0, 1000));
+  Setting solver{"solver", "Solving", "Solver", SettingKind::kChoice,      0,
+                 1,        false,     false,    {"hierarchical", "dense"}, {},
+                 {}};
+  solver.get = [&o] { return o.dense ? "dense" : "hierarchical"; };
+  solver.set = [&o, dense = &dense_, changed](const std::string& text) {
+    if (text != "hierarchical" && text != "dense")
+      throw InputError(fmt::format("'{}' is neither hierarchical nor dense", text));
+    o.dense = text == "dense" ? std::optional(*dense) : std::nullopt;
+    changed();
+  };
+  s.Add(solver);
+  Setting& basis =
+      s.Choice("basis", "Solving", "Dense: basis", &dense_.degree, {"constant", "linear", "quadratic"});
+  basis.set = [&o, dense = &dense_, set = basis.set, changed](const std::string& text) {
+    set(text);
+    if (o.dense) o.dense = *dense;
+    changed();
+  };
+  Setting& divisions =
+      s.Integer("divisions", "Solving", "Dense: divisions of a patch's side", &o.divisions, 1, 1024);
+  divisions.set = [set = divisions.set, &o, changed](const std::string& text) {
+    const int before = o.divisions;
+    set(text);
+    if ((o.divisions & (o.divisions - 1)) != 0) {
+      o.divisions = before;
+      throw InputError(fmt::format("'{}' is not a power of two", text));
+    }
+    changed();
+  };
   also(s.Number("nudge", "Solving", "Nudge of points in contact [m]", &o.point.nudge, 0, 1e6, false));
   also(s.Number("source-push-off", "Solving", "Push-off of sources [m]", &o.point.source_push_off, 0, 1e6,
                 false));
@@ -165,8 +208,11 @@ void Viewer::AddFileSettings() {
     setting.set = run;
     settings_.Add(std::move(setting));
   };
-  action("open", "Open a scene: a file or the name of a built-in one",
+  action("open", "Open a scene, a file or the name of a built-in one, or a solution",
          [this](const std::string& v) { Open(v); });
+  action("save-solution", "Save the solution", [this](const std::string& v) { SaveSolution(v); });
+  action("export", "Export as .vtu, .ply, .glb, .obj, .pbrt or .mgf",
+         [this](const std::string& v) { Export(v); });
   action("save-picture", "Save the picture as .png, or .exr in W/m^2",
          [this](const std::string& v) { SavePicture(v); });
   action("save-camera", "Name this camera", [this](const std::string& v) { SaveCamera(v); });

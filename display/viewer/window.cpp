@@ -100,7 +100,7 @@ unsigned FromGlfwModifiers(int mods) {
 
 class Window final : public ScriptStage {
  public:
-  Window(Viewer& viewer, const Script* script, const UserFiles* files);
+  Window(Viewer& viewer, const Script* script, const UserFiles* files, std::optional<double> scale);
   ~Window() override;
   void Run();
 
@@ -110,7 +110,7 @@ class Window final : public ScriptStage {
 
  private:
   void Listen();
-  void SetUpImGui();
+  void SetUpImGui(std::optional<double> scale);
   void FeedEvents();
   void Feed(const InputEvent& event);
   void DrawFrame(double seconds);
@@ -130,7 +130,7 @@ class Window final : public ScriptStage {
   std::string screenshot_;
 };
 
-Window::Window(Viewer& viewer, const Script* script, const UserFiles* files)
+Window::Window(Viewer& viewer, const Script* script, const UserFiles* files, std::optional<double> scale)
     : viewer_(viewer), files_(files) {
   if (script) player_.emplace(*script);
   glfwSetErrorCallback(&KeepError);
@@ -165,7 +165,7 @@ Window::Window(Viewer& viewer, const Script* script, const UserFiles* files)
   }
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(player_ ? 0 : 1);
-  SetUpImGui();
+  SetUpImGui(scale);
   glGenTextures(1, &texture_);
   glBindTexture(GL_TEXTURE_2D, texture_);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -181,7 +181,7 @@ Window::~Window() {
   glfwTerminate();
 }
 
-void Window::SetUpImGui() {
+void Window::SetUpImGui(std::optional<double> scale) {
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // kept by us, where users' files belong
@@ -194,10 +194,12 @@ void Window::SetUpImGui() {
   ImGui::GetStyle().WindowRounding = 4;
   float sx = 1, sy = 1;
   glfwGetWindowContentScale(window_, &sx, &sy);
-  if (!player_ && sx > 1) {
-    io.FontGlobalScale = sx;
-    ImGui::GetStyle().ScaleAllSizes(sx);
-  }
+  const float larger = scale ? static_cast<float>(*scale) : player_ ? 1.0F : std::max(sx, 1.0F);
+  // Letters are drawn at their size, not stretched to it.
+  ImFontConfig font;
+  font.SizePixels = std::round(kPlainFontSize * larger);
+  io.Fonts->AddFontDefault(&font);
+  ImGui::GetStyle().ScaleAllSizes(larger);
   if (files_) {
     const std::string layout = files_->Read("layout.ini");
     ImGui::LoadIniSettingsFromMemory(layout.data(), layout.size());
@@ -403,8 +405,8 @@ void Window::Run() {
 
 }  // namespace
 
-void RunWindow(Viewer& viewer, const Script* script, const UserFiles* files) {
-  Window(viewer, script, files).Run();
+void RunWindow(Viewer& viewer, const Script* script, const UserFiles* files, std::optional<double> scale) {
+  Window(viewer, script, files, scale).Run();
 }
 
 }  // namespace penumbra::viewer

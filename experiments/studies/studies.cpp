@@ -10,6 +10,7 @@ extern const Study kContinuousRadiosityStudy;
 extern const Study kDiscontinuityStudy;
 extern const Study kRefinementStudy;
 extern const Study kErrorLadderStudy;
+extern const Study kDisplayStudy;
 extern const Study kWholeSystemStudy;
 extern const Study kStabilityStudy;
 extern const Study kGrowthStudy;
@@ -24,6 +25,7 @@ const std::vector<const Study*>& Studies() {
       &kDiscontinuityStudy,        // 5
       &kRefinementStudy,           // 4.4.2
       &kErrorLadderStudy,          // 4.4.2, what a user is promised
+      &kDisplayStudy,              // 7.2, figure 7-4
       &kWholeSystemStudy,          // 7
       &kStabilityStudy,            // what can go wrong
       &kGrowthStudy,               // what bounds large scenes

@@ -39,6 +39,7 @@ TEST(Help, ListsEveryOption) {
         "--opengl-coordinates", "--supersampling", "--samples"}},
       {"probe", {"--points", "--direct", "--output", "--report"}},
       {"export", {"--output", "--exposure", "--camera", "--report"}},
+      {"view", {"--script", "--no-solve", "--help-script", "--camera", "--eye"}},
       {"info", {"--json"}}};
   const Outcome form_factor = sandbox.Run({"form-factor", "--help"});
   EXPECT_EQ(form_factor.status, 0);

@@ -13,7 +13,7 @@
 namespace penumbra::viewer {
 namespace {
 
-// The session does not refine by what is shown.
+// Links alone refine.
 PipelineOptions Loose() {
   PipelineOptions options = viewer_test::Options(false).solving;
   options.refine = RefineBy::kTransport;
@@ -118,6 +118,102 @@ TEST(SolverSession, MeasuresWhatThePipelineMeasures) {
   EXPECT_DOUBLE_EQ(session.snapshot()->measured->interpolant_error.p99,
                    pipeline.report().interpolant_error.p99);
   EXPECT_DOUBLE_EQ(session.snapshot()->measured->energy.emitted, pipeline.report().energy.emitted);
+}
+
+// What the window shows is what `solve` makes: sources and mesh refined by what is shown, the same numbers.
+TEST(SolverSession, RefinesByWhatIsShown) {
+  const auto scene = viewer_test::ShadowScene();
+  PipelineOptions options = Loose();
+  options.refine = RefineBy::kBoth;
+  options.error = 0.02;
+  SolverSession session(scene, options);
+  session.Converge();
+  session.BuildMesh(MeshKind::kInterpolant);
+  session.Measure();
+  ASSERT_TRUE(Rest(session));
+  Pipeline pipeline(*scene, options);
+  pipeline.Solve(ExecutionContext());
+  pipeline.BuildMesh(MeshKind::kInterpolant, ExecutionContext());
+  pipeline.Measure(ExecutionContext());
+  const auto snapshot = session.snapshot();
+  const IrradianceMesh& mesh = snapshot->Mesh(MeshKind::kInterpolant)->mesh();
+  ASSERT_EQ(mesh.triangles.size(), pipeline.mesh().triangles.size());
+  for (std::size_t i = 0; i < mesh.irradiance.size(); ++i)
+    ASSERT_TRUE((mesh.irradiance[i].f == pipeline.mesh().irradiance[i].f).all()) << i;
+  EXPECT_EQ(snapshot->light->solution().irradiance.size(), pipeline.solution().irradiance.size());
+  EXPECT_EQ(snapshot->measured->whole_error.p99, pipeline.report().whole_error.p99);
+  EXPECT_TRUE(snapshot->converged);
+  // What links alone refine is coarser.
+  Pipeline transport(*scene, [&] {
+    PipelineOptions other = options;
+    other.refine = RefineBy::kTransport;
+    return other;
+  }());
+  transport.Solve(ExecutionContext());
+  transport.BuildMesh(MeshKind::kInterpolant, ExecutionContext());
+  EXPECT_GT(mesh.triangles.size(), transport.mesh().triangles.size());
+}
+
+// A solution that is opened shows at once what was saved, and a step begins anew.
+TEST(SolverSession, ShowsWhatAnotherSolved) {
+  const auto scene = viewer_test::ShadowScene();
+  Pipeline pipeline(*scene, Loose());
+  pipeline.Solve(ExecutionContext());
+  pipeline.BuildMesh(MeshKind::kInterpolant, ExecutionContext());
+  pipeline.Measure(ExecutionContext());
+  OpenedScene opened(scene);
+  opened.solving = Loose();
+  opened.stored = std::make_shared<PipelineState>(PipelineState{pipeline.visibility(), pipeline.solution(),
+                                                                MeshKind::kInterpolant, pipeline.mesh(),
+                                                                pipeline.report()});
+  SolverSession session(opened, PipelineOptions());
+  ASSERT_TRUE(Rest(session));
+  const auto shown = session.snapshot();
+  EXPECT_EQ(session.options().error, Loose().error);
+  EXPECT_EQ(shown->Mesh(MeshKind::kInterpolant)->mesh().triangles.size(), pipeline.mesh().triangles.size());
+  EXPECT_EQ(shown->light->solution().irradiance.size(), pipeline.solution().irradiance.size());
+  EXPECT_TRUE(shown->converged);
+  ASSERT_TRUE(shown->measured);
+  const Pipeline* saved = nullptr;
+  session.Save([&](const Pipeline& it) { saved = &it; });
+  session.BuildMesh(MeshKind::kGouraudMesh);
+  ASSERT_TRUE(Rest(session));
+  EXPECT_NE(saved, nullptr);
+  EXPECT_TRUE(session.snapshot()->Mesh(MeshKind::kGouraudMesh));
+  session.Converge();
+  ASSERT_TRUE(Rest(session));
+  EXPECT_FALSE(session.snapshot()->measured);
+  EXPECT_EQ(session.snapshot()->light->solution().forest.size(), pipeline.solution().forest.size());
+}
+
+// A dense system has no iterations, and a time limit ends a solve with a word.
+TEST(SolverSession, SolvesDenseSystemsAndKeepsLimits) {
+  const auto scene = viewer_test::ShadowScene();
+  PipelineOptions options = Loose();
+  options.dense.emplace();
+  SolverSession dense(scene, options);
+  dense.Converge();
+  dense.Iterate();
+  dense.Correct();
+  dense.BuildMesh(MeshKind::kInterpolant);
+  ASSERT_TRUE(Rest(dense));
+  EXPECT_TRUE(dense.snapshot()->Mesh(MeshKind::kInterpolant));
+  EXPECT_TRUE(dense.snapshot()->iterations.empty());
+
+  options = Loose();
+  options.error = 1e-4;
+  options.time_limit = 0.05;
+  SolverSession limited(scene, options);
+  limited.Converge();
+  ASSERT_TRUE(Rest(limited));
+  EXPECT_NE(limited.status().message.find("time"), std::string::npos) << limited.status().message;
+}
+
+TEST(SolverSession, SavesNothingUnsolved) {
+  SolverSession session(viewer_test::ShadowScene(), Loose());
+  session.Save([](const Pipeline&) { FAIL(); });
+  ASSERT_TRUE(Rest(session));
+  EXPECT_NE(session.status().message, "");
 }
 
 TEST(LeafMesh, CoversEveryPatch) {

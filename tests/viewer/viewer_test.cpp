@@ -6,9 +6,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <set>
 
+#include "display/image_io.h"
 #include "display/viewer/script.h"
+#include "display/viewer/user_files.h"
 #include "solver/base/check.h"
 #include "tests/viewer/viewer_test_scenes.h"
 
@@ -90,7 +96,7 @@ TEST_F(SolvedViewer, EverySettingTakesBackWhatItGives) {
 }
 
 TEST_F(SolvedViewer, EveryModeAndSizeDraws) {
-  for (const char* mode : {"flat", "gouraud", "gouraud-mesh", "interpolant", "rho"})
+  for (const char* mode : {"flat", "gouraud", "gouraud-mesh", "interpolant", "exact", "lerp", "rho"})
     for (const char* split : {"off", "on"}) {
       viewer.Set("mode", mode);
       viewer.Set("split", split);
@@ -102,6 +108,54 @@ TEST_F(SolvedViewer, EveryModeAndSizeDraws) {
         EXPECT_EQ(picture.height, h);
       }
     }
+}
+
+// Pictures by rays come beside the view: interpolants found that way are those of the passes, and what is
+// saved is what `render` draws.
+TEST_F(SolvedViewer, RaysShowWhatThePassesShow) {
+  const Srgb8Image passes = viewer.Frame(96, 64, 0);
+  const RgbImage drawn = viewer.picture().linear();
+  viewer.Set("mode", "lerp");
+  viewer.Frame(96, 64, 0);
+  EXPECT_TRUE(viewer.picture().Busy());
+  ASSERT_TRUE(Settle(viewer));
+  ASSERT_TRUE(viewer.picture().by_rays());
+  const RgbImage& rays = viewer.picture().linear();
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < rays.PixelCount(); ++i)
+    different += std::abs(rays.channel[0][i] - drawn.channel[0][i]) > 1e-4F * drawn.channel[0][i] ? 1 : 0;
+  EXPECT_LT(different, rays.PixelCount() / 50);  // edges
+  viewer.Set("mode", "exact");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_GT(Difference(passes, viewer.Frame(96, 64, 0)), 0U);
+  // Cancelled, it rests with what is there, until something else is to be seen.
+  viewer.Set("eye", "0.3,-2.5,1.6");
+  viewer.Frame(96, 64, 0);
+  viewer.RunMenu("Iteration/Cancel");
+  EXPECT_TRUE(Settle(viewer));
+}
+
+// Pictures that are saved are as large as the view, whatever they are averaged from.
+TEST_F(SolvedViewer, SavesPicturesWithSupersampling) {
+  const std::string folder = testing::TempDir();
+  viewer.Set("element-mesh", "on");
+  for (const char* mode : {"interpolant", "lerp"})
+    for (const char* samples : {"1", "3"}) {
+      viewer.Set("mode", mode);
+      viewer.Set("supersampling", samples);
+      ASSERT_TRUE(Settle(viewer));
+      for (const char* name : {"penumbra_saved.png", "penumbra_saved.exr"}) {
+        viewer.Set("save-picture", folder + name);
+        ASSERT_TRUE(Settle(viewer));
+        EXPECT_EQ(viewer.message(), "");
+      }
+      const RgbImage saved = ReadExr(folder + "penumbra_saved.exr");
+      EXPECT_EQ(saved.width, 96);
+      EXPECT_EQ(saved.height, 64);
+      EXPECT_TRUE(std::filesystem::remove(folder + "penumbra_saved.png"));
+      EXPECT_TRUE(std::filesystem::remove(folder + "penumbra_saved.exr"));
+    }
+  EXPECT_THROW(viewer.Set("save-picture", "picture.gif"), InputError);
 }
 
 TEST_F(SolvedViewer, SelectsPatchesThenTheirChildren) {
@@ -244,6 +298,80 @@ TEST_F(SolvedViewer, CamerasAreSavedByName) {
   viewer.Set("camera", "mine");
   EXPECT_EQ(viewer.view().camera.eye, saved.eye);
   EXPECT_THROW(viewer.Set("camera", "nobody's"), InputError);
+}
+
+// Cameras that were named are there the next time, in their scene alone; a damaged line costs only its
+// camera.
+TEST(UserFiles, KeepCameras) {
+  const std::filesystem::path state = std::filesystem::path(testing::TempDir()) / "penumbra_cameras_test";
+  const char* before = std::getenv("XDG_STATE_HOME");
+  const std::string old = before ? before : "";
+  setenv("XDG_STATE_HOME", state.c_str(), 1);
+  const Camera mine{"my view", {0.1, -1.0 / 3, 2}, {1e-17, 0, 0}, Vec3::UnitY(), 33};
+  UserFiles().KeepCamera("office", mine);
+  UserFiles().KeepCamera("cornell", {"other", {1, 2, 3}, Vec3::Zero(), Vec3::UnitZ(), 45});
+  Camera again = mine;
+  again.vertical_fov = 34;
+  UserFiles().KeepCamera("office", again);
+  std::ofstream(state / "penumbra" / "cameras", std::ios::app) << "office\tbroken\t1\t2\n";
+  const std::vector<Camera> kept = UserFiles().Cameras("office");
+  if (before)
+    setenv("XDG_STATE_HOME", old.c_str(), 1);
+  else
+    unsetenv("XDG_STATE_HOME");
+  std::filesystem::remove_all(state);
+  ASSERT_EQ(kept.size(), 1U);
+  EXPECT_EQ(kept[0].name, "my view");
+  EXPECT_EQ(kept[0].eye, mine.eye);
+  EXPECT_EQ(kept[0].look_at, mine.look_at);
+  EXPECT_EQ(kept[0].vertical_fov, 34);
+
+  ViewerOptions options = Options(false);
+  options.kept_cameras = [&](const std::string&) { return kept; };
+  std::vector<std::string> named;
+  options.keep_camera = [&](const std::string& scene, const Camera& camera) {
+    named.push_back(scene + "/" + camera.name);
+  };
+  Viewer viewer(ShadowScene(), options);
+  viewer.RunMenu("Cameras/Go to/my view");
+  EXPECT_EQ(viewer.view().camera.eye, mine.eye);
+  viewer.Set("save-camera", "new");
+  EXPECT_EQ(named, std::vector<std::string>{"shadow/new"});
+}
+
+// Solutions and exports go to whoever writes them, once they are solved for.
+TEST(Viewer, SavesAndExportsWhatIsSolved) {
+  ViewerOptions options = Options(true);
+  std::vector<std::string> written;
+  options.files.save_solution = [&](const std::string& path, const Pipeline& pipeline) {
+    EXPECT_EQ(pipeline.mesh_kind(), MeshKind::kInterpolant);
+    EXPECT_GT(pipeline.report().interpolant_error.points, 0U);
+    written.push_back(path);
+  };
+  options.files.exports_mesh = [](const std::string& path) {
+    if (path.ends_with(".txt")) throw InputError("no such format");
+    return path.ends_with(".ply");
+  };
+  options.files.export_file = [&](const std::string& path, const Scene& scene, const IrradianceMesh* mesh,
+                                  const Camera&) {
+    EXPECT_EQ(scene.patches.size(), 3U);
+    EXPECT_EQ(mesh != nullptr, path.ends_with(".ply"));
+    if (path == "fails.ply") throw InputError("the disk is full");
+    written.push_back(path);
+  };
+  Viewer viewer(ShadowScene(), options);
+  viewer.Set("mode", "flat");
+  ASSERT_TRUE(Settle(viewer));
+  viewer.Set("save-solution", "a.h5");
+  viewer.Set("export", "a.ply");
+  viewer.Set("export", "a.obj");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(written, (std::vector<std::string>{"a.h5", "a.ply", "a.obj"}));
+  EXPECT_EQ(viewer.message(), "");
+  EXPECT_THROW(viewer.Set("export", "a.txt"), InputError);
+  viewer.Set("export", "fails.ply");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.message(), "the disk is full");
 }
 
 TEST_F(SolvedViewer, ASceneThatFailsToLoadLeavesTheOldOne) {

@@ -9,8 +9,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 #include "tests/apps/run_program.h"
@@ -68,7 +70,19 @@ class Window : public testing::Test {
     std::vector<std::string> arguments = {"view", "floating-cube", "--error",
                                           "0.2",  "--script",      sandbox.Write("script", script)};
     arguments.insert(arguments.end(), more.begin(), more.end());
+    played += script;
     return sandbox.Run(arguments);
+  }
+  // What `view --help-script` lists between a line and the next that is empty: the words before the help.
+  std::vector<std::string> Listed(const std::string& heading) {
+    std::vector<std::string> found;
+    bool inside = false;
+    for (const std::string& line : Lines(sandbox.Run({"view", "x", "--help-script"}).out)) {
+      if (line.empty()) inside = false;
+      if (inside) found.push_back(line);
+      if (line.starts_with(heading)) inside = true;
+    }
+    return found;
   }
   struct Shot {
     int width = 0, height = 0;
@@ -99,9 +113,11 @@ class Window : public testing::Test {
   void SetUp() override { ASSERT_TRUE(display->ready()) << "no display: is Xvfb installed?"; }
 
   static Display* display;
+  static std::string played;  // by all tests
   Sandbox sandbox;
 };
 Display* Window::display = nullptr;
+std::string Window::played;
 
 TEST_F(Window, SolvesAndShowsEveryVisualisation) {
   const Outcome run = Play(R"(
@@ -198,9 +214,8 @@ TEST_F(Window, ProbesPrintWhatTheProbeCommandMeasures) {
   const std::vector<std::string> shown = Fields(lines[1]);
   ASSERT_EQ(shown.size(), 13U);
   sandbox.Write("points.csv", "x,y,z,nx,ny,nz\n" + shown[0] + "," + shown[1] + "," + shown[2] + ",0,0,1\n");
-  // The window shows the solution of the links and its corrections, without refinement by what is shown.
-  const Outcome probe = sandbox.Run({"probe", "floating-cube", "--error", "0.2", "--refine", "transport",
-                                     "--points", sandbox.Path("points.csv")});
+  const Outcome probe =
+      sandbox.Run({"probe", "floating-cube", "--error", "0.2", "--points", sandbox.Path("points.csv")});
   const std::vector<std::string> wanted = Fields(Lines(probe.out).at(1));
   EXPECT_EQ(shown[3], wanted[6]);  // patch
   for (std::size_t i = 0; i < 6; ++i)
@@ -233,6 +248,123 @@ TEST_F(Window, ErrorsAreOneLineAndStatusOne) {
   const Outcome missing = sandbox.Run({"view", "nowhere.obj", "--script", sandbox.Write("s", "quit")});
   EXPECT_EQ(missing.status, 1);
   EXPECT_EQ(Lines(missing.err).size(), 1U);
+}
+
+// Every menu item by its path and by its key, and every option with each of its choices: nothing fails but
+// what names files, and the window lives on.
+TEST_F(Window, EveryMenuItemKeyAndOption) {
+  std::string script = "resize 320x240\nwait idle\n";
+  std::size_t items = 0, options = 0;
+  for (const std::string& line : Listed("Menus")) {
+    // Two columns: the path, then the key.
+    const std::string path = line.substr(2, line.find("  ", 2) - 2);
+    const std::size_t last = line.find_last_not_of(' ');
+    const std::string key = last >= 55 ? line.substr(55, last - 54) : "";
+    ++items;
+    if (path == "File/Quit") continue;
+    const bool dialog = path.ends_with("...");
+    script += "menu " + path + "\nwait frames 2\n" + (dialog ? "key escape\nwait frames 2\n" : "");
+    if (!key.empty())
+      script += "key " + key + "\nwait frames 2\n" + (dialog ? "key escape\nwait frames 2\n" : "");
+  }
+  EXPECT_GT(items, 50U);
+  script += "set mode flat\nset navigation arcball\nkey escape\nwait idle\n";
+  for (const std::string& line : Listed("Options for")) {
+    const std::string name = line.substr(2, line.find(' ', 2) - 2);
+    const std::string values = line.substr(line.rfind('(') + 1, line.rfind(')') - line.rfind('(') - 1);
+    ++options;
+    if (values.find('|') == std::string::npos) {
+      if (!values.empty() && values.find(' ') == std::string::npos && values.back() != ')')
+        script += "set " + name + " " + values + "\n";
+      continue;
+    }
+    std::istringstream choices(values);
+    for (std::string choice; std::getline(choices, choice, '|');)
+      script += "set " + name + " " + choice + "\nwait frames 1\n";
+    script += "set " + name + " " + values.substr(0, values.find('|')) + "\n";
+  }
+  EXPECT_GT(options, 50U);
+  script += "screenshot last.png\nmenu File/Quit\nwait seconds 60\n";
+  const Outcome run = Play(script);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(Load("last.png").width, 320);
+}
+
+// A solution is saved, exported and opened again: as another program run, and in the window.
+TEST_F(Window, SavesOpensAndExportsSolutions) {
+  const Outcome saved = Play(R"(
+resize 300x200
+wait idle
+screenshot solved.png
+set save-solution a.h5
+set export a.ply
+set export a.obj
+set supersampling 2
+set save-picture a.png
+wait idle
+set mode exact
+wait idle
+screenshot exact.png
+set mode lerp
+wait idle
+screenshot lerp.png
+set open a.h5
+set mode interpolant
+wait idle
+screenshot opened.png
+)");
+  EXPECT_EQ(saved.status, 0) << saved.err;
+  for (const char* name : {"a.h5", "a.ply", "a.obj", "a.mtl", "a.png"})
+    EXPECT_TRUE(std::filesystem::exists(sandbox.Path(name))) << name;
+  const Shot solved = Load("solved.png");
+  EXPECT_LT(Load("lerp.png").Different(solved), 300U * 200 / 20);
+  EXPECT_LT(Load("opened.png").Different(solved), 2000U);  // frames per second, say
+  EXPECT_GT(Load("exact.png").Different(solved), 0U);
+  const Outcome again = sandbox.Run({"view", "a.h5", "--script", sandbox.Write("s", R"(
+resize 300x200
+wait idle
+screenshot again.png
+set save-solution b.h5
+wait idle
+)")});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_LT(Load("again.png").Different(solved), 2000U);
+  // What was solved is what `solve` solves, to the byte, and goes through the window unchanged.
+  const Outcome solve = sandbox.Run({"solve", "floating-cube", "--error", "0.2", "-o", "c.h5"});
+  EXPECT_EQ(solve.status, 0) << solve.err;
+  EXPECT_TRUE(ReadBytes(sandbox.Path("a.h5")) == ReadBytes(sandbox.Path("c.h5")));
+  EXPECT_TRUE(ReadBytes(sandbox.Path("a.h5")) == ReadBytes(sandbox.Path("b.h5")));
+}
+
+// Every action that the help of scripts names is in a script above.
+TEST_F(Window, ScriptsUseTheWholeLanguage) {
+  Play(
+      "key down a\nkey up a\nmouse move 5 5\nmouse press left\nmouse release left\nmouse scroll 1\n"
+      "mouse double-click left 9 9\nmouse drag shift+left 50 50 60 60\nmouse click middle 5 5\nwait frames "
+      "1\n"
+      "wait seconds 0.1\nquit\n");
+  std::size_t actions = 0;
+  for (const std::string& line : Listed("A script has an action")) {
+    const std::string text = line.substr(0, line.find("  ", 2));
+    // `mouse press|release BUTTON` names two actions: words in capitals are values.
+    std::istringstream words(text);
+    std::vector<std::string> ways = {""};
+    for (std::string word; words >> word;) {
+      if (word == "key" && !ways[0].empty()) break;  // the same, for letting go
+      if (std::isupper(static_cast<unsigned char>(word[0])) || word[0] == '[' || word.ends_with(',')) break;
+      std::vector<std::string> longer;
+      std::istringstream choices(word);
+      for (std::string choice; std::getline(choices, choice, '|');)
+        for (const std::string& way : ways) longer.push_back(way + choice + " ");
+      ways = longer;
+    }
+    for (std::string way : ways) {
+      way.pop_back();
+      EXPECT_THAT("\n" + played, HasSubstr("\n" + way)) << line;
+      ++actions;
+    }
+  }
+  EXPECT_GT(actions, 14U);
 }
 
 // Last, since it takes the display away.

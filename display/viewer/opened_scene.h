@@ -1,0 +1,42 @@
+// display/viewer/opened_scene.h
+//
+// What the window gets from files and writes into them. Whoever opens the window knows how.
+
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "mesh/pipeline.h"
+#include "solver/scene/scene.h"
+
+namespace penumbra::viewer {
+
+struct OpenedScene {
+  OpenedScene() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): a scene is one that nobody has solved yet.
+  OpenedScene(std::shared_ptr<const Scene> the_scene) : scene(std::move(the_scene)) {}
+
+  std::shared_ptr<const Scene> scene;
+  // Of a solution file, with how it was solved; refers to the scene. Null: not solved.
+  std::shared_ptr<PipelineState> stored;
+  PipelineOptions solving;
+};
+
+// Each throws InputError, a line that says what is wrong. Those that write do it beside the place, then
+// rename.
+struct ViewerFiles {
+  // A scene or a solution by its path or name.
+  std::function<OpenedScene(const std::string& name)> open;
+  // The pipeline is solved, meshed for interpolants and measured.
+  std::function<void(const std::string& path, const Pipeline& pipeline)> save_solution;
+  // Whether the format that the path's ending names holds the mesh, and not the scene alone.
+  std::function<bool(const std::string& path)> exports_mesh;
+  // `mesh` is null where the format does without.
+  std::function<void(const std::string& path, const Scene& scene, const IrradianceMesh* mesh,
+                     const Camera& camera)>
+      export_file;
+};
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,129 @@
+// What the viewer opens and saves.
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "display/false_colour.h"
+#include "display/image_io.h"
+#include "display/ray_display.h"
+#include "display/viewer/viewer.h"
+#include "solver/base/check.h"
+#include "solver/scene/named_scene.h"
+
+namespace penumbra::viewer {
+namespace {
+
+void RequireName(const std::string& path) {
+  if (!path.ends_with(".png") && !path.ends_with(".exr"))
+    throw InputError(fmt::format("'{}' ends neither in .png nor in .exr", path));
+}
+
+// Lines and points that stay as wide once k x k pixels have become one.
+OverlayDrawing Widened(OverlayDrawing drawing, int k) {
+  for (OverlayLine& line : drawing.lines) line.width *= static_cast<float>(k);
+  for (OverlayPoint& point : drawing.points) point.radius *= static_cast<float>(k);
+  return drawing;
+}
+
+}  // namespace
+
+void Viewer::Open(const std::string& name) {
+  const OpenedScene opened = options_.files.open
+                                 ? options_.files.open(name)
+                                 : OpenedScene(std::make_shared<const Scene>(ReadNamedScene(name, {})));
+  options_.scene_name = name;
+  if (opened.stored) options_.solving = opened.solving;
+  session_.SetScene(opened);
+  if (options_.solve && !opened.stored) session_.Converge();
+  if (options_.opened) options_.opened(name);
+}
+
+// Those of the scene, then those that users named.
+void Viewer::ListCameras() {
+  cameras_ = snapshot_->scene->cameras;
+  if (options_.kept_cameras)
+    for (const Camera& camera : options_.kept_cameras(options_.scene_name)) AddCamera(camera);
+  AddCameraMenu();
+}
+
+void Viewer::SaveCamera(const std::string& name) {
+  if (name.empty() || name.find_first_of("/\t\n") != name.npos)
+    throw InputError("a camera's name has a letter or more, and no /");
+  Camera camera = view_.camera;
+  camera.name = name;
+  AddCamera(camera);
+  if (options_.keep_camera) options_.keep_camera(options_.scene_name, camera);
+}
+
+void Viewer::SavePicture(const std::string& path) {
+  RequireName(path);
+  if (!picture_.frame()) throw InputError("there is no picture yet");
+  if (picture_.by_rays()) return SaveRayPicture(path);
+  if (path.ends_with(".exr")) return WriteExr(path, picture_.linear());
+  const int k = view_.split ? 1 : view_.supersampling;
+  if (k * std::max(size_.width, size_.height) > kMaxPictureSize)
+    throw InputError("the picture would be too large; ask for less supersampling");
+  Srgb8Image screen = picture_.screen();
+  if (k > 1) {
+    PictureMaker larger;
+    screen = ShrinkScreen(
+        larger.Make(Context(), view_, Widened(drawing_, k), k * size_.width, k * size_.height), k);
+  }
+  if (view_.error_map)
+    PaintLegend(view_.error_map_max, "rel. error", &screen);
+  else if (view_.false_colour)
+    PaintLegend(picture_.scale_top(), "W/m^2", &screen);
+  WritePng(path, screen);
+}
+
+// As `render` draws it: so many rays a pixel, without overlays, beside the view.
+void Viewer::SaveRayPicture(const std::string& path) {
+  const bool exact = view_.mode == DrawMode::kExact;
+  const ViewState view = view_;
+  const double exposure = picture_.exposure(), top = picture_.scale_top();
+  session_.Run(
+      "render", [=, size = size_, light = snapshot_->light, mesh = snapshot_->Mesh(MeshKind::kInterpolant)](
+                    const Snapshot&, const ExecutionContext& context) {
+        const Scene& scene = light->scene();
+        RayDisplay display(scene, exact ? RayShade(scene, light->Exact()) : LerpShade(scene, mesh->mesh()),
+                           view.supersampling * view.supersampling);
+        const SampledPicture& picture = display.Render(view.camera, size.width, size.height, context);
+        if (context.Cancelled()) return;
+        if (path.ends_with(".exr")) return WriteExr(path, Downsample(picture.linear, picture.samples, 1));
+        Srgb8Image screen;
+        if (view.false_colour) {
+          std::vector<PixelKind> first;
+          for (std::size_t i = 0; i < picture.kind.size(); i += static_cast<std::size_t>(picture.samples))
+            first.push_back(picture.kind[i]);
+          PaintFalseColours(Downsample(picture.linear, picture.samples, 1), first, top, &screen);
+          PaintLegend(top, "W/m^2", &screen);
+        } else {
+          EncodeSrgb(Downsample(Expose(picture.linear, picture.kind, exposure), picture.samples, 1), true,
+                     &screen);
+        }
+        WritePng(path, screen);
+      });
+}
+
+void Viewer::SaveSolution(const std::string& path) {
+  if (!options_.files.save_solution) throw InputError("there is nobody who writes solutions");
+  session_.Save(
+      [path, write = options_.files.save_solution](const Pipeline& pipeline) { write(path, pipeline); });
+}
+
+void Viewer::Export(const std::string& path) {
+  const ViewerFiles& files = options_.files;
+  if (!files.exports_mesh || !files.export_file) throw InputError("there is nobody who exports");
+  const bool wants_mesh = files.exports_mesh(path);
+  if (wants_mesh && !snapshot_->light) throw InputError("nothing is solved yet: iterate first");
+  if (wants_mesh) session_.BuildMesh(MeshKind::kInterpolant);
+  session_.Run("export", [path, wants_mesh, write = files.export_file, camera = view_.camera](
+                             const Snapshot& now, const ExecutionContext& context) {
+    const auto& mesh = now.Mesh(MeshKind::kInterpolant);
+    if (context.Cancelled() || (wants_mesh && !mesh)) return;
+    write(path, *now.scene, wants_mesh ? &mesh->mesh() : nullptr, camera);
+  });
+}
+
+}  // namespace penumbra::viewer
