@@ -10,9 +10,9 @@
 namespace penumbra {
 namespace {
 
-// Each range of the domain is cut into this many parts at first; a part is looked at in three places more.
-// What is seen only between these is overlooked.
-constexpr int kFirstParts = 2;
+// Each range of the domain is cut into this many parts at first, so that no bend between them is overlooked:
+// a conic is convex, and bends little in an eighth of its range.
+constexpr int kFirstParts = 8;
 // A part is halved at most so often: the ends of what is seen are then known to 1e-6 of the range.
 constexpr int kMostHalvings = 18;
 
