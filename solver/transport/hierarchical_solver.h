@@ -98,7 +98,8 @@ class HierarchicalSolver {
   // average to its irradiance.
   bool CorrectTo(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
                  const ExecutionContext& context);
-  // All passes that the options ask for. False if cancelled, which leaves those that were done.
+  // All passes that the options ask for, or all but the last, which the caller then makes by CorrectTo().
+  // False if cancelled, which leaves those that were done.
   bool CorrectAll(const ExecutionContext& context, bool but_the_last = false);
 
   // Iterates to convergence, to the most iterations, or until the context is cancelled, then corrects. A
