@@ -17,7 +17,7 @@
 namespace penumbra {
 namespace {
 
-constexpr int kWidth = 320, kHeight = 240;
+constexpr int kViewWidth = 320, kViewHeight = 240;
 
 // The passes of the graphics system; null where there is none.
 std::unique_ptr<Passes> TryOpenGl(const IrradianceMesh& mesh, OpenGlCoordinates coordinates) {
@@ -88,8 +88,8 @@ TEST(OpenGlPasses, AgreeWithTheRasteriser) {
                          Vec3::UnitZ(),
                          random.Uniform(20, 150)});
     for (const Camera& camera : cameras) {
-      const Difference difference =
-          Compare(opengl.Render(camera, kWidth, kHeight), software.Render(camera, kWidth, kHeight));
+      const Difference difference = Compare(opengl.Render(camera, kViewWidth, kViewHeight),
+                                            software.Render(camera, kViewWidth, kViewHeight));
       std::cout << camera.name << ", " << cells << " cells: " << difference.edges
                 << " pixels at edges show another triangle; radiosity within " << difference.radiosity
                 << ", coordinates within " << difference.coordinate << "\n";
@@ -100,9 +100,9 @@ TEST(OpenGlPasses, AgreeWithTheRasteriser) {
     // Screens, too: OpenGL's pictures go the same way from there.
     const ToneMapping tone{1.0 / 30, true};
     const Srgb8Image& screen =
-        opengl.RenderScreen(RoomCamera(), kWidth, kHeight, ShadingMode::kRadiosity, tone).screen;
+        opengl.RenderScreen(RoomCamera(), kViewWidth, kViewHeight, ShadingMode::kRadiosity, tone).screen;
     const Srgb8Image& want =
-        software.RenderScreen(RoomCamera(), kWidth, kHeight, ShadingMode::kRadiosity, tone).screen;
+        software.RenderScreen(RoomCamera(), kViewWidth, kViewHeight, ShadingMode::kRadiosity, tone).screen;
     std::size_t different = 0;
     for (std::size_t i = 0; i < want.pixels.size(); ++i) different += screen.pixels[i] != want.pixels[i];
     EXPECT_LT(different, want.pixels.size() / 100);
@@ -116,8 +116,8 @@ TEST(OpenGlPasses, TheTextureHasEightBits) {
   std::unique_ptr<Passes> passes = TryOpenGl(room.mesh, OpenGlCoordinates::kTexture);
   if (!passes) GTEST_SKIP() << "no OpenGL here";
   TwoPassDisplay opengl(room.scene, room.mesh, std::move(passes)), software(room.scene, room.mesh);
-  const Difference difference =
-      Compare(opengl.Render(RoomCamera(), kWidth, kHeight), software.Render(RoomCamera(), kWidth, kHeight));
+  const Difference difference = Compare(opengl.Render(RoomCamera(), kViewWidth, kViewHeight),
+                                        software.Render(RoomCamera(), kViewWidth, kViewHeight));
   std::cout << "radiosity within " << difference.radiosity << ", coordinates within " << difference.coordinate
             << "\n";
   EXPECT_LT(difference.coordinate, 1.05 / 256);
