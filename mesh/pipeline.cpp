@@ -18,20 +18,6 @@
 namespace penumbra {
 namespace {
 
-// What follows from the error asked for. Measured on closed boxes and furnished rooms: with these the 99th
-// percentile stays at or below the error asked for where the interpolants are not limited by weak
-// discontinuities.
-constexpr double kEpsOfMeanIrradiance = 2;  // eps = this x error x mean irradiance
-constexpr double kWeightOfStrongest = 5;    // minimum weight = this x error x largest emittance, at most ...
-constexpr double kLargestWeight = 0.25;     // ... this x largest emittance
-// In the irradiance weight: what an edge left out may cost, as a part of error x mean irradiance.
-constexpr double kWeightOfMeanIrradiance = 0.5;
-constexpr int kCrowdedSplits = 3;         // DiscontinuityOptions::crowded_splits
-constexpr double kMinAreaOfScene = 1e-7;  // of the fronts' total area
-constexpr double kCutoffOfError = 0.005;
-// With representation refinement alone links are refined to this times the eps of transport.
-constexpr double kCoarseEps = 4;
-
 // The shares of the error that the interpolants and their sources may make, each at its 99th percentile:
 // seldom both at one point.
 constexpr double kInterpolantShare = 0.65, kSourceShare = 0.4;
@@ -41,67 +27,15 @@ constexpr double kInterpolantShare = 0.65, kSourceShare = 0.4;
 constexpr double kNearShare = 0.1, kFirstNearShare = 0.03;
 // The first look, which only sources are made of, takes edges of this times the least weight.
 constexpr double kFirstWeight = 2;
+// Sources are refined again while their means change by more than this share of the error, so many times.
+constexpr double kSettledShare = 0.6;
+constexpr int kMostSourcePasses = 4;
 // Cells of sources are divided while their score is above this times the error.
 constexpr double kFinestScore = 1;
 // Random points that choose the sources, and at most that measure them.
 constexpr std::size_t kCutPoints = 300, kMostSourcePoints = 400;
 
-struct SceneTotals {
-  double area = 0, flux = 0, reflectance = 0, strongest = 0;  // of the brightest channel
-};
-
-SceneTotals Total(const Scene& scene) {
-  SceneTotals totals;
-  Rgb flux = Rgb::Zero(), reflectance = Rgb::Zero();
-  for (const Patch& patch : scene.patches) {
-    const Material& material = scene.materials[patch.material];
-    totals.area += patch.area;
-    flux += patch.area * material.emittance;
-    reflectance += patch.area * material.reflectance;
-    totals.strongest = std::max(totals.strongest, material.emittance.maxCoeff());
-  }
-  int channel = 0;
-  totals.flux = flux.maxCoeff(&channel);
-  if (totals.area > 0) totals.reflectance = reflectance[channel] / totals.area;
-  return totals;
-}
-
 }  // namespace
-
-ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
-  const SceneTotals totals = Total(scene);
-  // What the walls would receive if all light stayed in and spread evenly.
-  const double mean = totals.area > 0 ? totals.flux / totals.area / (1 - totals.reflectance) : 0;
-  ResolvedOptions resolved;
-  const double coarse = options.refine == RefineBy::kRepresentation ? kCoarseEps : 1;
-  resolved.solver.eps = options.eps.value_or(coarse * kEpsOfMeanIrradiance * options.error * mean);
-  resolved.solver.min_area = options.min_area.value_or(kMinAreaOfScene * totals.area);
-  resolved.solver.relative_cutoff = options.relative_cutoff.value_or(kCutoffOfError * options.error);
-  resolved.solver.max_iterations = options.max_iterations;
-  resolved.solver.max_corrections = options.max_corrections;
-  resolved.solver.source_error = options.source_error.value_or(0);
-  resolved.solver.form_factors = options.form_factors;
-  resolved.solver.scheme = options.scheme;
-  resolved.solver.acceleration = options.acceleration;
-  resolved.solver.oracle = options.oracle;
-  resolved.solver.multigrid = options.multigrid;
-  DiscontinuityOptions& mesh = resolved.discontinuities;
-  mesh.choice = options.discontinuities;
-  mesh.weight = options.weight.value_or(options.min_discontinuity_weight ? DiscontinuityWeight::kThesis
-                                                                         : DiscontinuityWeight::kIrradiance);
-  const double from_error =
-      mesh.weight == DiscontinuityWeight::kThesis
-          ? std::min(kLargestWeight, kWeightOfStrongest * options.error) * totals.strongest
-          : kWeightOfMeanIrradiance * options.error * mean;
-  mesh.min_weight = options.min_discontinuity_weight.value_or(from_error);
-  mesh.max_leaf_dsets = options.max_leaf_dsets;
-  mesh.keep_hidden = options.keep_hidden_discontinuities;
-  mesh.triple_edge_tolerance = options.triple_edge_tolerance;
-  mesh.seed = options.seed;
-  mesh.crowded_splits = kCrowdedSplits;
-  mesh.min_split_area = resolved.solver.min_area;
-  return resolved;
-}
 
 struct Pipeline::Impl {
   Impl(const Scene& the_scene, const PipelineOptions& the_options)
@@ -175,19 +109,23 @@ struct Pipeline::Impl {
                        kFinestScore * options.error);
   }
 
-  // Exact irradiance from the finest sources that the interpolants give.
+  // Exact irradiance from the finest sources that the interpolants give, with the bounces over the links of
+  // what these differ by: between walls that face each other a difference comes back many times.
   PointIrradiance BetterIrradiance() {
     const SourceCells cells = Cells();
-    return Irradiance().WithSources(
-        SourceSet::FromSolution(solver->solution(), cells.Fragments(cells.Cut(0), /*whole_leaves=*/true)));
+    HierarchicalSolver better(scene, visibility, resolved.solver, solver->solution());
+    better.CorrectTo(cells.LeafIrradiance(), cells.Fragments(cells.Cut(0), /*whole_leaves=*/true), {});
+    return Irradiance().WithSources(SourceSet::FromSolution(better.solution()));
   }
 
   // Gives the leaves the means of the interpolants, and cuts those whose light varies too much for where it
-  // arrives. False if it was cancelled.
-  bool RefineSources(const ExecutionContext& context) {
+  // arrives. Returns how far those were from
+  // the leaves' (SourceCells::Change); nothing if it was cancelled.
+  std::optional<double> RefineSources(const ExecutionContext& context) {
     const Stopwatch stopwatch;
     context.Report("refine sources", 0);
     const SourceCells cells = Cells();
+    const double change = cells.Change();
     const SourceCut cut =
         ChooseSourceCut(solver->solution(), cells, Irradiance(), kFinestScore * options.error,
                         kSourceShare * options.error, kCutPoints, options.seed + 1);
@@ -195,12 +133,53 @@ struct Pipeline::Impl {
                                         cells.Fragments(cut.cells, /*whole_leaves=*/false), context);
     irradiance.reset();
     AddPhase("iterate", stopwatch.Seconds());
-    return done;
+    return done ? std::optional(change) : std::nullopt;
   }
 
-  // Sources, then leaves of the mesh, as fine as the error asked for wants them. Adds to the report.
-  void RefineShown(const MeshOptions& mesh_options, MeshReport& done, const ExecutionContext& context) {
-    if (resolved.solver.source_error == 0 && !RefineSources(context)) return;
+  // Refines the sources by what they show and shows them anew, in turns, until the light stands still: what
+  // is left to change comes back by the bounces between walls that face each other. False if it was
+  // cancelled.
+  bool SettleSources(const MeshOptions& first, MeshReport& done, const ExecutionContext& context) {
+    for (int pass = 1;; ++pass) {
+      const std::optional<double> change = RefineSources(context);
+      if (!change) return false;
+      if (*change <= kSettledShare * options.error || pass == kMostSourcePasses) return true;
+      if (!FirstLook(first, kFirstNearShare, done, context)) return false;
+    }
+  }
+
+  // What the latest mesh has replaces what was counted; work adds up.
+  static void TakeReport(MeshReport latest, MeshReport& done) {
+    latest.counts.point_evaluations += done.counts.point_evaluations;
+    latest.seconds.discontinuities += done.seconds.discontinuities;
+    latest.seconds.triangulate += done.seconds.triangulate;
+    latest.seconds.interpolate += done.seconds.interpolate;
+    done = latest;
+  }
+
+  // Makes a mesh of the solution's leaves. Adds to the report. False if it was cancelled.
+  bool FirstLook(const MeshOptions& mesh_options, double near_share, MeshReport& done,
+                 const ExecutionContext& context) {
+    IrradianceSampler sampler;
+    if (mesh_options.order != InterpolantOrder::kConstant) {
+      if (solver && !solver->SeenFromLeaves(context)) return false;
+      sampler = NearSampler(near_share);
+    }
+    MeshResult result = RunLocalPass(visibility, Solution(), sampler, mesh_options, context, &LocalPass());
+    if (context.Cancelled()) return false;
+    TakeReport(result.report, done);
+    mesh = std::move(result.mesh);
+    triangulations = std::move(result.triangulations);
+    mesh_forest = Solution().forest;
+    triangle_errors.clear();
+    return true;
+  }
+
+  // Sources, then leaves of the mesh, as fine as the error asked for wants them, from a mesh of `first`. Adds
+  // to the report.
+  void RefineShown(const MeshOptions& mesh_options, const MeshOptions& first, MeshReport& done,
+                   const ExecutionContext& context) {
+    if (resolved.solver.source_error == 0 && !SettleSources(first, done, context)) return;
     MeshRefinementOptions refinement;
     refinement.error = kInterpolantShare * options.error;
     refinement.min_area = resolved.solver.min_area;
@@ -212,11 +191,7 @@ struct Pipeline::Impl {
     triangulations = std::move(refined.triangulations);
     mesh_forest = std::move(refined.forest);
     triangle_errors = std::move(refined.errors);
-    refined.report.counts.point_evaluations += done.counts.point_evaluations;
-    refined.report.seconds.discontinuities += done.seconds.discontinuities;
-    refined.report.seconds.triangulate += done.seconds.triangulate;
-    refined.report.seconds.interpolate += done.seconds.interpolate;
-    done = refined.report;
+    TakeReport(refined.report, done);
     if (refined.share_above <= kShareAbove) return;
     double area = 0;
     for (const ElementId leaf : refined.unmet) area += mesh_forest[leaf].area;
@@ -269,19 +244,9 @@ struct Pipeline::Impl {
     const bool refines = kind == MeshKind::kInterpolant && solver && options.refine != RefineBy::kTransport;
     MeshOptions first = mesh_options;
     if (refines) first.discontinuities.min_weight *= kFirstWeight;
-    IrradianceSampler sampler;
-    if (kind != MeshKind::kFlat) {
-      if (solver && !solver->SeenFromLeaves(context)) return std::nullopt;
-      sampler = NearSampler(refines ? kFirstNearShare : kNearShare);
-    }
-    MeshResult result = RunLocalPass(visibility, Solution(), sampler, first, context, &LocalPass());
-    if (context.Cancelled()) return std::nullopt;
-    done = result.report;
-    mesh = std::move(result.mesh);
-    triangulations = std::move(result.triangulations);
-    mesh_forest = Solution().forest;
-    triangle_errors.clear();
-    if (refines && !mesh.triangles.empty()) RefineShown(mesh_options, done, context);
+    const double near_share = kind == MeshKind::kFlat ? 0 : refines ? kFirstNearShare : kNearShare;
+    if (!FirstLook(first, near_share, done, context)) return std::nullopt;
+    if (refines && !mesh.triangles.empty()) RefineShown(mesh_options, first, done, context);
     return kind;
   }
 

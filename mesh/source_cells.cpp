@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include "solver/base/parallel.h"
 #include "solver/geometry/polygon_distance.h"
@@ -17,6 +19,9 @@ namespace {
 constexpr int kMostQuartered = 3;
 // Deviations count relative to the radiosity around; in dark places to this share of the scene's mean.
 constexpr double kDark = 0.5;
+// Of Change(): the share of the area that may have changed by more, and of the mean irradiance that counts as
+// dark.
+constexpr double kChangedArea = 0.01, kDarkest = 0.01;
 
 using Triangle3 = std::array<Vec3, 3>;
 
@@ -213,6 +218,27 @@ std::vector<Rgb> SourceCells::LeafIrradiance() const {
   for (std::size_t i = 0; i < cells_.size(); i += static_cast<std::size_t>(cells_[i].skip))
     irradiance[static_cast<std::size_t>(cells_[i].leaf)] = cells_[i].irradiance;
   return irradiance;
+}
+
+double SourceCells::Change() const {
+  Rgb mean = Rgb::Zero();
+  double area = 0;
+  for (std::size_t i = 0; i < cells_.size(); i += static_cast<std::size_t>(cells_[i].skip)) {
+    mean += cells_[i].area * cells_[i].irradiance;
+    area += cells_[i].area;
+  }
+  std::vector<std::pair<double, double>> changes;  // each with the area that has it
+  for (std::size_t i = 0; i < cells_.size(); i += static_cast<std::size_t>(cells_[i].skip)) {
+    const Rgb& was = solution_.irradiance[static_cast<std::size_t>(cells_[i].leaf)];
+    const Rgb scale =
+        cells_[i].irradiance.max(kDarkest / area * mean).max(std::numeric_limits<double>::min());
+    changes.emplace_back(((cells_[i].irradiance - was).abs() / scale).maxCoeff(), cells_[i].area);
+  }
+  std::sort(changes.begin(), changes.end(), std::greater<>());
+  double above = 0;
+  for (const auto& [change, of] : changes)
+    if ((above += of) >= kChangedArea * area) return change;
+  return 0;
 }
 
 std::vector<std::int32_t> SourceCells::Cut(double score) const {

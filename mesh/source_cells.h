@@ -49,6 +49,10 @@ class SourceCells {
   // that do not reflect [W/m^2].
   std::vector<Rgb> LeafIrradiance() const;
 
+  // How far the leaves' means are from these: what 1 % of the area that reflects exceeds, relative to these
+  // or to 1 % of their mean, in any channel.
+  double Change() const;
+
   // The cells with a score of at most `score` whose parents have more, and those that have no parts.
   std::vector<std::int32_t> Cut(double score) const;
   // They as fragments, without those that are whole leaves unless these are asked for.

@@ -104,7 +104,8 @@ TEST(RunLimits, CancelledLinking) {
   EXPECT_NE(solver.SeenFromLeaves(), nullptr);
   for (const bool dense : {false, true}) {
     PipelineOptions options;
-    if (dense) options.dense = DenseOptions();
+    options.divisions = 1;
+    if (dense) options.dense = DenseOptions{.tolerance = 0.01, .max_points = 100};
     Pipeline pipeline(scene, options);
     pipeline.Solve(cancelled);
     EXPECT_TRUE(pipeline.solution().links.links.empty());
