@@ -445,6 +445,11 @@ void Pipeline::Measure(const ExecutionContext& context) {
     return;
   }
   const std::size_t points = impl_->options.error_points;
+  if (points == 0) {
+    report.error_met = false;
+    report.unmet.push_back("error: not measured, since no points were asked for");
+    return;
+  }
   const std::uint64_t seed = impl_->options.seed;
   report.interpolant_error =
       MeasureRepresentationError(impl_->scene, impl_->mesh, impl_->Sampler(), points, seed);
