@@ -12,6 +12,7 @@
 #include "display/opengl_passes.h"
 #include "display/ray_display.h"
 #include "display/two_pass_display.h"
+#include "experiments/studies/reference_case.h"
 #include "experiments/studies/study.h"
 #include "mesh/pipeline.h"
 #include "solver/base/check.h"
@@ -174,14 +175,7 @@ void Run(StudyLog& log) {
     options.error = 0.1;
     settings.push_back({"floating-cube", "--error 0.1", options, {160, 120, {}}});
   } else {
-    PipelineOptions thesis;
-    thesis.eps = 0.1;
-    thesis.max_leaf_dsets = 10;
-    thesis.min_discontinuity_weight = 100;
-    thesis.max_corrections = 0;
-    thesis.relative_cutoff = 1e-3;
-    thesis.refine = RefineBy::kTransport;
-    settings.push_back({"office", "thesis, chapter 7", thesis, {640, 480, {}}});
+    settings.push_back({"office", "thesis, chapter 7", ThesisSettings(), {640, 480, {}}});
     settings.push_back({"office", "--error 0.02", {}, {640, 480, {}}});
   }
   for (const Setting& setting : settings) Comparison(setting, &log).Run();

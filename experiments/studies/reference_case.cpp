@@ -58,6 +58,17 @@ std::optional<Rgb> ShownAt(const Pipeline& pipeline, const ReceiverPoint& at) {
   return std::nullopt;
 }
 
+PipelineOptions ThesisSettings() {
+  PipelineOptions thesis;
+  thesis.eps = 0.1;
+  thesis.max_leaf_dsets = 10;
+  thesis.min_discontinuity_weight = 100;
+  thesis.max_corrections = 0;
+  thesis.relative_cutoff = 1e-3;
+  thesis.refine = RefineBy::kTransport;
+  return thesis;
+}
+
 Measured MeasurePipeline(const ReferenceCase& test, const PipelineOptions& options, int repeats) {
   std::vector<double> seconds;
   std::unique_ptr<Pipeline> pipeline;

@@ -35,6 +35,9 @@ std::vector<double> ReferenceErrors(const ReferenceCase& test,
 // The interpolant at a point, from the first patch that the point lies on the front of, as `probe` has it.
 std::optional<Rgb> ShownAt(const Pipeline& pipeline, const ReceiverPoint& at);
 
+// The settings that the thesis gives for its office (7.1), and no refinement that it had not.
+PipelineOptions ThesisSettings();
+
 // A solve with its mesh: the median of the repeats' seconds, counts, and the errors of what is shown.
 struct Measured {
   StudyRow row;

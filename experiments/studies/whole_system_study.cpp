@@ -90,13 +90,7 @@ void Run(StudyLog& log) {
         "with {} of {} settings.",
         test.name, test.points.size(), kept, asked));
     if (test.name != "office" || log.quick()) continue;
-    PipelineOptions thesis;
-    thesis.eps = 0.1;
-    thesis.max_leaf_dsets = 10;
-    thesis.min_discontinuity_weight = 100;
-    thesis.max_corrections = 0;
-    thesis.relative_cutoff = 1e-3;
-    const StudyRow row = Measure(log, test, thesis, "thesis, chapter 7", StudyRow::kNone, 3);
+    const StudyRow row = Measure(log, test, ThesisSettings(), "thesis, chapter 7", StudyRow::kNone, 3);
     constexpr double kThesisSeconds = 2.5 * 3600;  // "two and a half hours of CPU time" for the interpolants
     log.Find(fmt::format(
         "The thesis's settings on our office: {} triangles in {:.2g} s, {:.0f} times less than the "
