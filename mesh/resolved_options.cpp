@@ -18,6 +18,7 @@ constexpr double kWeightOfMeanIrradiance = 0.5;
 constexpr int kCrowdedSplits = 3;         // DiscontinuityOptions::crowded_splits
 constexpr double kMinAreaOfScene = 1e-7;  // of the fronts' total area
 constexpr double kCutoffOfError = 0.005;
+constexpr double kCorrectionOfError = 0.04;  // SolverOptions::correction_tolerance
 // With representation refinement alone links are refined to this times the eps of transport.
 constexpr double kCoarseEps = 4;
 
@@ -54,6 +55,7 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   resolved.solver.relative_cutoff = options.relative_cutoff.value_or(kCutoffOfError * options.error);
   resolved.solver.max_iterations = options.max_iterations;
   resolved.solver.max_corrections = options.max_corrections;
+  resolved.solver.correction_tolerance = kCorrectionOfError * options.error;
   resolved.solver.source_error = options.source_error.value_or(0);
   resolved.solver.form_factors = options.form_factors;
   resolved.solver.scheme = options.scheme;

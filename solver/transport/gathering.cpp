@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "solver/visibility/form_factor.h"
@@ -21,6 +22,10 @@ Clipper& ThreadClipper() {
   thread_local Clipper clipper;
   return clipper;
 }
+
+// Sources are as many, and err in as many directions, as lets each of them err by this share of what all may,
+// however little it gives.
+constexpr double kOneOfMany = 0.3;
 
 // Polygons whose form factors are still to be added.
 struct Listed {
@@ -118,11 +123,15 @@ void Gathering::Gather(PatchId source, const DirectionPolygon& seen, std::span<c
   if (tolerance_ > 0) {
     source_normal_ = scene_.patches[static_cast<std::size_t>(source)].normal;
     whole_ = FormFactor(seen, at_.normal);
+    tolerance_here_ = tolerance_ * std::max(1.0, kOneOfMany * Outshone(tree[0].radiosity * whole_));
   }
-  if (occluders_.empty())
+  if (occluders_.empty()) {
     GatherVisible(tree);
-  else
+    if (tolerance_ > 0) so_far_ += whole_ * tree[0].radiosity;
+  } else {
     GatherShadowed(tree, 0);
+    if (tolerance_ > 0) so_far_ += irradiance_ - before;
+  }
   if (!parts_ || factor_ == 0) return;
   parts_->contributions.push_back({source, irradiance_ - before});
   parts_->direct += factor_ * sources_.Emittance(source);
@@ -207,10 +216,18 @@ void Gathering::GatherVisible(Tree nodes) {
   for (std::size_t i = 0; i < count; ++i) Add(static_cast<std::int32_t>(first + i), factor[i]);
 }
 
+// How often the light so far holds this light, in the channel where it does so least.
+double Gathering::Outshone(const Rgb& light) const {
+  double times = std::numeric_limits<double>::infinity();
+  for (int c = 0; c < 3; ++c)
+    if (light[c] > 0) times = std::min(times, so_far_[c] / light[c]);
+  return times;
+}
+
 // Whether a subtree may be seen as one, with its radiosity's moment where nothing hides it: the error beside
 // its own light is small, or the light beside that of the whole source.
 bool Gathering::IsOne(const Node& node, bool visible) const {
-  if (node.spread <= tolerance_) return true;
+  if (node.spread <= tolerance_here_) return true;
   const Vec3 to = node.centre - at_.position;
   const double distance = to.norm(), gap = distance - node.radius;
   if (gap <= 0) return false;
@@ -220,14 +237,11 @@ bool Gathering::IsOne(const Node& node, bool visible) const {
   if (visible) {
     const double reach = kSteepness * node.radius / gap;
     if (reach < 1) error *= reach * reach;
-    if (error <= tolerance_) return true;
+    if (error <= tolerance_here_) return true;
   }
   const double high = std::min(1.0, (at_.normal.dot(to) + node.radius) / distance),
                deep = std::min(1.0, (source_normal_.dot(-to) + node.radius) / distance);
-  // Shadows tend to begin where it is darker; errors there do not average out.
-  constexpr double kShadowed = 0.3;
-  const double allowed = (visible ? tolerance_ : kShadowed * tolerance_) * whole_;
-  return error * node.area * high * deep <= allowed * std::numbers::pi * gap * gap;
+  return error * node.area * high * deep <= tolerance_here_ * whole_ * std::numbers::pi * gap * gap;
 }
 
 // Adds a subtree that nothing hides, in parts that may be seen as one.

@@ -61,8 +61,9 @@ class Gathering {
   // Adds the form factors of the set's leaves to these, by their number.
   void RecordFactors(std::span<double> factors) { factors_ = factors; }
 
-  // From here on parts of trees may be seen as one of their mean radiosity where that costs at most this
-  // share of the light that they send (SourceSet::Node::ErrorAsOne).
+  // From here on parts of trees may be seen as one of their mean radiosity where that costs at most about
+  // this share of the light that they send, or a part of that share of all light of the sources before. So
+  // the brightest should come first.
   void SeeAsOne(double tolerance);
 
   const Rgb& irradiance() {
@@ -82,6 +83,7 @@ class Gathering {
                   const Clipper::Candidates& candidates);
   void GatherVisible(Tree nodes);
   void GatherAsOne(Tree nodes);
+  double Outshone(const Rgb& light) const;
   bool IsOne(const SourceSet::Node& node, bool visible) const;
   void AddMoment(const SourceSet::Node& node);
   void AddListed();
@@ -101,8 +103,10 @@ class Gathering {
   std::vector<Occluder>& occluders_;  // of the source at hand
   Clipper& clipper_;
   double tolerance_ = 0;
-  // Of the source at hand, with a tolerance: its normal, and the form factor of all that is above the
-  // horizon.
+  Rgb so_far_ = Rgb::Zero();  // with a tolerance: the light of the sources that are done, about
+  // Of the source at hand, with a tolerance: what holds for it, its normal, and the form factor of all that
+  // is above the horizon.
+  double tolerance_here_ = 0;
   Vec3 source_normal_ = Vec3::Zero();
   double whole_ = 0;
   double factor_ = 0;  // of the source at hand, so far

@@ -277,7 +277,9 @@ std::optional<double> HierarchicalSolver::Correct(LeafSampling sampling, const E
   const PointIrradiance irradiance(solution_, visibility_, {}, seen);
   std::vector<LeafIrradiance> exact(leaves.size());
   ParallelFor(leaves.size(), kExactGrain, [&](std::size_t i) {
-    if (!context.Cancelled()) exact[i] = ExactLeafIrradiance(solution_, irradiance, leaves[i], sampling);
+    if (!context.Cancelled())
+      exact[i] =
+          ExactLeafIrradiance(solution_, irradiance, leaves[i], sampling, options_.correction_tolerance);
   });
   if (context.Cancelled()) {
     Restore(std::move(before));

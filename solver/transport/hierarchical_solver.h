@@ -42,6 +42,9 @@ struct SolverOptions {
   bool multigrid = false;
   LinkFormFactors form_factors = LinkFormFactors::kCubature;
   int max_corrections = 2;  // passes of exact irradiance over the leaves; 0: links alone, as in the thesis
+  // What the points of corrections may leave out of their sources' detail (PointIrradiance::NearlyOnPatch);
+  // 0: nothing.
+  double correction_tolerance = 0;
   // About the largest relative error, where light arrives, that constant radiosity may cause: corrections cut
   // leaves into as many parts as that takes (LeafCells), after some passes with fewer. 0: only where contacts
   // cut them.

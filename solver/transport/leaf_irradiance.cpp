@@ -15,13 +15,18 @@ constexpr int kMostRefined = 1;
 }  // namespace
 
 LeafIrradiance ExactLeafIrradiance(const RadiositySolution& solution, const PointIrradiance& irradiance,
-                                   ElementId leaf, LeafSampling sampling) {
+                                   ElementId leaf, LeafSampling sampling, double tolerance) {
   const Element& element = solution.forest[leaf];
   ReceiverPoint at;
   at.normal = solution.forest.scene().patches[element.patch].normal;
+  const auto at_point = [&] {
+    return (tolerance > 0 ? irradiance.NearlyOnPatch(element.patch, at, tolerance)
+                          : irradiance.OnPatch(element.patch, at))
+        .irradiance;
+  };
   const auto mean_over = [&](std::span<const Vec3> polygon) -> Rgb {
     at.position = Centroid(polygon);
-    const Rgb centre = irradiance.OnPatch(element.patch, at).irradiance;
+    const Rgb centre = at_point();
     if (sampling == LeafSampling::kCentroid) return centre;
     for (int refinement = 0;; ++refinement) {
       // The centre tells whether the rule's points, evenly spaced, all fell on the stripes of a blind.
@@ -29,7 +34,7 @@ LeafIrradiance ExactLeafIrradiance(const RadiositySolution& solution, const Poin
       Rgb mean = Rgb::Zero();
       for (const CubaturePoint& point : Cubature(polygon, refinement)) {
         at.position = point.position;
-        const Rgb value = irradiance.OnPatch(element.patch, at).irradiance;
+        const Rgb value = at_point();
         mean += point.weight * value;
         lowest = lowest.min(value);
         highest = highest.max(value);

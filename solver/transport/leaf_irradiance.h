@@ -23,7 +23,9 @@ enum class LeafSampling : std::uint8_t {
   kCubature,  // a rule of degree 2 or 3, refined where its points disagree
 };
 
+// The means of irradiance at points; with a tolerance, which these may leave out of their sources' detail, by
+// PointIrradiance::NearlyOnPatch().
 LeafIrradiance ExactLeafIrradiance(const RadiositySolution& solution, const PointIrradiance& irradiance,
-                                   ElementId leaf, LeafSampling sampling);
+                                   ElementId leaf, LeafSampling sampling, double tolerance = 0);
 
 }  // namespace penumbra

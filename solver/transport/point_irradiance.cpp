@@ -1,6 +1,7 @@
 #include "solver/transport/point_irradiance.h"
 
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -77,6 +78,37 @@ PointIrradiance PointIrradiance::WithSources(SourceSet sources) const {
   return other;
 }
 
+// The same as GatherOnPatch(), the sources in the order of about the light that they would give unhindered.
+void PointIrradiance::GatherBrightestFirst(PatchId patch, const ReceiverPoint& at,
+                                           Gathering& gathering) const {
+  struct Ranked {
+    double light;
+    const PatchPair* pair;
+  };
+  thread_local std::vector<Ranked> ranked;
+  ranked.clear();
+  for (const PatchPair& pair : leaves_->SourcesOf(forest_->LeafAt(patch, at.position))) {
+    const std::span<const SourceSet::Node> tree = sources_.Tree(pair.source);
+    if (!tree.empty()) ranked.push_back({LightUnhindered(tree[0], pair.source, at), &pair});
+  }
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const Ranked& a, const Ranked& b) { return a.light > b.light; });
+  for (const auto& [light, pair] : ranked) gathering.AddSource(pair->source, leaves_->Blockers(*pair), patch);
+}
+
+// About the irradiance from a source that nothing hides, in its brightest channel [W/m^2].
+double PointIrradiance::LightUnhindered(const SourceSet::Node& source, PatchId patch,
+                                        const ReceiverPoint& at) const {
+  const Vec3 to = source.centre - at.position;
+  const double distance = std::max(to.norm(), source.radius);
+  const double high = std::min(1.0, (at.normal.dot(to) + source.radius) / distance);
+  const Vec3& normal = scene_.patches[static_cast<std::size_t>(patch)].normal;
+  const double deep = std::min(1.0, (source.radius - normal.dot(to)) / distance);
+  const double factor =
+      source.area * std::max(0.0, high) * std::max(0.0, deep) / (std::numbers::pi * distance * distance);
+  return source.radiosity.maxCoeff() * std::min(1.0, factor);
+}
+
 void PointIrradiance::GatherOnPatch(PatchId patch, const ReceiverPoint& at, Gathering& gathering) const {
   if (forest_ != nullptr) {
     for (const PatchPair& pair : leaves_->SourcesOf(forest_->LeafAt(patch, at.position)))
@@ -99,8 +131,12 @@ PointIrradianceResult PointIrradiance::NearlyOnPatch(PatchId patch, const Receiv
                                                      double tolerance) const {
   const ReceiverPoint at = Nudged(given);
   Gathering gathering(scene_, sources_, at, options_, nullptr);
-  if (options_.method == nullptr) gathering.SeeAsOne(tolerance);
-  GatherOnPatch(patch, at, gathering);
+  if (options_.method == nullptr && forest_ != nullptr) {
+    gathering.SeeAsOne(tolerance);
+    GatherBrightestFirst(patch, at, gathering);
+  } else {
+    GatherOnPatch(patch, at, gathering);
+  }
   return {gathering.irradiance(), gathering.one_sided()};
 }
 

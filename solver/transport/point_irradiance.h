@@ -70,6 +70,8 @@ class PointIrradiance {
   void BuildHierarchies();
   void ChooseMethod();
   void GatherOnPatch(PatchId patch, const ReceiverPoint& at, Gathering& gathering) const;
+  void GatherBrightestFirst(PatchId patch, const ReceiverPoint& at, Gathering& gathering) const;
+  double LightUnhindered(const SourceSet::Node& source, PatchId patch, const ReceiverPoint& at) const;
   ReceiverPoint Nudged(const ReceiverPoint& at) const;
 
   const Scene& scene_;
