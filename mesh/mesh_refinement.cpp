@@ -62,7 +62,7 @@ std::vector<Candidate> FindCandidates(const RefinedMesh& refined, double error) 
 RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolution& solution,
                        const IrradianceSampler& sampler, const MeshOptions& mesh_options,
                        const MeshRefinementOptions& options, const ExecutionContext& context,
-                       LocalPassCache* local_pass) {
+                       LocalPassCache* local_pass, const ElementForest* start) {
   PENUMBRA_CHECK(mesh_options.order != InterpolantOrder::kConstant);
   const Scene& scene = solution.forest.scene();
   double area = 0;
@@ -71,7 +71,7 @@ RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolutio
   std::optional<LocalPassCache> own;
   if (!local_pass) local_pass = &own.emplace(scene, visibility);
   RefinedMesh refined;
-  refined.forest = solution.forest;
+  refined.forest = start ? *start : solution.forest;
   MeshReport::Seconds seconds;
   std::size_t evaluations = 0;
   for (int round = 0;; ++round) {

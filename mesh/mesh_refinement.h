@@ -47,10 +47,11 @@ struct RefinedMesh {
 
 // Refines until the share is small enough, nothing is left to divide, or the most rounds are done. A round
 // divides the leaves that promise most for what they cost, and no more than it takes. Cancelled, it returns
-// an empty mesh. REQUIRES: the solution's quadtrees are balanced.
+// an empty mesh. Begins with the leaves of `start`, which was grown from the solution's quadtrees; with these
+// if it is null. REQUIRES: they are balanced.
 RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolution& solution,
                        const IrradianceSampler& sampler, const MeshOptions& mesh_options,
                        const MeshRefinementOptions& options, const ExecutionContext& context,
-                       LocalPassCache* local_pass = nullptr);
+                       LocalPassCache* local_pass = nullptr, const ElementForest* start = nullptr);
 
 }  // namespace penumbra

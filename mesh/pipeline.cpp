@@ -20,16 +20,17 @@ namespace {
 
 // The shares of the error that the interpolants and their sources may make, each at its 99th percentile:
 // seldom both at one point.
-constexpr double kInterpolantShare = 0.65, kSourceShare = 0.4;
+constexpr double kInterpolantShare = 0.65, kSourceShare = 0.25;
 // What interpolants' samples may leave out of their sources' detail, as a share of the error; and those of
-// the first look, whose means become the sources' light, so that what is off in all of them grows from bounce
-// to bounce.
-constexpr double kNearShare = 0.1, kFirstNearShare = 0.03;
-// The first look, which only sources are made of, takes edges of this times the least weight.
+// the looks before the last, whose means become the sources' light, so that what is off in all of them grows
+// from bounce to bounce.
+constexpr double kNearShare = 0.06, kFirstNearShare = 0.04;
+// Looks before the last, which only sources are made of, take edges of this times the least weight.
 constexpr double kFirstWeight = 2;
-// Sources are refined again while their means change by more than this share of the error, so many times.
+// Sources are refined again while their means will change by more than this share of the error, so many
+// times. The first passes choose how finely.
 constexpr double kSettledShare = 0.6;
-constexpr int kMostSourcePasses = 4;
+constexpr int kMostSourcePasses = 4, kCutChoices = 2;
 // Cells of sources are divided while their score is above this times the error.
 constexpr double kFinestScore = 1;
 // Random points that choose the sources, and at most that measure them.
@@ -119,18 +120,19 @@ struct Pipeline::Impl {
   }
 
   // Gives the leaves the means of the interpolants, and cuts those whose light varies too much for where it
-  // arrives. Returns how far those were from
-  // the leaves' (SourceCells::Change); nothing if it was cancelled.
-  std::optional<double> RefineSources(const ExecutionContext& context) {
+  // arrives: by the score, which is chosen where there is none. Returns how far the means were from the
+  // leaves' (SourceCells::Change); nothing if it was cancelled.
+  std::optional<double> RefineSources(std::optional<double>& score, const ExecutionContext& context) {
     const Stopwatch stopwatch;
     context.Report("refine sources", 0);
     const SourceCells cells = Cells();
     const double change = cells.Change();
-    const SourceCut cut =
-        ChooseSourceCut(solver->solution(), cells, Irradiance(), kFinestScore * options.error,
-                        kSourceShare * options.error, kCutPoints, options.seed + 1);
+    if (!score)
+      score = ChooseSourceCut(solver->solution(), cells, Irradiance(), kFinestScore * options.error,
+                              kSourceShare * options.error, kCutPoints, options.seed + 1)
+                  .score;
     const bool done = solver->CorrectTo(cells.LeafIrradiance(),
-                                        cells.Fragments(cut.cells, /*whole_leaves=*/false), context);
+                                        cells.Fragments(cells.Cut(*score), /*whole_leaves=*/false), context);
     irradiance.reset();
     AddPhase("iterate", stopwatch.Seconds());
     return done ? std::optional(change) : std::nullopt;
@@ -140,11 +142,17 @@ struct Pipeline::Impl {
   // is left to change comes back by the bounces between walls that face each other. False if it was
   // cancelled.
   bool SettleSources(const MeshOptions& first, MeshReport& done, const ExecutionContext& context) {
+    std::optional<double> score;
+    double before = 0;  // the change of the last pass
     for (int pass = 1;; ++pass) {
-      const std::optional<double> change = RefineSources(context);
+      if (pass <= kCutChoices) score.reset();
+      const std::optional<double> change = RefineSources(score, context);
       if (!change) return false;
-      if (*change <= kSettledShare * options.error || pass == kMostSourcePasses) return true;
-      if (!FirstLook(first, kFirstNearShare, done, context)) return false;
+      // Changes fall from pass to pass by about the same factor.
+      const double next = *change < before ? *change * *change / before : *change;
+      if (next <= kSettledShare * options.error || pass == kMostSourcePasses) return true;
+      before = *change;
+      if (!Refine(first, kFirstNearShare, done, context)) return false;
     }
   }
 
@@ -180,25 +188,33 @@ struct Pipeline::Impl {
   void RefineShown(const MeshOptions& mesh_options, const MeshOptions& first, MeshReport& done,
                    const ExecutionContext& context) {
     if (resolved.solver.source_error == 0 && !SettleSources(first, done, context)) return;
+    const std::optional<RefinedMesh> refined = Refine(mesh_options, kNearShare, done, context);
+    if (!refined || refined->share_above <= kShareAbove) return;
+    double area = 0;
+    for (const ElementId leaf : refined->unmet) area += mesh_forest[leaf].area;
+    report.unmet.push_back(fmt::format(
+        "interpolants: triangles on {:.2g} of the area err by more than {:.3g}; {} leaves of {:.3g} m^2 "
+        "together have the smallest area",
+        refined->share_above, kInterpolantShare * options.error, refined->unmet.size(), area));
+  }
+
+  // Refines the leaves of the present mesh by the error of their interpolants, and makes it anew. Adds to the
+  // report. What is returned has given its mesh away; nothing if it was cancelled.
+  std::optional<RefinedMesh> Refine(const MeshOptions& mesh_options, double near_share, MeshReport& done,
+                                    const ExecutionContext& context) {
     MeshRefinementOptions refinement;
     refinement.error = kInterpolantShare * options.error;
     refinement.min_area = resolved.solver.min_area;
     refinement.samples = options.error_samples;
-    RefinedMesh refined = RefineMesh(visibility, solver->solution(), NearSampler(kNearShare), mesh_options,
-                                     refinement, context, &LocalPass());
-    if (context.Cancelled()) return;
+    RefinedMesh refined = RefineMesh(visibility, solver->solution(), NearSampler(near_share), mesh_options,
+                                     refinement, context, &LocalPass(), &mesh_forest);
+    if (context.Cancelled()) return std::nullopt;
     mesh = std::move(refined.mesh);
     triangulations = std::move(refined.triangulations);
     mesh_forest = std::move(refined.forest);
     triangle_errors = std::move(refined.errors);
     TakeReport(refined.report, done);
-    if (refined.share_above <= kShareAbove) return;
-    double area = 0;
-    for (const ElementId leaf : refined.unmet) area += mesh_forest[leaf].area;
-    report.unmet.push_back(fmt::format(
-        "interpolants: triangles on {:.2g} of the area err by more than {:.3g}; {} leaves of {:.3g} m^2 "
-        "together have the smallest area",
-        refined.share_above, refinement.error, refined.unmet.size(), area));
+    return refined;
   }
 
   LocalPassCache& LocalPass() {

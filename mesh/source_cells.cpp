@@ -18,7 +18,7 @@ namespace {
 // How often a mesh triangle is quartered at most.
 constexpr int kMostQuartered = 3;
 // Deviations count relative to the radiosity around; in dark places to this share of the scene's mean.
-constexpr double kDark = 0.5;
+constexpr double kDark = 0.2;
 // Of Change(): the share of the area that may have changed by more, and of the mean irradiance that counts as
 // dark.
 constexpr double kChangedArea = 0.01, kDarkest = 0.01;
@@ -69,6 +69,7 @@ class Divider {
   void AddLeaf(ElementId leaf, std::uint32_t first, std::uint32_t end, std::span<const PatchPair> seen) {
     const Element& element = solution_.forest[leaf];
     const Scene& scene = solution_.forest.scene();
+    normal_ = scene.patches[static_cast<std::size_t>(element.patch)].normal;
     reflectance_ = scene.MaterialOf(element.patch).reflectance;
     FindNeighbours(element, seen);
     std::vector<QuadraticPiece> pieces;
@@ -145,15 +146,23 @@ class Divider {
     return DistanceToPolygon(other.Vertices(), other.normal, x);
   }
 
-  // About the largest form factor of the polygon to a point of another patch; of a polygon whose light
-  // averages out, which falls with one more power of the distance.
+  // About the largest form factor of the polygon to a point of another patch, with what comes back from there
+  // time after time; of a polygon whose light averages out, which falls with one more power of the distance.
   double ShareOfView(std::span<const Vec3> polygon) const {
+    const Scene& scene = solution_.forest.scene();
     const Vec3 centre = Centroid(polygon);
     const double size = Diameter(polygon);
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const auto& [distance, patch] : neighbours_) nearest = std::min(nearest, Distance(patch, centre));
-    const double gap = 1 + std::max(0.0, nearest / size - 0.5);
-    return 0.5 / (gap * gap * gap);
+    double share = 0;
+    for (const auto& [distance, id] : neighbours_) {
+      const Patch& patch = scene.patches[static_cast<std::size_t>(id)];
+      const double gap = 1 + std::max(0.0, Distance(id, centre) / size - 0.5);
+      // Of half-planes that meet at this angle, beside their edge.
+      const double wedge = 0.5 * (1 - normal_.dot(patch.normal));
+      const double factor = wedge / (gap * gap * gap);
+      const double returned = (reflectance_ * scene.MaterialOf(id).reflectance).maxCoeff() * factor * factor;
+      share = std::max(share, factor / (1 - returned));
+    }
+    return share;
   }
 
   const RadiositySolution& solution_;
@@ -161,6 +170,8 @@ class Divider {
   const Rgb mean_radiosity_;
   const double finest_;
   std::vector<SourceCell>& cells_;
+  // Of the leaf's patch.
+  Vec3 normal_ = Vec3::Zero();
   Rgb reflectance_ = Rgb::Zero();
   std::vector<std::pair<double, PatchId>> neighbours_;
 };
