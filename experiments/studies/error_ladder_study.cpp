@@ -64,9 +64,9 @@ void Climb(StudyLog& log, const ReferenceCase& test, const std::vector<double>& 
 
 void Run(StudyLog& log) {
   if (log.quick()) return Climb(log, LoadReferenceCase("floating-cube"), {0.1});
-  const std::vector<double> ladder = {0.05, 0.02, 0.01, 0.005};
-  for (const char* name : {"floating-cube", "box", "cornell", "office"})
-    Climb(log, LoadReferenceCase(name), ladder);
+  for (const char* name : {"floating-cube", "box", "cornell"})
+    Climb(log, LoadReferenceCase(name), {0.05, 0.02, 0.01, 0.005});
+  Climb(log, LoadReferenceCase("office"), {0.05, 0.02, 0.01});  // half of 0.005 would take an hour
 }
 
 }  // namespace
