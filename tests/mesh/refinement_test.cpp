@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <map>
+#include <set>
 
 #include "mesh/local_pass.h"
 #include "mesh/mesh_refinement.h"
@@ -91,6 +92,45 @@ TEST(SourceCells, CutsTileTheLeaves) {
     }
   }
   EXPECT_GT(before, solved.pipeline.solution().forest.AllLeaves().size());
+}
+
+// Quartered triangles are subtrees of the source set again: every node's parts tile it, and each fragment is
+// there once.
+TEST(SourceCells, QuartersHangTogether) {
+  Solved solved(0.1);
+  const SourceCells cells = solved.Cells(0.02);
+  const std::vector<Fragment> fragments = cells.Fragments(cells.Cut(0), true);
+  const SourceSet set = SourceSet::FromSolution(solved.pipeline.solution(), fragments);
+  constexpr double kRounding = 1e-12;  // of an area: sums of some hundred products of coordinates
+  std::set<std::int32_t> known;
+  std::int32_t last = -1;
+  int quartered = 0;
+  double worst = 0;
+  for (std::size_t p = 0; p < solved.scene.patches.size(); ++p) {
+    const std::span<const SourceSet::Node> tree = set.Tree(static_cast<PatchId>(p));
+    for (std::size_t i = 0; i < tree.size(); ++i) {
+      const SourceSet::Node& node = tree[i];
+      if (node.fragment >= 0 && node.fragment != last) {
+        last = node.fragment;
+        EXPECT_TRUE(known.insert(last).second) << last;
+      }
+      if (node.skip == 1) continue;
+      double parts = 0;
+      const std::size_t end = i + static_cast<std::size_t>(node.skip);
+      for (std::size_t k = i + 1; k < end; k += static_cast<std::size_t>(tree[k].skip)) parts += tree[k].area;
+      worst = std::max(worst, std::abs(parts / node.area - 1));
+      quartered += node.size == 3 ? 1 : 0;
+    }
+  }
+  const RadiositySolution& solution = solved.pipeline.solution();
+  const auto bright = std::count_if(fragments.begin(), fragments.end(), [&](const Fragment& fragment) {
+    return !set.Tree(solution.forest[fragment.leaf].patch).empty();  // that of a black patch is
+  });
+  EXPECT_EQ(known.size(), static_cast<std::size_t>(bright));
+  EXPECT_GT(quartered, 10);
+  std::printf("%zu fragments, %d quartered triangles, largest difference %.2g\n", fragments.size(), quartered,
+              worst);
+  EXPECT_LE(worst, kRounding);
 }
 
 // What a cut costs is told from one look at each point with the finest sources; solved with that cut, the
