@@ -74,7 +74,7 @@ void Run(StudyLog& log) {
 extern const Study kErrorLadderStudy;
 const Study kErrorLadderStudy = {
     "error-ladder",
-    "Seconds against the 99th percentile of the error of what is shown, for the "
+    "Seconds of processors against the 99th percentile of the error of what is shown, for the "
     "whole light",
     "The error that a user names is the error that a user gets, told truthfully, "
     "and not much less than that.",

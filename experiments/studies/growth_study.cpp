@@ -2,7 +2,6 @@
 
 #include <malloc.h>
 
-#include <ctime>
 #include <fstream>
 #include <string>
 
@@ -30,9 +29,6 @@ std::size_t PeakBytes() {
     if (line.starts_with("VmHWM:")) return 1024 * std::stoul(line.substr(6));  // given in KiB
   return 0;
 }
-
-// Of all threads [s].
-double ProcessorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct Measured {
   double patches, processor, links, bytes;

@@ -38,7 +38,8 @@ std::optional<Rgb> ShownAt(const Pipeline& pipeline, const ReceiverPoint& at);
 // The settings that the thesis gives for its office (7.1), and no refinement that it had not.
 PipelineOptions ThesisSettings();
 
-// A solve with its mesh: the median of the repeats' seconds, counts, and the errors of what is shown.
+// A solve with its mesh: the median of the repeats' seconds of processors, counts, and the errors of what is
+// shown.
 struct Measured {
   StudyRow row;
   std::unique_ptr<Pipeline> pipeline;  // the last of the repeats

@@ -70,7 +70,7 @@ extern const Study kRefinementStudy;
 const Study kRefinementStudy = {
     "refinement",
     "Refinement by transport, by representation and by both: the error of what is shown, at the points of "
-    "path-traced references, beyond two of their standard errors",
+    "path-traced references, beyond two of their standard errors; seconds of processors",
     "Representation-based refinement gives a better mesh for its size, and costs too many evaluations to be "
     "practical (Hardt 1996, 4.4.2).",
     "seconds",

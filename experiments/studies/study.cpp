@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -47,6 +48,12 @@ std::vector<ReferencePoint> ReadReference(const std::string& name) {
                       {value[9], value[10], value[11]}});
   }
   return points;
+}
+
+double ProcessorSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 double MedianSeconds(int repeats, const std::function<void()>& work) {

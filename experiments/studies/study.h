@@ -25,7 +25,7 @@ struct StudyRow {
   std::string method;        // a line in a plot
   std::string setting;       // what was varied, in words ("error 0.02")
   double parameter = kNone;  // the same as a number, where it is one
-  double seconds = kNone;    // wall clock, the median of the repeats
+  double seconds = kNone;  // the median of the repeats: wall clock, or of processors where the study says so
   // Errors as the study's title says: relative, unless it says otherwise.
   double error_rms = kNone, error_p95 = kNone, error_p99 = kNone, error_max = kNone;
   std::optional<std::size_t> elements, links, triangles, evaluations, bytes;
@@ -72,6 +72,9 @@ struct ReferencePoint {
 // The rows of a file with the header x,y,z,nx,ny,nz,Er,Eg,Eb,sr,sg,sb,... under the folder experiments/ of
 // the checkout, which is the working directory. Throws InputError where it cannot be read.
 std::vector<ReferencePoint> ReadReference(const std::string& name);
+
+// Of all threads of this process so far: differences do not depend on what else the machine does [s].
+double ProcessorSeconds();
 
 // The median of the wall-clock seconds of `repeats` calls.
 double MedianSeconds(int repeats, const std::function<void()>& work);

@@ -102,14 +102,15 @@ void Run(StudyLog& log) {
 }  // namespace
 
 extern const Study kWholeSystemStudy;
-const Study kWholeSystemStudy = {"whole-system",
-                                 "Seconds against the error of what is shown, at the points of path-traced "
-                                 "references; errors beyond two of their "
-                                 "standard errors",
-                                 "One number, the error that a user names, is met for the whole light, "
-                                 "faster than other programs reach it.",
-                                 "seconds",
-                                 "error_p95",
-                                 Run};
+const Study kWholeSystemStudy = {
+    "whole-system",
+    "Seconds of processors against the error of what is shown, at the points of path-traced "
+    "references; errors beyond two of their "
+    "standard errors",
+    "One number, the error that a user names, is met for the whole light, "
+    "faster than other programs reach it.",
+    "seconds",
+    "error_p95",
+    Run};
 
 }  // namespace penumbra
