@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -32,6 +33,14 @@ constexpr std::size_t kCrowd = 16;
 
 constexpr int kMostCuts = 12;  // lines of a cone, each of which may add a vertex to what it cuts
 constexpr int kLanes = 4;
+
+// A group of lines or vertices, worked on at once.
+using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
+
+// Not by value: that would depend on the processor.
+[[gnu::always_inline]] inline void Load(const double* from, Lanes* lanes) {
+  std::memcpy(lanes, from, sizeof *lanes);
+}
 
 // A convex polygon of the image, counter-clockwise.
 struct Piece {
@@ -181,11 +190,16 @@ Clipper::~Clipper() = default;
     // The edge of a piece of dust runs anywhere.
     if (std::abs(dx) + std::abs(dy) <= dust) continue;
     const double h = dy * piece.x[i] - dx * piece.y[i];
-    double highest = -1;
-    for (int group = 0; group < cone.padded; group += kLanes)
-      for (int k = group; k < group + kLanes; ++k)
-        highest = std::max(highest, dx * cone.vy[k] - dy * cone.vx[k] + h * cone.vw[k]);
-    if (highest <= 0) return true;
+    bool before = false;
+    for (int group = 0; group < cone.padded && !before; group += kLanes) {
+      Lanes x, y, w;
+      Load(&cone.vx[group], &x);
+      Load(&cone.vy[group], &y);
+      Load(&cone.vw[group], &w);
+      const Lanes height = dx * y - dy * x + h * w;
+      for (int k = 0; k < kLanes; ++k) before |= height[k] > 0;
+    }
+    if (!before) return true;
   }
   return false;
 }
@@ -200,16 +214,16 @@ Clipper::~Clipper() = default;
   std::uint32_t cutting = 0;
   int count = 0;
   for (int group = 0; group < cone.padded; group += kLanes) {
-    std::array<double, kLanes> lowest, highest;
-    lowest.fill(std::numeric_limits<double>::infinity());
-    highest.fill(-std::numeric_limits<double>::infinity());
-    for (int i = 0; i < piece.size; ++i)
-      for (int k = 0; k < kLanes; ++k) {
-        const double height =
-            cone.a[group + k] * piece.x[i] + cone.b[group + k] * piece.y[i] + cone.h[group + k];
-        lowest[k] = height < lowest[k] ? height : lowest[k];
-        highest[k] = height > highest[k] ? height : highest[k];
-      }
+    Lanes a, b, h;
+    Load(&cone.a[group], &a);
+    Load(&cone.b[group], &b);
+    Load(&cone.h[group], &h);
+    Lanes lowest = a * piece.x[0] + b * piece.y[0] + h, highest = lowest;
+    for (int i = 1; i < piece.size; ++i) {
+      const Lanes height = a * piece.x[i] + b * piece.y[i] + h;
+      lowest = height < lowest ? height : lowest;
+      highest = height > highest ? height : highest;
+    }
     bool beyond = false;
     for (int k = 0; k < kLanes; ++k) {
       beyond |= highest[k] <= snap;
