@@ -86,9 +86,12 @@ Scene ReadChangedScene(const SceneArguments& arguments) {
   return scene;
 }
 
-LoadedScene ReadSolution(const SceneArguments& arguments) {
-  RefuseSceneOptions(arguments);
-  const std::string& path = arguments.scene;
+}  // namespace
+
+LoadedScene LoadSolution(const std::string& path) {
+  if (!IsSolution(path))
+    throw InputError(fmt::format("{}: error: {}; give a solution that `penumbra solve -o` wrote", path,
+                                 IsFile(path) ? "it is no solution" : "there is no such file"));
   std::error_code ignored;
   const std::string bytes = ReadBytes(path, std::filesystem::file_size(path, ignored));
   StoredSolution solution = DecodeSolution(bytes, path);
@@ -106,8 +109,6 @@ LoadedScene ReadSolution(const SceneArguments& arguments) {
   }
   return loaded;
 }
-
-}  // namespace
 
 void AddSceneArguments(CLI::App& app, SceneArguments* arguments) {
   arguments->app = &app;
@@ -410,7 +411,8 @@ LoadedScene LoadScene(const SceneArguments& arguments) {
   SetThreadCount(arguments.threads);
   const Stopwatch reading;
   const bool is_solution = IsSolution(arguments.scene);
-  LoadedScene loaded = is_solution ? ReadSolution(arguments)
+  if (is_solution) RefuseSceneOptions(arguments);
+  LoadedScene loaded = is_solution ? LoadSolution(arguments.scene)
                                    : LoadedScene{std::make_unique<const Scene>(ReadChangedScene(arguments))};
   loaded.seconds = reading.Seconds();
   if (!is_solution)

@@ -58,10 +58,14 @@ struct LoadedScene {
   const Scene& scene = *owner;
   double seconds = 0;                              // that reading it took
   std::optional<StoredRun> stored = std::nullopt;  // of a solution file
+  // Of a solution of the same geometry, whose links another solve begins with: LoadRestart().
+  std::optional<StoredRun> restart = std::nullopt;
 };
 
 // Sets the number of threads and reads the scene, or the solution with its scene; warnings of scenes go to
 // standard error. Throws InputError, and UsageError if options of reading or solving come with a solution.
 LoadedScene LoadScene(const SceneArguments& arguments);
+// Reads a solution file. Throws InputError if it is none.
+LoadedScene LoadSolution(const std::string& path);
 
 }  // namespace penumbra

@@ -15,8 +15,9 @@ namespace penumbra {
 namespace {
 
 Pipeline StartPipeline(const SceneArguments& arguments, LoadedScene& loaded) {
-  return loaded.stored ? Pipeline(loaded.scene, loaded.stored->solving, std::move(loaded.stored->state))
-                       : Pipeline(loaded.scene, arguments.solving);
+  if (loaded.stored) return Pipeline(loaded.scene, loaded.stored->solving, std::move(loaded.stored->state));
+  if (loaded.restart) return Pipeline(loaded.scene, arguments.solving, std::move(loaded.restart->state));
+  return Pipeline(loaded.scene, arguments.solving);
 }
 
 // What a file keeps of the options: the same for every number of threads.
@@ -59,6 +60,7 @@ SolveRun::SolveRun(const SceneArguments& arguments, LoadedScene& loaded,
     : arguments_(arguments),
       load_seconds_(loaded.seconds),
       stored_(loaded.stored.has_value()),
+      restarts_(loaded.restart.has_value()),
       pipeline_(StartPipeline(arguments, loaded)),
       options_(StartOptions(arguments, loaded, pipeline_)) {
   options_.update(command_options);
@@ -67,7 +69,10 @@ SolveRun::SolveRun(const SceneArguments& arguments, LoadedScene& loaded,
 
 void SolveRun::Run(std::optional<MeshKind> kind, bool measure) {
   RunInterruptible([&](const ExecutionContext& context) {
-    if (!stored_) pipeline_.Solve(context);
+    if (restarts_)
+      pipeline_.SolveOverLinks(context);
+    else if (!stored_)
+      pipeline_.Solve(context);
     // What interpolants show refines the sources, which are the same whatever is made of them.
     const bool refines = !arguments_.solving.dense && arguments_.solving.refine != RefineBy::kTransport;
     if (!stored_ && refines && !context.Cancelled()) pipeline_.BuildMesh(MeshKind::kInterpolant, context);

@@ -30,8 +30,9 @@ class SolveRun {
   SolveRun(const SceneArguments& arguments, LoadedScene& loaded,
            const nlohmann::ordered_json& command_options = nlohmann::ordered_json::object());
 
-  // Solves and builds the mesh, if one is wanted; measures it, too, where someone asked for a report. A
-  // stored solution is solved and measured already. Throws Interrupted.
+  // Solves, over the links of LoadedScene::restart if there are such, and builds the mesh, if one is wanted;
+  // measures it, too, where someone asked for a report. A stored solution is solved and measured already.
+  // Throws Interrupted.
   void Run(std::optional<MeshKind> kind, bool measure);
 
   // Writes the report to its file, if it was asked for, and the table to standard error, with -v.
@@ -45,7 +46,7 @@ class SolveRun {
  private:
   const SceneArguments& arguments_;
   double load_seconds_;
-  bool stored_;
+  bool stored_, restarts_;
   Pipeline pipeline_;
   nlohmann::ordered_json options_;
 };

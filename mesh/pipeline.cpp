@@ -283,6 +283,16 @@ struct Pipeline::Impl {
     mesh_kind.reset();
   }
 
+  // The solution that another one made, which a step begins with or drops; what that one told is gone.
+  RadiositySolution TakeStored() {
+    RadiositySolution solution = std::move(*stored);
+    stored.reset();
+    Forget();
+    report = {};
+    report.error_asked = options.error;
+    return solution;
+  }
+
   void Count() {
     const RadiositySolution& solution = Solution();
     PipelineReport::Counts& counts = report.counts;
@@ -320,12 +330,7 @@ void Pipeline::Link(const ExecutionContext& context) {
   if (impl_->solver && impl_->solver->Linked()) return;
   context.Report("link", 0);
   const Stopwatch linking;
-  if (impl_->stored) {
-    impl_->stored.reset();
-    impl_->Forget();
-    impl_->report = {};
-    impl_->report.error_asked = impl_->options.error;
-  }
+  if (impl_->stored) impl_->TakeStored();
   impl_->local_pass.reset();
   if (impl_->solver) impl_->Forget();  // of a linking that was cancelled
   impl_->visibility = PatchVisibility(impl_->scene, context);
@@ -367,11 +372,36 @@ bool Pipeline::SubdivideLeaves(std::span<const ElementId> leaves, const Executio
   });
 }
 
-bool Pipeline::Relight(const ExecutionContext& context) {
+std::optional<IterationReport> Pipeline::Relight(const ExecutionContext& context) {
+  if (impl_->stored) {
+    const Stopwatch linking;
+    impl_->solver = std::make_unique<HierarchicalSolver>(impl_->scene, impl_->visibility,
+                                                         impl_->resolved.solver, impl_->TakeStored());
+    impl_->AddPhase("link", linking.Seconds());
+  }
   Link(context);
-  return impl_->Run(context, [](HierarchicalSolver& solver, const ExecutionContext& running) {
-    return solver.Relight(running);
+  std::optional<IterationReport> report;
+  impl_->Run(context, [&](HierarchicalSolver& solver, const ExecutionContext& running) {
+    report = solver.Relight(running);
+    return report.has_value();
   });
+  if (report) impl_->report.iterations.push_back(*report);
+  return report;
+}
+
+void Pipeline::SolveOverLinks(const ExecutionContext& context) {
+  impl_->begun = RunLimits::Clock::now();
+  const RunLimits limits(context, impl_->options.time_limit, impl_->options.memory_limit, *impl_->begun);
+  const ExecutionContext& running = limits.context();
+  running.Report("iterate", 0);
+  const std::optional<IterationReport> relit = Relight(running);
+  if (relit && relit->residual > impl_->resolved.solver.relative_cutoff)
+    impl_->report.unmet.push_back(fmt::format("iterate: {} sweeps over the links left a residual of {:.2g}",
+                                              relit->sweeps, relit->residual));
+  const bool corrected = relit && Correct(running);
+  if (const std::optional<std::string> limit = limits.Exceeded(); limit && !corrected)
+    impl_->report.unmet.push_back(fmt::format("iterate: ended by {}, {} and not corrected", *limit,
+                                              relit ? "lit anew" : "with the light of before"));
 }
 
 void Pipeline::Solve(const ExecutionContext& context) {

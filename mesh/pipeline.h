@@ -143,7 +143,7 @@ class Pipeline {
  public:
   Pipeline(const Scene& scene, const PipelineOptions& options);
   // Shows what another one, with this scene and these options, had solved and meshed. BuildMesh() makes other
-  // kinds of it; a step of the solver drops it, and begins anew.
+  // kinds of it; Relight() goes on from it; other steps of the solver drop it, and begin anew.
   Pipeline(const Scene& scene, const PipelineOptions& options, PipelineState state);
   ~Pipeline();
 
@@ -172,9 +172,12 @@ class Pipeline {
   // Splits the leaves, keeps all others, links the new ones, and lights them from the present light
   // (HierarchicalSolver::SubdivideLeaves). Takes corrections back. False if it was cancelled.
   bool SubdivideLeaves(std::span<const ElementId> leaves, const ExecutionContext& context);
-  // Lights the scene anew after the caller has changed its emittances or reflectances, over the links there
-  // are. Takes corrections back. False if it was cancelled.
-  bool Relight(const ExecutionContext& context);
+  // Lights the scene anew after its emittances or reflectances were changed, over the links there are, those
+  // of a state that the pipeline began with too. Takes corrections back. Nothing if it was cancelled.
+  std::optional<IterationReport> Relight(const ExecutionContext& context);
+  // Relight() and Correct(), within the same limits as Solve(): the light of other materials without new form
+  // factors. No link is judged or refined.
+  void SolveOverLinks(const ExecutionContext& context);
 
   // Stages discontinuities, triangulate, interpolate, for what a display mode needs, from the solution as it
   // is. For interpolants, unless transport alone is asked for, they then refine the solution's sources, and

@@ -194,18 +194,23 @@ bool HierarchicalSolver::SubdivideLeaves(std::span<const ElementId> leaves, cons
   return going;
 }
 
-bool HierarchicalSolver::Relight(const ExecutionContext& context) {
+std::optional<IterationReport> HierarchicalSolver::Relight(const ExecutionContext& context) {
+  const Stopwatch stopwatch;
   Snapshot before = TakeSnapshot();
   TakeCorrectionsBack();
   for (const ElementId leaf : push_pull_->leaves()) push_pull_->Light(leaf, solution_.irradiance[leaf]);
   push_pull_->Pull();
-  IterationReport ignored;
-  if (!Settle(options_.relative_cutoff, ignored, context)) {
+  IterationReport report;
+  if (!Settle(options_.relative_cutoff, report, context)) {
     Restore(std::move(before));
-    return false;
+    return std::nullopt;
   }
   converged_ = false;
-  return true;
+  report.eps = options_.eps;
+  report.elements = solution_.forest.size();
+  report.links = solution_.links.links.size();
+  report.seconds = stopwatch.Seconds();
+  return report;
 }
 
 std::optional<double> HierarchicalSolver::CorrectByCells(double error, const ExecutionContext& context) {

@@ -88,8 +88,8 @@ class HierarchicalSolver {
 
   // Gathers until the light settles after the scene's emittances or reflectances have changed, over the links
   // there are; no form factor is computed. The light is linear in the emittances. Takes corrections back:
-  // Correct() or Iterate() may follow. False if cancelled.
-  bool Relight(const ExecutionContext& context);
+  // Correct() or Iterate() may follow. Returns what it did; nothing if cancelled.
+  std::optional<IterationReport> Relight(const ExecutionContext& context);
 
   // One pass of deferred correction. Returns the root mean square change of the leaves' irradiance, relative
   // to its mean; nothing if cancelled. An iteration that refines takes corrections back. With source_error

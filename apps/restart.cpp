@@ -1,0 +1,58 @@
+#include "apps/restart.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "apps/commands.h"
+#include "mesh/solution_check.h"
+#include "solver/scene/geometry_difference.h"
+
+namespace penumbra {
+namespace {
+
+// Options of how links are made, which is done.
+constexpr const char* kLinkOptions[] = {"--eps",          "--iterations", "--oracle", "--multigrid",
+                                        "--form-factors", "--solver",     "--basis",  "--divisions"};
+
+void TakeLinkOptions(const PipelineOptions& from, PipelineOptions& to) {
+  to.eps = from.eps;
+  to.max_iterations = from.max_iterations;
+  to.oracle = from.oracle;
+  to.multigrid = from.multigrid;
+  to.form_factors = from.form_factors;
+}
+
+}  // namespace
+
+LoadedScene LoadRestart(SceneArguments& arguments, const std::string& from) {
+  for (const char* name : kLinkOptions)
+    if (arguments.app && arguments.app->get_option(name)->count() > 0)
+      throw UsageError(fmt::format(
+          "{} says how links are made, but --restart keeps those of '{}'; leave one of the two out", name,
+          from));
+  LoadedScene loaded = LoadScene(arguments);
+  if (loaded.stored) return loaded;
+  LoadedScene solved = LoadSolution(from);
+  StoredRun run = std::move(*solved.stored);
+  if (run.solving.dense)
+    throw InputError(
+        fmt::format("{}: error: the dense solver made it, which keeps no links; solve the scene anew", from));
+  if (run.state.report.iterations.empty())
+    throw InputError(
+        fmt::format("{}: error: its solve ended before it had links; solve the scene anew", from));
+  if (const std::optional<std::string> difference = GeometryDifference(solved.scene, loaded.scene))
+    throw InputError(
+        fmt::format("{}: error: it is no solution of '{}' with other materials: {}; solve the scene anew",
+                    from, arguments.scene, *difference));
+  // The same elements, of patches with other materials.
+  ElementForest& forest = run.state.solution.forest;
+  forest = RestoreForest(loaded.scene, forest.elements());
+  TakeLinkOptions(run.solving, arguments.solving);
+  loaded.restart = std::move(run);
+  return loaded;
+}
+
+}  // namespace penumbra
