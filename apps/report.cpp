@@ -72,15 +72,18 @@ Json DiagnosticsJson(const PipelineReport& report) {
   const LinkDiagnostics& links = report.links;
   Json bounces = Json::array();
   for (const Rgb& bounce : report.bounces) bounces.push_back(RgbJson(bounce));
-  Json json = {
-      {"closure", {{"min", links.closure_min}, {"max", links.closure_max}, {"mean", links.closure_mean}}},
-      {"reciprocity",
-       {{"link_pairs", links.link_pairs},
-        {"link_worst", links.link_reciprocity},
-        {"patch_pairs", links.patch_pairs},
-        {"patch_worst", links.patch_reciprocity}}},
-      {"open", {{"rays", report.views.rays}, {"escaping", report.views.escaping}}},
-      {"reversed_faces", report.views.reversed_faces}};
+  Json json = {{"closure",
+                {{"min", links.closure_min},
+                 {"max", links.closure_max},
+                 {"mean", links.closure_mean},
+                 {"covered_area", links.covered_area}}},
+               {"reciprocity",
+                {{"link_pairs", links.link_pairs},
+                 {"link_worst", links.link_reciprocity},
+                 {"patch_pairs", links.patch_pairs},
+                 {"patch_worst", links.patch_reciprocity}}},
+               {"open", {{"rays", report.views.rays}, {"escaping", report.views.escaping}}},
+               {"reversed_faces", report.views.reversed_faces}};
   if (!bounces.empty()) json["bounces"] = bounces;
   return json;
 }
@@ -214,11 +217,11 @@ std::string ReportTable(const RunReport& report) {
 
   const LinkDiagnostics& links = pipeline.links;
   table += fmt::format(
-      "Form factors\n   sums of patches {:.6g} to {:.6g}, mean {:.6g}; reciprocity of {} patch pairs: worst "
-      "{:.2g}\n"
+      "Form factors\n   sums of patches per free area {:.6g} to {:.6g}, mean {:.6g}; {:.6g} m^2 are covered\n"
+      "   reciprocity of {} patch pairs: worst {:.2g}\n"
       "   {:.3g} % of what surfaces send out evenly leaves the scene; {} faces see nothing but backs\n",
-      links.closure_min, links.closure_max, links.closure_mean, links.patch_pairs, links.patch_reciprocity,
-      100 * pipeline.views.escaping, pipeline.views.reversed_faces.size());
+      links.closure_min, links.closure_max, links.closure_mean, links.covered_area, links.patch_pairs,
+      links.patch_reciprocity, 100 * pipeline.views.escaping, pipeline.views.reversed_faces.size());
   if (!pipeline.iterations.empty()) {
     table += "Iterations\n";
     for (const IterationReport& i : pipeline.iterations)

@@ -7,6 +7,7 @@
 #include "solver/base/parallel.h"
 #include "solver/scene/tolerances.h"
 #include "solver/transport/diffuse_rays.h"
+#include "solver/transport/free_area.h"
 #include "solver/visibility/ray_caster.h"
 
 namespace penumbra {
@@ -63,17 +64,19 @@ LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution) {
         diagnostics.patch_reciprocity,
         std::abs(difference) / std::min(scene.patches[pair.first].area, scene.patches[pair.second].area));
   }
-  if (scene.patches.empty()) return diagnostics;
+  const std::vector<double> free_area = FreeAreas(scene);
   double flux = 0, area = 0;
   for (std::size_t p = 0; p < scene.patches.size(); ++p) {
+    diagnostics.covered_area += scene.patches[p].area - free_area[p];
+    if (free_area[p] == 0) continue;
     flux += diagnostics.closure[p];
-    area += scene.patches[p].area;
-    diagnostics.closure[p] /= scene.patches[p].area;
+    double& closure = diagnostics.closure[p];
+    closure /= free_area[p];
+    diagnostics.closure_min = area == 0 ? closure : std::min(diagnostics.closure_min, closure);
+    diagnostics.closure_max = std::max(diagnostics.closure_max, closure);
+    area += free_area[p];
   }
-  const auto [least, most] = std::minmax_element(diagnostics.closure.begin(), diagnostics.closure.end());
-  diagnostics.closure_min = *least;
-  diagnostics.closure_max = *most;
-  diagnostics.closure_mean = flux / area;
+  if (area > 0) diagnostics.closure_mean = flux / area;
   return diagnostics;
 }
 

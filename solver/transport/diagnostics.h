@@ -14,11 +14,13 @@
 namespace penumbra {
 
 struct LinkDiagnostics {
-  // Per patch: the area-weighted sum of the form factors of all links that end in its tree [1]. In a closed
-  // scene it is 1, but for the error of the links; of a patch that is partly covered, its free share.
+  // Per patch: the sum of the form factors of all links that end in its tree, weighted by area and per free
+  // area of the patch (FreeAreas) [1]. In a closed scene it is 1, but for the error of the links. 0 of a
+  // patch that is wholly covered, which counts for none of the following.
   std::vector<double> closure;
   double closure_min = 0, closure_max = 0;
-  double closure_mean = 0;  // weighted by area
+  double closure_mean = 0;  // weighted by free area
+  double covered_area = 0;  // of all patches [m^2]
 
   // Reciprocity: |A1 F12 - A2 F21| / min(A1, A2) [1], of pairs of links between the same two elements (links
   // are split one way at a time, so that few have such a counterpart), and of all pairs of patches, each with

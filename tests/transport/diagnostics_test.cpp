@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "solver/transport/free_area.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra::scene_test {
@@ -38,6 +39,24 @@ TEST(DiagnoseLinks, ClosureOfBoxes) {
   const LinkDiagnostics links = DiagnoseLinks(Solved(open, 0.2));
   // Opposite squares of a cube see 0.1998 of each other, neighbours 0.2000.
   for (const double closure : links.closure) EXPECT_NEAR(closure, 0.8, 2e-3);
+}
+
+// What stands on a floor covers its foot, and of itself the side that lies on the floor sees nothing at all.
+TEST(FreeAreas, OfAFloorUnderFurniture) {
+  Scene scene;
+  AddMaterial(scene, 0.5, 1);
+  AddBox(scene, Vec3::Zero(), {4, 4, 3}, true, 0);
+  AddBox(scene, {1, 1, 0}, {1.5, 2, 1}, false, 0);          // patches 6 to 11, the first is its bottom
+  AddBox(scene, {2.5, 2.5, 0}, {2.6, 2.6, 0.7}, false, 0);  // 12 to 17
+  const std::vector<double> free_area = FreeAreas(scene);
+  EXPECT_NEAR(free_area[0], 16 - 0.5 - 0.01, 1e-9);
+  EXPECT_EQ(free_area[6], 0);
+  EXPECT_EQ(free_area[12], 0);
+  for (const std::size_t p : {1, 2, 7, 8, 13, 14}) EXPECT_EQ(free_area[p], scene.patches[p].area) << p;
+  // In the open an even light fills the hemisphere of no front: a lone square sees nothing.
+  Scene square = scene;
+  square.patches.resize(1);
+  EXPECT_EQ(FreeAreas(square), std::vector<double>{0});
 }
 
 // Links that are lit from one side only are found: a form factor that is changed breaks reciprocity by as
