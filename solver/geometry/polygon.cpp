@@ -1,15 +1,34 @@
 #include "solver/geometry/polygon.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/base/check.h"
 
 namespace penumbra {
+namespace {
+
+// A triangle whose sides make an angle of this sine or less loses three digits or more in their cross
+// product.
+constexpr double kThin = 1e-3;
+
+// Twice the vector area of the triangle. That of a thin one is as good as its two shorter sides are: from two
+// long ones its normal would be turned by their rounding over its width, along its length too.
+Vec3 TwiceTriangle(const Vec3& p, const Vec3& q, const Vec3& r) {
+  const Vec3 a = q - p, b = r - p, area = a.cross(b);
+  const double aa = a.squaredNorm(), bb = b.squaredNorm();
+  if (area.squaredNorm() > kThin * kThin * aa * bb) return area;
+  const Vec3 c = r - q;
+  const double longest = std::max({aa, bb, c.squaredNorm()});
+  return aa == longest ? b.cross(c) : bb == longest ? a.cross(c) : area;
+}
+
+}  // namespace
 
 Vec3 VectorArea(std::span<const Vec3> polygon) {
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 2; i < polygon.size(); ++i)
-    sum += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
+    sum += TwiceTriangle(polygon[0], polygon[i - 1], polygon[i]);
   return 0.5 * sum;
 }
 

@@ -33,7 +33,7 @@ constexpr double kOpposite = 0.01;
 using Heights = std::array<double, DirectionPolygon::kCapacity>;
 
 // The part of the polygon above a plane, from the heights of its vertices. `crossing` makes the direction
-// where an edge meets the plane.
+// where an edge meets the plane, from its ends and their heights, of which one is above and one below.
 template <class Crossing>
 DirectionPolygon PartAbove(const DirectionPolygon& polygon, const Heights& height, const Crossing& crossing) {
   bool any_above = false, any_below = false;
@@ -48,14 +48,13 @@ DirectionPolygon PartAbove(const DirectionPolygon& polygon, const Heights& heigh
     const int j = i + 1 == polygon.size() ? 0 : i + 1;
     const double ha = height[static_cast<std::size_t>(i)], hb = height[static_cast<std::size_t>(j)];
     if (ha >= 0) above.Add(polygon[i]);
-    if ((ha > 0 && hb < 0) || (ha < 0 && hb > 0))
-      above.Add(crossing(polygon[i], polygon[j], std::abs(ha), std::abs(hb)));
+    if ((ha > 0 && hb < 0) || (ha < 0 && hb > 0)) above.Add(crossing(polygon[i], polygon[j], ha, hb));
   }
   return above;
 }
 
 const auto kBetween = [](const Vec3& a, const Vec3& b, double ha, double hb) -> Vec3 {
-  return (hb * a + ha * b) / (ha + hb);
+  return (std::abs(hb) * a + std::abs(ha) * b) / (std::abs(ha) + std::abs(hb));
 };
 
 // How far the height of v above a plane of the cone may be off by rounding.
@@ -63,14 +62,30 @@ double HeightRoundingOf(const Cone& cone, const Vec3& v) {
   return cone.rounding + kHeightError * v.cwiseAbs().sum();
 }
 
-// The direction in which the edge from a to b meets a plane through the point: what is interpolated keeps few
-// digits where the edge passes close by.
+// Where an edge passes the point so closely, or crosses a plane so flatly, that the triple product of plane
+// and ends is below this, relative to their lengths, roundings turn n x (a x b) by more than 1e-10.
+constexpr double kFlat = 1e-6;
+
+// The direction in which the edge from a to b meets a plane through the point: n x m, m = a x b, which may
+// point to the wrong side of the point where the edge is flat. There it is a point of the edge by the heights
+// of its ends, with more digits, since few are left where the edge is near. Elsewhere the great circle of the
+// edge turns about m and sinks through the plane opposite to n x m, if a is above.
 struct CrossingOf {
   const Vec3& plane;
 
   Vec3 operator()(const Vec3& a, const Vec3& b, double ha, double hb) const {
-    const Vec3 c = plane.cross(EdgeNormal(a, b)) / (ha + hb);
-    return c.dot(hb * a + ha * b) < 0 ? Vec3(-c) : c;
+    const Vec3 c = plane.cross(EdgeNormal(a, b));
+    if (c.squaredNorm() < kFlat * kFlat * a.squaredNorm() * b.squaredNorm()) return Between(a, b);
+    const double scale = std::abs(ha) + std::abs(hb);
+    return c / (ha > 0 ? -scale : scale);
+  }
+
+ private:
+  Vec3 Between(const Vec3& a, const Vec3& b) const {
+    using Long = Eigen::Matrix<long double, 3, 1>;
+    const Long n = plane.cast<long double>(), p = a.cast<long double>(), q = b.cast<long double>();
+    const long double hp = std::abs(n.dot(p)), hq = std::abs(n.dot(q));
+    return ((hq * p + hp * q) / (hp + hq)).cast<double>();
   }
 };
 

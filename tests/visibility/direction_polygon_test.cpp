@@ -92,6 +92,31 @@ TEST(DirectionPolygon, ManyVerticesDoNotOverflow) {
   }
 }
 
+// What is above the horizon of a wall whose foot runs close by and almost within the horizon is half of the
+// hemisphere, however the foot's ends lie above and below by little more than rounding: where the foot
+// meets the horizon is then anybody's guess, but not on which side of the point.
+TEST(DirectionPolygon, AFootInTheHorizonIsCutOnItsOwnSide) {
+  Random random(504);
+  double worst = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Motion motion = RandomMotion(random, 2);
+    const double away = random.LogUniform(1e-8, 1e-5), middle = random.Uniform(0.1, 0.9);
+    // Seen by rounding alone, or by as much as the end of the foot is turned out of the plane.
+    const double rise = random.LogUniform(1e-16, 1e-11) * (random.Index(2) == 0 ? 1 : -1);
+    const Polygon3 wall = {motion({0, -middle, rise}), motion({0, 1 - middle, -rise}),
+                           motion({0, 1 - middle, 1}), motion({0, -middle, 1})};
+    ReceiverPoint at;
+    at.position = motion({away, 0, 0});
+    at.normal = motion.turn * Vec3::UnitZ();
+    const double factor = FormFactor(ClipToHorizon(at, Seen(at, wall, true), 4), at.normal);
+    worst = std::max(worst, std::abs(factor - 0.5));
+  }
+  // Of the half beyond the wall's ends and over its top: (away / 2)(1 + 1 / 0.1), at most; and the foot's
+  // height as seen from the point, 1e-11 / 1e-8, where it lies farthest from the plane.
+  std::printf("seed 504, largest error %.2g\n", worst);
+  EXPECT_LE(worst, 2e-3);
+}
+
 // Cuts at a plane that contains an edge, but for rounding, cut nothing off.
 TEST(DirectionPolygon, CoincidentPlanesCutNothing) {
   Random random(503);
