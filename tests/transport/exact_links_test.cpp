@@ -3,13 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <map>
 
 #include "solver/scene/named_scene.h"
 #include "solver/transport/diagnostics.h"
+#include "test_paths.h"
 #include "tests/transport/transport_test_tools.h"
-#include "tests/transport/truth_files.h"
 
 namespace penumbra {
 namespace {
@@ -112,9 +111,7 @@ TEST(ExactLinks, CloseAndAreReciprocal) {
 // The scene that other programs were measured with: a block, 0.3 m square and turned by 20 degrees, stands on
 // the uncut floor. View3D's sums of rows reach 1.044 there.
 TEST(ExactLinks, CloseInTheSceneOfThePeers) {
-  const std::filesystem::path file = truth::SharedFolder() / "peers" / "box.obj";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no scene of the peers beside the checkout";
-  const Scene scene = ReadNamedScene(file.string(), {});
+  const Scene scene = ReadNamedScene(PENUMBRA_SOURCE_DIR "/experiments/peers/box.obj", {});
   const PatchVisibility visibility(scene);
   SolverOptions options;
   options.eps = 0.1;

@@ -21,15 +21,11 @@ namespace penumbra::truth {
 
 using nlohmann::json;
 
-// What is shared by all checkouts: beside this one.
-inline std::filesystem::path SharedFolder() {
-  return std::filesystem::path(PENUMBRA_SOURCE_DIR) / ".." / "shared";
-}
-
 // The file, or null where it is not at hand.
 inline json Load(const std::string& name) {
   const char* given = std::getenv("PENUMBRA_TRUTH");
-  const std::filesystem::path folder = given ? given : SharedFolder() / "truth";
+  const std::filesystem::path folder =
+      given ? given : std::filesystem::path(PENUMBRA_SOURCE_DIR) / ".." / "shared" / "truth";
   std::ifstream file(folder / name);
   return file ? json::parse(file) : json();
 }
