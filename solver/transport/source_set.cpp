@@ -27,14 +27,15 @@ void AppendFan(const Fragment& fragment, std::size_t number, std::vector<SourceS
 }
 
 // A fragment, or a triangle of which the four pieces before it in the list are the quarters.
-struct Piece {
+struct CellTriangle {
   std::array<Vec3, 3> corner;
   std::size_t fragment = 0;
   std::size_t pieces = 1;  // that it consists of, itself counted; they precede it
 };
 
 // Whether the four are the quarters of a triangle, in the order of its corners and the middle one last.
-bool AreQuarters(const Piece& a, const Piece& b, const Piece& c, const Piece& middle) {
+bool AreQuarters(const CellTriangle& a, const CellTriangle& b, const CellTriangle& c,
+                 const CellTriangle& middle) {
   return a.corner[1] == b.corner[0] && b.corner[2] == c.corner[1] && c.corner[0] == a.corner[2] &&
          middle.corner[0] == b.corner[2] && middle.corner[1] == a.corner[2] &&
          middle.corner[2] == a.corner[1];
@@ -42,8 +43,8 @@ bool AreQuarters(const Piece& a, const Piece& b, const Piece& c, const Piece& mi
 
 // The fragments in their order, each followed by the triangle that it completes the quarters of, if any: a
 // quartered triangle that is far or hidden as a whole need not be looked at quarter by quarter.
-std::vector<Piece> JoinQuarters(std::span<const Fragment> fragments) {
-  std::vector<Piece> pieces;
+std::vector<CellTriangle> JoinQuarters(std::span<const Fragment> fragments) {
+  std::vector<CellTriangle> pieces;
   std::vector<std::size_t> open;  // those that are parts of nothing yet
   for (std::size_t f = 0; f < fragments.size(); ++f) {
     const Polygon3& polygon = fragments[f].polygon;
@@ -56,9 +57,10 @@ std::vector<Piece> JoinQuarters(std::span<const Fragment> fragments) {
     open.push_back(pieces.size() - 1);
     while (open.size() >= 4) {
       const std::size_t* last = &open[open.size() - 4];
-      const Piece &a = pieces[last[0]], &b = pieces[last[1]], &c = pieces[last[2]], &middle = pieces[last[3]];
+      const CellTriangle &a = pieces[last[0]], &b = pieces[last[1]], &c = pieces[last[2]],
+                         &middle = pieces[last[3]];
       if (!AreQuarters(a, b, c, middle)) break;
-      const Piece whole = {
+      const CellTriangle whole = {
           {a.corner[0], b.corner[1], c.corner[2]}, 0, 1 + a.pieces + b.pieces + c.pieces + middle.pieces};
       open.resize(open.size() - 4);
       pieces.push_back(whole);
@@ -69,14 +71,14 @@ std::vector<Piece> JoinQuarters(std::span<const Fragment> fragments) {
 }
 
 // Appends the pieces, each before its parts. A node of parts gets its radiosity from them.
-void AppendPieces(std::span<const Piece> pieces, std::span<const Fragment> fragments, std::size_t first,
-                  std::vector<SourceSet::Node>& nodes) {
+void AppendPieces(std::span<const CellTriangle> pieces, std::span<const Fragment> fragments,
+                  std::size_t first, std::vector<SourceSet::Node>& nodes) {
   // From the end a whole comes before its parts: their places are found backwards, and they are appended
   // forwards.
   std::vector<std::size_t> roots;
   for (std::size_t i = pieces.size(); i > 0; i -= pieces[i - 1].pieces) roots.push_back(i - 1);
   for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
-    const Piece& piece = pieces[*root];
+    const CellTriangle& piece = pieces[*root];
     if (piece.pieces == 1) {
       AppendFan(fragments[piece.fragment], first + piece.fragment, nodes);
       continue;
