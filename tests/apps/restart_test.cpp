@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-constexpr const char* kPoints =
+constexpr const char* kRestartPoints =
     "x,y,z,nx,ny,nz\n0.3,-0.9,0,0,0,1\n0.1,-0.5,0.2,0.3,0.2,1\n-0.7,0.4,0,0,0,1\n";
 
 std::vector<std::string> Command(std::vector<std::string> command, const std::vector<std::string>& more) {
@@ -83,7 +83,7 @@ TEST(Restart, FurnaceOfAnotherMaterial) {
 // every number of threads.
 TEST(Restart, AgreesWithSolvingAnew) {
   const Sandbox sandbox;
-  sandbox.Write("points.csv", kPoints);
+  sandbox.Write("points.csv", kRestartPoints);
   const std::vector<std::string> solving = {"--error",        "0.3", "--relative-cutoff", kCutoff,
                                             "--error-points", "50"},
                                  brighter = {"--emittance", "left_light=600,540,420", "--emittance",
