@@ -21,10 +21,10 @@ namespace {
 // The shares of the error that the interpolants and their sources may make, each at its 99th percentile:
 // seldom both at one point.
 constexpr double kInterpolantShare = 0.65, kSourceShare = 0.25;
-// What interpolants' samples may leave out of their sources' detail, as a share of the error; and those of
-// the looks before the last, whose means become the sources' light, so that what is off in all of them grows
-// from bounce to bounce.
-constexpr double kNearShare = 0.06, kFirstNearShare = 0.04;
+// What interpolants' samples may leave out of their sources' detail, as a share of the error. Those of the
+// looks before the last keep to SolverOptions::correction_tolerance: their means correct the sources' light,
+// so that what is off in all of them grows from bounce to bounce.
+constexpr double kNearShare = 0.06;
 // Looks before the last, which only sources are made of, take edges of this times the least weight.
 constexpr double kFirstWeight = 2;
 // Sources are refined again while their means will change by more than this share of the error, so many
@@ -152,7 +152,7 @@ struct Pipeline::Impl {
       const double next = *change < before ? *change * *change / before : *change;
       if (next <= kSettledShare * options.error || pass == kMostSourcePasses) return true;
       before = *change;
-      if (!Refine(first, kFirstNearShare, done, context)) return false;
+      if (!Refine(first, resolved.solver.correction_tolerance, done, context)) return false;
     }
   }
 
@@ -166,12 +166,12 @@ struct Pipeline::Impl {
   }
 
   // Makes a mesh of the solution's leaves. Adds to the report. False if it was cancelled.
-  bool FirstLook(const MeshOptions& mesh_options, double near_share, MeshReport& done,
+  bool FirstLook(const MeshOptions& mesh_options, double tolerance, MeshReport& done,
                  const ExecutionContext& context) {
     IrradianceSampler sampler;
     if (mesh_options.order != InterpolantOrder::kConstant) {
       if (solver && !solver->SeenFromLeaves(context)) return false;
-      sampler = NearSampler(near_share);
+      sampler = NearSampler(tolerance);
     }
     MeshResult result = RunLocalPass(visibility, Solution(), sampler, mesh_options, context, &LocalPass());
     if (context.Cancelled()) return false;
@@ -188,7 +188,8 @@ struct Pipeline::Impl {
   void RefineShown(const MeshOptions& mesh_options, const MeshOptions& first, MeshReport& done,
                    const ExecutionContext& context) {
     if (resolved.solver.source_error == 0 && !SettleSources(first, done, context)) return;
-    const std::optional<RefinedMesh> refined = Refine(mesh_options, kNearShare, done, context);
+    const std::optional<RefinedMesh> refined =
+        Refine(mesh_options, kNearShare * options.error, done, context);
     if (!refined || refined->share_above <= kShareAbove) return;
     double area = 0;
     for (const ElementId leaf : refined->unmet) area += mesh_forest[leaf].area;
@@ -200,13 +201,13 @@ struct Pipeline::Impl {
 
   // Refines the leaves of the present mesh by the error of their interpolants, and makes it anew. Adds to the
   // report. What is returned has given its mesh away; nothing if it was cancelled.
-  std::optional<RefinedMesh> Refine(const MeshOptions& mesh_options, double near_share, MeshReport& done,
+  std::optional<RefinedMesh> Refine(const MeshOptions& mesh_options, double tolerance, MeshReport& done,
                                     const ExecutionContext& context) {
     MeshRefinementOptions refinement;
     refinement.error = kInterpolantShare * options.error;
     refinement.min_area = resolved.solver.min_area;
     refinement.samples = options.error_samples;
-    RefinedMesh refined = RefineMesh(visibility, solver->solution(), NearSampler(near_share), mesh_options,
+    RefinedMesh refined = RefineMesh(visibility, solver->solution(), NearSampler(tolerance), mesh_options,
                                      refinement, context, &LocalPass(), &mesh_forest);
     if (context.Cancelled()) return std::nullopt;
     mesh = std::move(refined.mesh);
@@ -228,9 +229,9 @@ struct Pipeline::Impl {
   }
 
   // For interpolants.
-  IrradianceSampler NearSampler(double share) {
+  IrradianceSampler NearSampler(double tolerance) {
     const PointIrradiance& exact = Irradiance();
-    return [&exact, tolerance = share * options.error](PatchId patch, const ReceiverPoint& at) {
+    return [&exact, tolerance](PatchId patch, const ReceiverPoint& at) {
       return exact.NearlyOnPatch(patch, at, tolerance);
     };
   }
@@ -260,8 +261,8 @@ struct Pipeline::Impl {
     const bool refines = kind == MeshKind::kInterpolant && solver && options.refine != RefineBy::kTransport;
     MeshOptions first = mesh_options;
     if (refines) first.discontinuities.min_weight *= kFirstWeight;
-    const double near_share = kind == MeshKind::kFlat ? 0 : refines ? kFirstNearShare : kNearShare;
-    if (!FirstLook(first, near_share, done, context)) return std::nullopt;
+    const double tolerance = refines ? resolved.solver.correction_tolerance : kNearShare * options.error;
+    if (!FirstLook(first, tolerance, done, context)) return std::nullopt;
     if (refines && !mesh.triangles.empty()) RefineShown(mesh_options, first, done, context);
     return kind;
   }
@@ -274,6 +275,18 @@ struct Pipeline::Impl {
     if (done) Forget();
     AddPhase("iterate", stopwatch.Seconds());
     Count();
+    return done;
+  }
+
+  // The same for a step that says what it did, which the report keeps.
+  template <class Step>
+  std::optional<IterationReport> RunIteration(const ExecutionContext& context, const Step& step) {
+    std::optional<IterationReport> done;
+    Run(context, [&](HierarchicalSolver& of, const ExecutionContext& running) {
+      done = step(of, running);
+      return done.has_value();
+    });
+    if (done) report.iterations.push_back(*done);
     return done;
   }
 
@@ -347,13 +360,9 @@ void Pipeline::Link(const ExecutionContext& context) {
 
 std::optional<IterationReport> Pipeline::Iterate(const ExecutionContext& context) {
   Link(context);
-  std::optional<IterationReport> report;
-  impl_->Run(context, [&](HierarchicalSolver& solver, const ExecutionContext& running) {
-    report = solver.Iterate(running);
-    return report.has_value();
+  return impl_->RunIteration(context, [](HierarchicalSolver& solver, const ExecutionContext& running) {
+    return solver.Iterate(running);
   });
-  if (report) impl_->report.iterations.push_back(*report);
-  return report;
 }
 
 bool Pipeline::Converged() const { return impl_->solver && impl_->solver->Converged(); }
@@ -380,18 +389,14 @@ std::optional<IterationReport> Pipeline::Relight(const ExecutionContext& context
     impl_->AddPhase("link", linking.Seconds());
   }
   Link(context);
-  std::optional<IterationReport> report;
-  impl_->Run(context, [&](HierarchicalSolver& solver, const ExecutionContext& running) {
-    report = solver.Relight(running);
-    return report.has_value();
+  return impl_->RunIteration(context, [](HierarchicalSolver& solver, const ExecutionContext& running) {
+    return solver.Relight(running);
   });
-  if (report) impl_->report.iterations.push_back(*report);
-  return report;
 }
 
 void Pipeline::SolveOverLinks(const ExecutionContext& context) {
   impl_->begun = RunLimits::Clock::now();
-  const RunLimits limits(context, impl_->options.time_limit, impl_->options.memory_limit, *impl_->begun);
+  const RunLimits limits = impl_->LimitsSinceSolve(context);
   const ExecutionContext& running = limits.context();
   running.Report("iterate", 0);
   const std::optional<IterationReport> relit = Relight(running);
@@ -406,7 +411,7 @@ void Pipeline::SolveOverLinks(const ExecutionContext& context) {
 
 void Pipeline::Solve(const ExecutionContext& context) {
   impl_->begun = RunLimits::Clock::now();
-  const RunLimits limits(context, impl_->options.time_limit, impl_->options.memory_limit, *impl_->begun);
+  const RunLimits limits = impl_->LimitsSinceSolve(context);
   const ExecutionContext& running = limits.context();
   Link(running);
   if (!impl_->solver->Linked()) {

@@ -88,7 +88,6 @@ SourceCut ChooseSourceCut(const RadiositySolution& solution, const SourceCells& 
     chosen.score = scores[j];
     chosen.p99 = p99;
   }
-  chosen.cells = cells.Cut(chosen.score);
   return chosen;
 }
 

@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "mesh/source_cells.h"
 #include "solver/transport/point_irradiance.h"
@@ -15,8 +14,7 @@
 namespace penumbra {
 
 struct SourceCut {
-  std::vector<std::int32_t> cells;  // SourceCells::Cut()
-  double score = 0;
+  double score = 0;  // of SourceCells::Cut()
   // The 99th percentile of the relative error that sources of these cells make, against all that the trees
   // have (RelativeErrors).
   double p99 = 0;
