@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ using namespace truth;
 json CaseOf(const json& truth, const std::string& id) {
   for (const json& c : truth["cases"])
     if (c["id"] == id) return c;
-  return {};
+  throw std::out_of_range("no case " + id);
 }
 
 // Two unit squares that look at each other from `gap` [m] apart.
@@ -95,8 +96,9 @@ constexpr double kDense = 1e-9;  // what is asked of the dense solver, relative
 // does their light, by so much for each millionth of a metre: two gaps give the limit, but for terms of
 // second order.
 TEST(AnalyticTruth, PlatesByTheDenseSolver) {
-  const json c = CaseOf(Load("radiosity_exact.json"), "parallel_plates_infinite");
-  if (c.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
+  const json truth = Load("radiosity_exact.json");
+  if (truth.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
+  const json c = CaseOf(truth, "parallel_plates_infinite");
   const std::array<double, 2> want = {ToDouble(c["B1"]), ToDouble(c["B2"])};
   constexpr double kGap = 1e-6;
   std::array<DenseLight, 2> finite;
@@ -247,8 +249,9 @@ void ExpectSolved(Variant variant, const Scene& scene, const PatchVisibility& vi
 
 // Plates a thousandth apart as near to infinite ones as is asked.
 TEST(AnalyticTruth, PlatesByEveryVariant) {
-  const json c = CaseOf(Load("radiosity_exact.json"), "parallel_plates_infinite");
-  if (c.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
+  const json truth = Load("radiosity_exact.json");
+  if (truth.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
+  const json c = CaseOf(truth, "parallel_plates_infinite");
   const Scene scene = Plates(c, 1e-3);
   const PatchVisibility visibility(scene);
   const std::array<double, 2> want = {ToDouble(c["B1"]), ToDouble(c["B2"])};
