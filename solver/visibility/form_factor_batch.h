@@ -18,11 +18,15 @@ class PolygonBatch {
  public:
   std::size_t size() const { return coordinate_[0].size(); }
   void Add(std::span<const Vec3> polygon);
+  // Adds polygon i of another batch.
+  void AddFrom(const PolygonBatch& other, std::size_t i);
   void Clear();
   // The coordinates of all k-th vertices along an axis.
   const double* Coordinates(std::size_t k, std::size_t axis) const {
     return coordinate_[3 * k + axis].data();
   }
+  // All of them from polygon `first` on: entry 3 k + axis.
+  std::array<const double*, 12> Columns(std::size_t first) const;
 
  private:
   std::array<std::vector<double>, 12> coordinate_;
@@ -36,11 +40,13 @@ class PolygonBatch {
 void FormFactors(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
                  const Vec3& normal, double* out);
 
-// The sums over edges alone, which for small polygons from afar cancel in part. angles[i - begin], the sum of
-// the angles of the edges, tells: a factor is within kFormFactorError of this over 2 pi
-// kFormFactorCancellation, or of its value where that is more.
+// The sums over edges alone, which cancel in part where a polygon is seen flatly or lies near the horizon. A
+// polygon that is small as seen is summed about its first vertex, which keeps its digits however small it is
+// (thesis_notes/derivations.md, "Small polygons"). added[i - begin], the sum of the sizes of what was added,
+// tells: a factor is within kFormFactorError of this over 2 pi kFormFactorCancellation, or of its value where
+// that is more.
 void FormFactorSums(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
-                    const Vec3& normal, double* out, double* angles);
+                    const Vec3& normal, double* out, double* added);
 // One of the factors, by quadrature, which does not cancel.
 double FormFactorByQuadrature(const PolygonBatch& batch, std::size_t i, const Vec3& position,
                               const Vec3& normal);
