@@ -13,6 +13,7 @@
 #include "mesh/solution_schema.h"
 #include "solver/base/check.h"
 #include "solver/base/sha256.h"
+#include "solver/scene/convex_solids.h"
 
 namespace penumbra {
 namespace {
@@ -103,6 +104,7 @@ StoredSolution Read(const Envelope& envelope) {
   CheckScene(*scene);
   for (Patch& patch : scene->patches)
     patch = MakePatch(patch.Vertices(), patch.material, patch.object, patch.faces);
+  FindConvexSolids(*scene);
 
   PatchVisibility::Rows rows;
   DescribeVisibility(archive, rows);

@@ -14,6 +14,7 @@
 #include "solver/geometry/convex_pieces.h"
 #include "solver/geometry/orientation.h"
 #include "solver/geometry/plane_projection.h"
+#include "solver/scene/convex_solids.h"
 
 namespace penumbra {
 namespace {
@@ -92,6 +93,7 @@ PatchReport PatchBuilder::Build() {
       report.cut_faces.insert(report.cut_faces.end(), outline.faces.begin(), outline.faces.end());
   }
   std::sort(report.cut_faces.begin(), report.cut_faces.end());
+  FindConvexSolids(scene_);
   return report;
 }
 

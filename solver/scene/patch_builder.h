@@ -22,7 +22,7 @@ struct PatchReport {
       cut_faces;  // ascending: faces that lost what overlaps an emitter or an earlier face
 };
 
-// Fills scene.patches from scene.faces, ascending by their first face:
+// Fills scene.patches from scene.faces, ascending by their first face, and finds the solids among them:
 //
 //  (1) Convex triangles and quadrilaterals stay as they are. A straight corner is left out.
 //  (2) Coplanar triangles of the same objects and material with a common edge are joined where they form a

@@ -22,6 +22,10 @@ namespace penumbra {
 using PatchId = std::int32_t;
 inline constexpr PatchId kNoPatch = -1;
 
+// Index of a solid in Scene::solids.
+using SolidId = std::int32_t;
+inline constexpr SolidId kNoSolid = -1;
+
 struct Material {
   std::string name;
   Rgb reflectance = Rgb::Constant(0.5);
@@ -61,6 +65,19 @@ struct Patch {
 Patch MakePatch(std::span<const Vec3> vertices, std::int32_t material, std::int32_t object,
                 std::vector<std::int32_t> faces);
 
+// Patches that are sides of one convex body: what it hides has a single outline from anywhere outside of it.
+struct ConvexSolid {
+  struct Side {
+    PatchId patch = kNoPatch;    // kNoPatch: the side is missing, as the foot of a block on a floor often is
+    Vec3 normal = Vec3::Zero();  // unit, outwards
+    std::vector<std::int32_t> corner;  // in ConvexSolid::corners, counter-clockwise from outside
+    std::vector<std::int32_t> edge;    // from each corner to the next: the number is the same for both sides
+  };
+  Polygon3 corners;  // [m]
+  std::vector<Side> sides;
+  double extent = 0;  // the largest absolute coordinate [m]
+};
+
 struct Camera {
   std::string name;
   Vec3 eye = Vec3::Zero();
@@ -75,10 +92,17 @@ struct Scene {
   std::vector<Object> objects;
   std::vector<Face> faces;
   std::vector<Patch> patches;
+  std::vector<ConvexSolid> solids;    // of the patches as they are: FindConvexSolids()
+  std::vector<SolidId> solid_of;      // per patch; kNoSolid: of none
   std::vector<Camera> cameras;        // those that the scene brings along; may be empty
   std::vector<std::string> warnings;  // one line each: what was repaired, dropped or looks wrong
 
   const Material& MaterialOf(PatchId patch) const { return materials[patches[patch].material]; }
+
+  SolidId SolidOf(PatchId patch) const {
+    const auto i = static_cast<std::size_t>(patch);
+    return i < solid_of.size() ? solid_of[i] : kNoSolid;
+  }
 
   // The face that contains the point p of the patch: the lowest index if p lies on several.
   std::int32_t FaceAt(PatchId patch, const Vec3& p) const;

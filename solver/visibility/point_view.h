@@ -43,9 +43,10 @@ class PointView {
   // Whether the point lies in the source's plane: what is seen of it is a limit.
   bool SourceInContact() const { return source_in_contact_; }
 
-  // Appends those candidates that may hide parts of `seen`, before the plane of the source at
-  // hand; `own`, the receiver's patch, is left out. False if one candidate hides all of it: then nothing is
-  // appended. Their cones live until the view turns to another source.
+  // Appends those candidates that may hide parts of `seen`, before the plane of the source at hand; `own`,
+  // the receiver's patch, is left out. Where the outline of a solid tells what it hides, it is appended once
+  // for all its sides. False if one occluder hides all of `seen`: then nothing is appended. Their cones live
+  // until the view turns to another source.
   bool FindBlockers(std::span<const PatchId> candidates, PatchId own, const DirectionPolygon& seen,
                     std::vector<Occluder>& occluders);
 
@@ -61,13 +62,16 @@ class PointView {
  private:
   struct BlockerView {
     bool in_limit = false;
-    Cone cone;  // size 0: it blocks nothing
+    bool entered = false;  // of a solid: SolidOutline::entered
+    Cone cone;             // size 0: it blocks nothing
   };
   struct Buffers;
 
   static Buffers& ThreadBuffers();
   BlockerView ViewBlocker(std::span<const Vec3> polygon, const Patch& patch) const;
+  BlockerView ViewSolid(const ConvexSolid& solid, const Patch* before) const;
   const BlockerView* FindBlocker(PatchId blocker, const DirectionPolygon& seen);
+  bool FindSolid(SolidId id, const DirectionPolygon& seen, const BlockerView** view);
 
   const Scene& scene_;
   const ReceiverPoint& at_;
@@ -75,6 +79,7 @@ class PointView {
   const OcclusionMethod& method_;
   Buffers& buffers_;
   const Patch* source_ = nullptr;
+  SolidId source_solid_ = kNoSolid;
   bool source_in_contact_ = false;
   bool source_crosses_horizon_ = false;
   bool one_sided_ = false;

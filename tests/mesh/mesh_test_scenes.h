@@ -11,6 +11,7 @@
 
 #include "mesh/dset.h"
 #include "solver/base/random.h"
+#include "solver/scene/convex_solids.h"
 #include "solver/scene/scene.h"
 #include "solver/transport/element_forest.h"
 
@@ -62,6 +63,7 @@ inline void Tilt(Scene& scene, double degrees) {
     for (const Vec3& v : patch.Vertices()) vertices.push_back(turn * v);
     patch = MakePatch(vertices, patch.material, patch.object, patch.faces);
   }
+  FindConvexSolids(scene);
 }
 
 // Rounds all coordinates to so many decimals, as a text file does.
@@ -72,6 +74,7 @@ inline void RoundCoordinates(Scene& scene, int decimals) {
     for (const Vec3& v : patch.Vertices()) vertices.push_back((v / unit).array().round().matrix() * unit);
     patch = MakePatch(vertices, patch.material, patch.object, patch.faces);
   }
+  FindConvexSolids(scene);
 }
 
 // Splits about `splits` random leaves of the patch, and balances.

@@ -114,7 +114,8 @@ TEST(Occlusion, AgreesWithBruteForceInFurnishedRooms) {
 // the same shadow is cut along other edges, with roundings of 1e-16 of 1 m, no nearer than 1e-3.
 void ExpectInvariant(const Scene& scene, const ReceiverPoint& at, Random& random, double& worst) {
   const double plain = Direct(scene, at).irradiance[0];
-  const auto expect_same = [&](const Scene& other, const char* what) {
+  const auto expect_same = [&](Scene other, const char* what) {
+    FindConvexSolids(other);
     const double got = Direct(other, at).irradiance[0];
     EXPECT_NEAR(got, plain, 1e-12) << what;
     worst = std::max(worst, std::abs(got - plain));
@@ -177,6 +178,7 @@ void ExpectInvariant(const Scene& scene, const ReceiverPoint& at, Random& random
 
   Scene more = scene;
   Add(more, RandomPolygon(random, 1, 0.5), 0);
+  FindConvexSolids(more);
   EXPECT_LE(Direct(more, at).irradiance[0], plain + 1e-13) << "one blocker more";
 }
 

@@ -12,6 +12,7 @@
 
 #include "solver/base/random.h"
 #include "solver/geometry/polygon.h"
+#include "solver/scene/convex_solids.h"
 #include "solver/scene/scene.h"
 
 namespace penumbra::scene_test {
@@ -75,7 +76,7 @@ inline Motion RandomMotion(Random& random, double half) {
   return motion;
 }
 
-// The scene with every vertex moved, its coordinates rounded anew.
+// The scene with every vertex moved, its coordinates rounded anew, and its solids found.
 template <class Map>
 Scene Mapped(const Scene& scene, const Map& map) {
   Scene moved = scene;
@@ -84,6 +85,7 @@ Scene Mapped(const Scene& scene, const Map& map) {
     for (const Vec3& v : patch.Vertices()) polygon.push_back(map(v));
     patch = MakePatch(polygon, patch.material, patch.object, patch.faces);
   }
+  FindConvexSolids(moved);
   return moved;
 }
 
