@@ -87,6 +87,10 @@ class SolidFinder {
     return Behind(corners, patch.normal, patch.vertex[0], patch.extent);
   }
 
+  bool IsFlat(std::span<const CornerId> corners, const Patch& patch) const {
+    return Behind(corners, -patch.normal, patch.vertex[0], patch.extent);
+  }
+
   // The solid that the patches and planar missing sides enclose; none if they do not.
   std::optional<ConvexSolid> Close(const std::vector<PatchId>& patches) const {
     std::vector<CornerId> corners;
@@ -116,6 +120,9 @@ class SolidFinder {
       if (!side || solid.sides.size() == kMostSides) return std::nullopt;
       solid.sides.push_back(std::move(*side));
     }
+    // In one plane every side has all corners behind it, whatever the outline: only a front and its back will
+    // do.
+    if (solid.sides.size() > 2 && IsFlat(corners, scene_.patches[patches[0]])) return std::nullopt;
     Renumber(corners, solid);
     return solid;
   }

@@ -10,7 +10,8 @@ namespace penumbra {
 
 // Fills scene.solids and scene.solid_of from scene.patches. Patches that share whole edges, to the bit, at
 // which their fronts bend away from each other or lie in one plane form a solid, if it is convex but for
-// rounding. Planar sides may be missing. What has more sides or corners than these stays without.
+// rounding. Planar sides may be missing. Pieces of one plane are none, but for the front and the back of a
+// sheet. What has more sides or corners than these stays without.
 void FindConvexSolids(Scene& scene);
 
 inline constexpr std::size_t kMostSides = 16, kMostCorners = 28;

@@ -129,6 +129,36 @@ TEST(SolidOutline, FrustaAnywhere) {
   comparison.Print("frusta", kSeed);
 }
 
+// A floor and shelves in convex and bent pieces, with backs of another partition: nothing is joined that
+// bends.
+TEST(SolidOutline, PiecesOfPlanes) {
+  constexpr std::uint64_t kSeed = 20260105;
+  Random random(kSeed);
+  Comparison comparison;
+  for (int i = 0; i < 200; ++i) {
+    Scene scene;
+    AddMaterial(scene, 0.5, 0);
+    AddBox(scene, Vec3::Constant(-3), Vec3::Constant(3), true, 0);
+    for (int k = 0; k < 3; ++k) {
+      const Motion motion = RandomMotion(random, 2);
+      for (int x = 0; x < 3; ++x)
+        for (int y = 0; y < 3; ++y) {
+          const auto at = [&](int u, int v) { return motion(0.3 * Vec3(x + u, y + v, 0)); };
+          if (random.Index(3) != 0) Add(scene, {at(0, 0), at(1, 0), at(1, 1), at(0, 1)}, 0);
+          if (random.Index(3) == 0) Add(scene, {at(0, 0), at(0, 1), at(1, 1), at(1, 0)}, 0);
+        }
+    }
+    FindConvexSolids(scene);
+    for (int k = 0; k < 5; ++k) {
+      ReceiverPoint at;
+      at.position = RandomPoint(random, 2.9);
+      at.normal = RandomDirection(random);
+      comparison.Compare(scene, at, kNoPatch);
+    }
+  }
+  comparison.Print("pieces of planes", kSeed);
+}
+
 // A box before a light is one occluder with six borders at most, from wherever it is seen.
 TEST(SolidOutline, OfABoxHasSixBordersAtMost) {
   Random random(20260104);
