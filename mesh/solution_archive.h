@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/discontinuity.h"
 #include "mesh/hdf5_image.h"
 #include "mesh/quadratic_interpolant.h"
 #include "solver/geometry/vec.h"
@@ -49,6 +50,10 @@ template <>
 struct Packed<bool> : PackedByte<bool, 2> {};
 template <>
 struct Packed<Visibility> : PackedByte<Visibility, 2> {};
+template <>
+struct Packed<DiscontinuityKind> : PackedByte<DiscontinuityKind, 5> {};
+template <>
+struct Packed<DiscontinuityDegree> : PackedByte<DiscontinuityDegree, 3> {};
 template <>
 struct Packed<char> : PackedByte<char, 255> {
   static void Unpack(const Scalar* in, char& value) { std::memcpy(&value, in, 1); }

@@ -145,6 +145,8 @@ std::string EncodeSolution(const Pipeline& pipeline, const std::string& options,
   DescribeElements(archive, copy);
   DescribeLight(archive, pipeline.solution());
   DescribeMesh(archive, pipeline.mesh());
+  DescribeDiscontinuities(archive, ListDiscontinuities(pipeline.solution(), pipeline.visibility(),
+                                                       pipeline.resolved().discontinuities, {}));
 
   const std::string image = file.Finish();
   const std::size_t length = kSolutionHeaderSize + image.size();

@@ -18,7 +18,7 @@
 namespace penumbra {
 
 // Counted up whenever what lies where changes; files of another schema are refused.
-inline constexpr int kSolutionSchema = 1;
+inline constexpr int kSolutionSchema = 2;
 
 // What was read from a file.
 struct StoredSolution {

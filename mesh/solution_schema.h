@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/discontinuity_list.h"
 #include "mesh/irradiance_mesh.h"
 #include "mesh/solution_archive.h"
 #include "solver/scene/scene.h"
@@ -100,6 +101,21 @@ void DescribeMesh(Archive& archive, Mesh& mesh) {
       .Column("patch", &IrradianceMesh::Triangle::patch)
       .Column("discontinuity", &IrradianceMesh::Triangle::discontinuity);
   Table(archive, "mesh/triangles", mesh.irradiance).Column("interpolant", std::identity());
+}
+
+// For others to read: Penumbra finds them anew.
+inline void DescribeDiscontinuities(ArchiveWriter& archive, const DiscontinuityList& list) {
+  Table(archive, "discontinuities", list.ends).Column("ends", std::identity());
+  Table(archive, "discontinuities", list.all)
+      .Column("receiver", &Discontinuity::receiver)
+      .Column("source", &Discontinuity::source)
+      .Column("blocker", &Discontinuity::blocker)
+      .Column("kind", &Discontinuity::kind)
+      .Column("degree", &Discontinuity::degree)
+      .Column("source_part", &Discontinuity::source_part)
+      .Column("blocker_part", &Discontinuity::blocker_part)
+      .Column("geometric_weight", &Discontinuity::geometric_weight)
+      .Column("weight", &Discontinuity::weight);
 }
 
 }  // namespace penumbra

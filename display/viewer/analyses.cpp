@@ -6,7 +6,9 @@ namespace penumbra::viewer {
 
 Analyses::Analyses()
     : discontinuities_([](const Light& light, const ExecutionContext& context) {
-        return ListDiscontinuities(*light, context);
+        DiscontinuityOptions whatever_they_weigh;  // thesis B.4.4
+        whatever_they_weigh.min_weight = 0;
+        return ListDiscontinuities(light->solution(), light->visibility(), whatever_they_weigh, context);
       }),
       graph_([](const GraphKey& key, const ExecutionContext& context) {
         std::vector<std::uint32_t> triangles;

@@ -8,13 +8,13 @@
 #include <span>
 #include <vector>
 
-#include "display/viewer/discontinuity_list.h"
 #include "display/viewer/error_map.h"
 #include "display/viewer/irradiance_graph.h"
 #include "display/viewer/overlay_drawing.h"
 #include "display/viewer/probes.h"
 #include "display/viewer/snapshot.h"
 #include "display/viewer/view_state.h"
+#include "mesh/discontinuity_list.h"
 
 namespace penumbra::viewer {
 

@@ -128,6 +128,34 @@ TEST(SolutionFile, ComesBackToTheBit) {
 }
 
 // A scene without faces is valid, and names may hold anything.
+// The discontinuities that the mesh chose from: as many as were counted, in place, each with who made it.
+TEST(SolutionFile, HoldsTheDiscontinuities) {
+  const Pipeline& pipeline = *Cornell().pipeline;
+  const Hdf5Reader file(std::string_view(CornellFile()).substr(kSolutionHeaderSize));
+  const std::size_t count = file.Shape("discontinuities/kind").at(0);
+  EXPECT_GT(count, 0U);
+  ASSERT_EQ(file.Shape("discontinuities/ends"), (ArrayShape{count, 2, 3}));
+  std::vector<double> ends(6 * count), weight(count);
+  std::vector<std::int32_t> receiver(count), source(count), blocker(count);
+  std::vector<std::uint8_t> kind(count);
+  file.Read("discontinuities/ends", ScalarTypeOf<double>::value, {count, 2, 3}, ends.data());
+  file.Read("discontinuities/weight", ScalarTypeOf<double>::value, {count}, weight.data());
+  file.Read("discontinuities/receiver", ScalarTypeOf<std::int32_t>::value, {count}, receiver.data());
+  file.Read("discontinuities/source", ScalarTypeOf<std::int32_t>::value, {count}, source.data());
+  file.Read("discontinuities/blocker", ScalarTypeOf<std::int32_t>::value, {count}, blocker.data());
+  file.Read("discontinuities/kind", ScalarTypeOf<std::uint8_t>::value, {count}, kind.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Patch& patch = pipeline.scene().patches.at(static_cast<std::size_t>(receiver[i]));
+    for (int end = 0; end < 2; ++end) {
+      const Vec3 p(ends[6 * i + 3 * end], ends[6 * i + 3 * end + 1], ends[6 * i + 3 * end + 2]);
+      EXPECT_NEAR(patch.normal.dot(p - patch.vertex[0]), 0, 1e-14);
+    }
+    EXPECT_GE(weight[i], pipeline.resolved().discontinuities.min_weight);
+    EXPECT_EQ(source[i] == kNoPatch, kind[i] == static_cast<std::uint8_t>(DiscontinuityKind::kContact));
+    EXPECT_EQ(blocker[i] == kNoPatch, kind[i] == static_cast<std::uint8_t>(DiscontinuityKind::kHorizon));
+  }
+}
+
 TEST(SolutionFile, HoldsAnEmptySceneAndAnyName) {
   Scene scene;
   scene.name = "a\"\\\xff\n b";
