@@ -318,7 +318,7 @@ void Gathering::AddVisiblePieces(const ImageFrame& frame, double factor_before) 
   if (method_) return;
   const ImageEdges::Sum sum = visible.FormFactorSum(frame, at_.normal);
   const double together = std::abs(sum.value) + 2 * std::numbers::pi * (factor_ - factor_before);
-  const bool cancels = sum.angles > kFormFactorCancellation * together;
+  const bool cancels = sum.angles > CancellationAllowed() * together;
   for (std::size_t p = 0; p < visible.Pieces(); ++p) {
     const double factor = cancels ? visible.PieceByQuadrature(frame, at_.normal, p)
                                   : 0.5 * std::numbers::inv_pi * visible.PieceSum(p);
@@ -328,6 +328,14 @@ void Gathering::AddVisiblePieces(const ImageFrame& frame, double factor_before) 
     else
       AddNode(sources_.NodeAt(static_cast<std::size_t>(-1 - owner)), std::max(0.0, factor));
   }
+}
+
+// How many times its value the angles of a sum may add up to: sums lose digits in proportion. With a
+// tolerance fewer digits will do.
+double Gathering::CancellationAllowed() const {
+  constexpr double kNegligible = 1e-3;  // of the tolerance
+  constexpr double kPerDigit = kFormFactorCancellation / kFormFactorError;
+  return std::max(kFormFactorCancellation, kNegligible * tolerance_ * kPerDigit);
 }
 
 void Gathering::AddGradientOfPieces(const ImageFrame& frame) {

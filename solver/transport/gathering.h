@@ -89,6 +89,7 @@ class Gathering {
   void AddListed();
   void GatherUnfit(const SourceSet::Node& leaf, const DirectionPolygon& seen);
   void AddVisiblePieces(const ImageFrame& frame, double visible_before);
+  double CancellationAllowed() const;
   void AddGradientOfPieces(const ImageFrame& frame);
   void Add(std::int32_t leaf, double factor);
   void AddNode(const SourceSet::Node& node, double factor);
