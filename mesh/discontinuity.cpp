@@ -41,12 +41,17 @@ struct SourceView {
 
 }  // namespace
 
+double KinkError(double size, double margin) { return std::min(kKinkError * size, margin); }
+
+double BendError(double size, double margin) {
+  return std::min(kBendError * size * size, 0.5 * margin * margin);
+}
+
 double Weight(const Discontinuity& d, DiscontinuityWeight kind, double size, double margin) {
   if (d.kind == DiscontinuityKind::kContact) return kInfiniteWeight;
   if (kind == DiscontinuityWeight::kThesis) return d.geometric_weight * d.strength;
   double largest = 0;
-  const double kinked = std::min(kKinkError * size, margin);
-  const double bent = std::min(kBendError * size * size, 0.5 * margin * margin);
+  const double kinked = KinkError(size, margin), bent = BendError(size, margin);
   for (const IrradianceJump& jump : d.jump) {
     const double kink = std::max(std::abs(jump.gradient), jump.largest_gradient);
     largest =

@@ -78,6 +78,9 @@ double Weight(const Discontinuity& d, DiscontinuityWeight kind, double size,
 // max(0, x - c), and of max(0, x - c)^2 / 2. For a step it is its height.
 inline constexpr double kKinkError = 0.0962;
 inline constexpr double kBendError = 0.0188;
+// The same on a piece of the size, in which neither lies nearer than `margin` to a border [m, m^2].
+double KinkError(double size, double margin);
+double BendError(double size, double margin);
 
 // Finds the discontinuities on one receiver at a time. Lists which patches share an edge once, at
 // construction.

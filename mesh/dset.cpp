@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "mesh/leaf_margins.h"
+#include "mesh/line_jumps.h"
+#include "mesh/omission_cost.h"
 #include "solver/base/check.h"
 #include "solver/base/random.h"
 #include "solver/scene/tolerances.h"
@@ -85,32 +87,25 @@ class Activation {
     return impinged_;
   }
 
-  // What leaving it out costs beside the active lines [W/m^2], in the irradiance weight: where it crosses a
-  // leaf's inside, on the piece between its neighbours. `line` is its own, -1 if that is not active.
-  double CostOfLeavingOut(const Discontinuity& d, std::span<const DiscontinuityLine> active,
-                          std::int32_t line) {
+  // Tells what leaving it out costs where it crosses the inside of a leaf.
+  void Describe(const Discontinuity& d, const LineJumps& jumps, const DirectedLine& line, std::int32_t number,
+                OmissionCost* cost) {
+    cost->Begin();
     const double length = (d.end[1] - d.end[0]).norm();
-    const Vec2 along = (d.end[1] - d.end[0]) / length, across(-along.y(), along.x());
-    double cost = 0;
+    const Vec2 along = (d.end[1] - d.end[0]) / length;
     for (const Impinged& i : Meet(d)) {
       if (!i.inside) continue;
       const Polygon2& outline = nodes_[node_of_leaf_[i.leaf]].outline;
       const LineInterval part = ClipLine(d.end[0], along, outline, 0);
-      const Vec2 middle = d.end[0] + 0.5 * (std::max(part.t0, 0.0) + std::min(part.t1, length)) * along;
-      const LineInterval width = ClipLine(middle, across, outline, 0);
-      double left = std::max(width.t1, 0.0), right = std::max(-width.t0, 0.0);
-      for (const std::int32_t other : inside_[i.leaf]) {
-        if (other == line) continue;
-        const double rate = Cross2(active[other].direction, across);
-        if (rate == 0) continue;
-        const double at = -active[other].Distance(middle) / rate;
-        double& side = at >= 0 ? left : right;
-        side = std::min(side, std::abs(at));
-      }
-      cost = std::max(cost, Weight(d, DiscontinuityWeight::kIrradiance, left + right, std::min(left, right)));
+      const Vec2 a = d.end[0] + std::max(part.t0, 0.0) * along;
+      const Vec2 b = d.end[0] + std::min(part.t1, length) * along;
+      cost->AddPart(i.leaf, outline, forest_[leaves[i.leaf]].area, a, b,
+                    jumps.At(number, line.Along(0.5 * (a + b))));
     }
-    return cost;
   }
+
+  // Per leaf, the lines that run through its inside, in order of activation.
+  std::span<const std::vector<std::int32_t>> inside() const { return inside_; }
 
   bool Full(const Impinged& i, std::int32_t line) const {
     return i.inside && !Contains(inside_[i.leaf], line) && inside_[i.leaf].size() >= max_leaf_dsets_;
@@ -234,8 +229,8 @@ LineInterval ClipLine(const Vec2& origin, const Vec2& direction, const Polygon2&
 namespace {
 
 // Those to be tried, one after the other: the heaviest first, of equal weight the one found first. Weights
-// only fall while lines are activated, so that one that is still the heaviest after it has been weighed again
-// is.
+// fall while lines are activated, so that one that is still the heaviest after it has been weighed again is;
+// one that rose would count as it was.
 class Order {
  public:
   using Weigh = std::function<double(std::size_t)>;
@@ -295,28 +290,32 @@ PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
 
   std::vector<std::int32_t> number(grouped.lines.size(), -1);  // of a line among the active ones
   std::vector<ElementId> full;
-  const auto cost = [&](std::size_t i) {
-    return found[i].kind == DiscontinuityKind::kContact
-               ? kInfiniteWeight
-               : activation.CostOfLeavingOut(found[i], result.lines, number[grouped.line_of[i]]);
-  };
-  const bool of_the_moment = options.weight == DiscontinuityWeight::kIrradiance;
   std::vector<double> weight(options.enabled() ? found.size() : 0);
-  for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = of_the_moment ? cost(i) : found[i].weight;
   double least = options.min_weight;
+  OmissionCost omission;
   Order::Weigh weigh;
-  if (options.choice == DiscontinuityChoice::kAll) {
-    least = -kInfiniteWeight;
-  } else if (options.choice == DiscontinuityChoice::kRandom) {
-    // What is too light is left out, the rest shuffled.
+  if (options.choice == DiscontinuityChoice::kRandom) {
     Random random(options.seed, static_cast<std::uint64_t>(patch));
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      const double place = random.Uniform();
-      if (found[i].kind != DiscontinuityKind::kContact) weight[i] = weight[i] < least ? -1 : place;
-    }
     least = 0;
-  } else if (of_the_moment) {
-    weigh = cost;
+    for (std::size_t i = 0; i < weight.size(); ++i) {
+      const double place = random.Uniform();
+      weight[i] = found[i].kind == DiscontinuityKind::kContact ? kInfiniteWeight : place;
+    }
+  } else if (options.choice == DiscontinuityChoice::kAll || options.weight == DiscontinuityWeight::kThesis) {
+    if (options.choice == DiscontinuityChoice::kAll) least = 0;
+    for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = found[i].weight;
+  } else {
+    const LineJumps jumps(found, grouped.line_of, grouped.lines);
+    for (std::size_t i = 0; i < weight.size(); ++i) {
+      const std::int32_t line = grouped.line_of[i];
+      activation.Describe(found[i], jumps, grouped.lines[line], line, &omission);
+    }
+    weigh = [&](std::size_t i) {
+      return found[i].kind == DiscontinuityKind::kContact
+                 ? kInfiniteWeight
+                 : omission.Of(i, number[grouped.line_of[i]], activation.inside(), result.lines);
+    };
+    for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = weigh(i);
   }
   Order order(std::move(weight), least, std::move(weigh));
   while (const std::optional<std::size_t> next = order.Next()) {

@@ -74,12 +74,12 @@ using LeafFilter = std::function<bool(const Discontinuity&, ElementId)>;
 // Activates the discontinuities in order of weight, contacts first, each for all leaves on which it impinges
 // or for none (thesis 5.5.7).
 //  (1) An active discontinuity weighs at least options.min_weight. In the irradiance weight it weighs what
-//  leaving it out would cost beside the edges that are active already: on the piece between the nearest of
-//  them, or the border, to either side of it, in the leaf where that is most.
+//  leaving its line out would cost beside those that are active already (OmissionCost).
 //  (2) At most options.max_leaf_dsets lines run through the inside of any leaf. Those along a leaf's border
 //  add no edge and do not count.
 //  (3) The heaviest come first; of equal weight, the one found first.
-// DiscontinuityChoice changes this: kRandom puts (3) in a random order, kAll knows no (1) and (2), and
+// DiscontinuityChoice changes this: kRandom knows no (1) and puts (3) in a random order, kAll knows no (1)
+// and (2), and
 // kAdaptive activates in each leaf that the filter lets pass what fits there, whatever becomes of other
 // leaves. REQUIRES: the patch's quadtree is balanced; `found` are discontinuities on this patch; a filter for
 // kAdaptive.

@@ -13,8 +13,9 @@ namespace {
 constexpr double kEpsOfMeanIrradiance = 2;  // eps = this x error x mean irradiance
 constexpr double kWeightOfStrongest = 5;    // minimum weight = this x error x largest emittance, at most ...
 constexpr double kLargestWeight = 0.25;     // ... this x largest emittance
-// In the irradiance weight: what an edge left out may cost, as a part of error x mean irradiance.
-constexpr double kWeightOfMeanIrradiance = 0.5;
+// In the irradiance weight: what an edge left out may cost, root mean square over leaves that lack others
+// too, as a part of error x mean irradiance.
+constexpr double kWeightOfMeanIrradiance = 0.15;
 constexpr int kCrowdedSplits = 3;         // DiscontinuityOptions::crowded_splits
 constexpr double kMinAreaOfScene = 1e-7;  // of the fronts' total area
 constexpr double kCutoffOfError = 0.005;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "mesh/leaf_triangulation.h"
+#include "mesh/line_jumps.h"
 #include "mesh_test_scenes.h"
 
 namespace penumbra {
@@ -158,24 +159,33 @@ TEST(ActivateDiscontinuities, OtherChoices) {
   TriangulateLeaves(square.forest, 0, dsets).Validate(square.scene.patches[0]);
 }
 
+// A discontinuity of first degree, of an event of its own.
+Discontinuity Kink(const Vec2& a, const Vec2& b, double gradient, std::int32_t event) {
+  Discontinuity d = Segment(a, b, 0, DiscontinuityDegree::kD1);
+  d.strength = 1;
+  d.source = event;
+  for (IrradianceJump& jump : d.jump) jump = {gradient, 1e9, std::abs(gradient), 1e9};
+  d.weight = Weight(d, DiscontinuityWeight::kIrradiance, 1);
+  return d;
+}
+
+DiscontinuityOptions ByIrradiance(int max_leaf_dsets) {
+  DiscontinuityOptions options;
+  options.weight = DiscontinuityWeight::kIrradiance;
+  options.max_leaf_dsets = max_leaf_dsets;
+  return options;
+}
+
 // In the irradiance weight a discontinuity counts by what it costs beside those that are active: of ten lines
 // of which nine crowd together, the second place goes to the one that stands alone, though it is the
 // lightest; and when those in between would gain too little, they stay out.
 TEST(ActivateDiscontinuities, NeighboursTakeWeight) {
   const QuarteredSquare square;
-  DiscontinuityOptions options;
-  options.weight = DiscontinuityWeight::kIrradiance;
-  options.max_leaf_dsets = 2;
+  DiscontinuityOptions options = ByIrradiance(2);
   std::vector<Discontinuity> found;
-  const auto add = [&](double x, double gradient) {
-    Discontinuity d = Segment({x, 0.05}, {x, 0.45}, 0, DiscontinuityDegree::kD1);
-    d.strength = 1;
-    for (IrradianceJump& jump : d.jump) jump = {gradient, 1e9, gradient, 1e9};
-    d.weight = Weight(d, options.weight, 1);
-    found.push_back(d);
-  };
-  for (int i = 0; i < 9; ++i) add(0.1 + 0.001 * i, 10 + i);
-  add(0.35, 5);
+  for (int i = 0; i < 9; ++i)
+    found.push_back(Kink({0.1 + 0.001 * i, 0.05}, {0.1 + 0.001 * i, 0.45}, 10 + i, i));
+  found.push_back(Kink({0.35, 0.05}, {0.35, 0.45}, 5, 9));
   PatchDSets dsets = ActivateDiscontinuities(square.forest, 0, found, options);
   ASSERT_EQ(dsets.lines.size(), 2U);
   EXPECT_NEAR(dsets.lines[0].origin.x(), 0.108, 1e-12);
@@ -186,6 +196,62 @@ TEST(ActivateDiscontinuities, NeighboursTakeWeight) {
   EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options).activated, 2U);
   options.min_weight = 0;
   EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options).activated, 10U);
+}
+
+// Jumps along one line add up with their signs: a dozen edges, each too light to count, count together where
+// they overlap, and cancel where half of them jump the other way; one event found twice is one.
+TEST(ActivateDiscontinuities, JumpsOnALineAddUp) {
+  const QuarteredSquare square;
+  DiscontinuityOptions options = ByIrradiance(1);
+  const auto lines = [&](double sign, bool one_event) {
+    std::vector<Discontinuity> found = {Kink({0.1, 0.05}, {0.1, 0.45}, 4, 100)};
+    for (int i = 0; i < 12; ++i)
+      found.push_back(Kink({0.3, 0.05 + 0.001 * i}, {0.3, 0.45}, i % 2 == 0 ? 1 : sign, one_event ? 0 : i));
+    return found;
+  };
+  const auto first_at = [&](const std::vector<Discontinuity>& found) {
+    const PatchDSets dsets = ActivateDiscontinuities(square.forest, 0, found, options);
+    return dsets.lines.size() == 1 ? dsets.lines[0].origin.x() : -1;
+  };
+  EXPECT_NEAR(first_at(lines(1, false)), 0.3, 1e-12);
+  EXPECT_NEAR(first_at(lines(-1, false)), 0.1, 1e-12);
+  EXPECT_NEAR(first_at(lines(1, true)), 0.1, 1e-12);
+}
+
+// What leaving a line out costs is the root mean square over the leaves that it crosses: the same kink weighs
+// as much in one leaf as in two of the same size.
+TEST(ActivateDiscontinuities, WeighsByTheMeanSquare) {
+  const QuarteredSquare square;
+  // Across the middle of leaves of side 1/2, a kink of 1 W/m^2 per metre.
+  const double one = kKinkError * 0.5;
+  for (const double end : {0.45, 0.95})
+    for (const double factor : {0.999, 1.001}) {
+      DiscontinuityOptions options = ByIrradiance(10);
+      options.min_weight = factor * one;
+      const std::vector<Discontinuity> found = {Kink({0.05, 0.25}, {end, 0.25}, 1, 0)};
+      EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options).activated, factor < 1 ? 1U : 0U);
+    }
+}
+
+// The sums hold place by place, turned round or not, and those of second degree keep their sense.
+TEST(LineJumps, AddUpPlaceByPlace) {
+  const std::vector<DiscontinuityLine> lines = {{{{0, 0}, {1, 0}}, {}, {}}};
+  const auto bend = [](double from, double to, double curvature) {
+    Discontinuity d = Segment({from, 0}, {to, 0}, 0);
+    d.strength = 2;
+    for (IrradianceJump& jump : d.jump) jump = {0, curvature, 1, 1};
+    return d;
+  };
+  const std::vector<Discontinuity> found = {bend(0, 3, 1), bend(4, 1, 10), Kink({2, 0}, {6, 0}, 5, 7),
+                                            Kink({5, 0}, {3, 0}, 5, 7), Kink({2, 0}, {3, 0}, 1, 8)};
+  const LineJumps jumps(found, std::vector<std::int32_t>(found.size(), 0), lines);
+  const std::vector<std::array<double, 3>> want = {
+      // place, curvature, gradient
+      {-0.5, 0, 0}, {0.5, 2, 0}, {1.5, -18, 0}, {2.5, -18, 6}, {3.5, -20, 5}, {5.5, 0, 5}, {6.5, 0, 0}};
+  for (const auto& [at, curvature, gradient] : want) {
+    EXPECT_DOUBLE_EQ(jumps.At(0, at).bend.curvature, curvature) << at;
+    EXPECT_DOUBLE_EQ(jumps.At(0, at).kink.gradient, gradient) << at;
+  }
 }
 
 // Switched off, nothing is active.
