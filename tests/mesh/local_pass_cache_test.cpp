@@ -85,7 +85,7 @@ struct Solved {
     solver.Iterate({});
     solution = solver.solution();
     mesh.weight = DiscontinuityWeight::kIrradiance;
-    mesh.min_weight = 0.5;
+    mesh.min_weight = 0.15;
     mesh.crowded_splits = 2;
   }
 
