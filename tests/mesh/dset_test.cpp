@@ -8,6 +8,7 @@
 #include "mesh/leaf_triangulation.h"
 #include "mesh/line_jumps.h"
 #include "mesh_test_scenes.h"
+#include "solver/scene/builtin_scenes.h"
 
 namespace penumbra {
 namespace {
@@ -251,6 +252,56 @@ TEST(LineJumps, AddUpPlaceByPlace) {
   for (const auto& [at, curvature, gradient] : want) {
     EXPECT_DOUBLE_EQ(jumps.At(0, at).bend.curvature, curvature) << at;
     EXPECT_DOUBLE_EQ(jumps.At(0, at).kink.gradient, gradient) << at;
+  }
+}
+
+// Which discontinuities lie on one line does not depend on the unit of length, nor on where the scene lies:
+// the light of the floating cube and of the blind, scaled and moved, is divided along as many lines, leaf by
+// leaf.
+TEST(ActivateDiscontinuities, LinesDoNotDependOnScaleOrPlace) {
+  struct Change {
+    double scale;
+    Vec3 move;  // in units of the scaled scene
+  };
+  std::vector<Change> changes = {{1, Vec3::Zero()}};
+  for (int power = -6; power <= 6; ++power) {
+    changes.push_back({std::pow(10.0, power), Vec3::Zero()});
+    changes.push_back({1.7 * std::pow(10.0, power), Vec3(1e2, -3e3, 7e2)});
+  }
+  changes.push_back({1, Vec3(1e5, 1e5, -3e4)});
+  for (const char* name : {"floating-cube", "blind"}) {
+    std::vector<std::vector<std::size_t>> counts;
+    for (const Change& change : changes) {
+      Scene scene = *LoadBuiltinScene(name, {});
+      for (Patch& patch : scene.patches) {
+        std::vector<Vec3> vertices;
+        for (const Vec3& v : patch.Vertices()) vertices.push_back(change.scale * (v + change.move));
+        patch = MakePatch(vertices, patch.material, patch.object, patch.faces);
+      }
+      std::vector<double> strength;
+      for (const Patch& patch : scene.patches)
+        strength.push_back(scene.materials[patch.material].emittance.maxCoeff());
+      const PatchVisibility visibility(scene);
+      const DiscontinuityFinder finder(scene, visibility);
+      ElementForest forest(scene);
+      DiscontinuityOptions options;
+      options.choice = DiscontinuityChoice::kAll;
+      std::vector<std::size_t>& count = counts.emplace_back();
+      for (PatchId p = 0; p < static_cast<PatchId>(scene.patches.size()); ++p) {
+        for (const ElementId leaf : forest.Leaves(p)) forest.Subdivide(leaf);
+        const PatchDSets dsets =
+            ActivateDiscontinuities(forest, p, finder.Find(p, strength, options), options);
+        count.push_back(dsets.activated);
+        count.push_back(dsets.lines.size());
+        count.push_back(dsets.most_merged);
+        for (const auto& lines : dsets.leaf_lines) count.push_back(lines.size());
+        TriangulateLeaves(forest, p, dsets).Validate(scene.patches[p]);
+      }
+      EXPECT_EQ(count, counts.front()) << name << " x " << change.scale << " + " << change.move.transpose();
+    }
+    std::size_t sum = 0;
+    for (const std::size_t n : counts.front()) sum += n;
+    EXPECT_GT(sum, 100U) << name;
   }
 }
 
