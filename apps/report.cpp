@@ -83,7 +83,14 @@ Json DiagnosticsJson(const PipelineReport& report) {
                  {"patch_pairs", links.patch_pairs},
                  {"patch_worst", links.patch_reciprocity}}},
                {"open", {{"rays", report.views.rays}, {"escaping", report.views.escaping}}},
-               {"reversed_faces", report.views.reversed_faces}};
+               {"reversed_faces", report.views.reversed_faces},
+               {"triangles",
+                {{"smallest_angle", report.quality.smallest_angle},
+                 {"median_angle", report.quality.median_angle},
+                 {"below_5_degrees", report.quality.below_5_degrees},
+                 {"slim_area", report.quality.slim_area},
+                 {"median_aspect", report.quality.median_aspect},
+                 {"aspect_p95", report.quality.aspect_p95}}}};
   if (!bounces.empty()) json["bounces"] = bounces;
   return json;
 }
@@ -203,6 +210,12 @@ std::string ReportTable(const RunReport& report) {
       "   {} discontinuities, {} DSets active; {} triangles, {} point evaluations\n",
       counts.patches, counts.emitters, counts.elements, counts.leaves, counts.links, counts.links_partial,
       counts.discontinuities, counts.dsets_active, counts.triangles, counts.point_evaluations);
+
+  if (const TriangleQuality& quality = pipeline.quality; counts.triangles > 0)
+    table += fmt::format(
+        "   of the triangles {:.3g} % have an angle below 5 degrees, on {:.2g} % of the area; median angle "
+        "{:.3g} degrees, aspect {:.3g}\n",
+        100 * quality.below_5_degrees, 100 * quality.slim_area, quality.median_angle, quality.median_aspect);
 
   if (const auto& dense = pipeline.dense)
     table += fmt::format(

@@ -482,6 +482,7 @@ void Pipeline::Measure(const ExecutionContext& context) {
   report.energy = MeasureEnergy(solution());
   report.links = DiagnoseLinks(solution());
   report.views = DiagnoseViews(impl_->scene);
+  report.quality = MeasureQuality(impl_->mesh);
   if (impl_->solver) report.bounces = impl_->solver->MeanIrradianceByBounce(impl_->options.bounces);
   report.warnings.clear();
   if (!report.views.reversed_faces.empty())

@@ -16,6 +16,7 @@
 #include "mesh/mesh_options.h"
 #include "mesh/representation_error.h"
 #include "mesh/triangle_error.h"
+#include "mesh/triangle_quality.h"
 #include "solver/base/progress.h"
 #include "solver/scene/scene.h"
 #include "solver/transport/dense_solver.h"
@@ -117,6 +118,7 @@ struct PipelineReport {
   EnergyBalance energy;
   LinkDiagnostics links;
   ViewDiagnostics views;
+  TriangleQuality quality;
   std::vector<Rgb> bounces;  // mean irradiance by bounce, if it was asked for [W/m^2]
   RepresentationError interpolant_error;
   // The 99th percentile of the relative error of exact irradiance, from the solution's sources against that

@@ -252,6 +252,8 @@ TEST(Solve, ReportHoldsEveryField) {
   ASSERT_FALSE(report.at("iterations").empty());
   for (const char* field : {"residual", "elements", "links", "seconds"})
     EXPECT_TRUE(report.at("iterations")[0].at(field).is_number()) << field;
+  // Squares in halves.
+  EXPECT_NEAR(report.at("diagnostics").at("triangles").at("smallest_angle").get<double>(), 45, 1e-9);
   const json& energy = report.at("energy");
   EXPECT_NEAR(energy.at("emitted").get<double>(), 9, 1e-9);  // 6 m^2, 1/2 W/m^2, three channels
   EXPECT_NEAR(energy.at("absorbed").get<double>() + energy.at("escaped").get<double>(), 9, 9e-2);

@@ -1,0 +1,46 @@
+#include "mesh/triangle_quality.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "mesh/representation_error.h"
+
+namespace penumbra {
+
+TriangleQuality MeasureQuality(const IrradianceMesh& mesh) {
+  TriangleQuality quality;
+  if (mesh.triangles.empty()) return quality;
+  constexpr double kDegrees = 180 / std::numbers::pi, kSlim = 5;
+  std::vector<double> angles, aspects;
+  double area = 0, slim_area = 0, slim = 0;
+  for (const IrradianceMesh::Triangle& t : mesh.triangles) {
+    const std::array<Vec3, 3> side = {mesh.positions[t.vertex[1]] - mesh.positions[t.vertex[0]],
+                                      mesh.positions[t.vertex[2]] - mesh.positions[t.vertex[1]],
+                                      mesh.positions[t.vertex[0]] - mesh.positions[t.vertex[2]]};
+    const double twice = side[0].cross(side[1]).norm();
+    double angle = std::numbers::pi, longest = 0;
+    for (int k = 0; k < 3; ++k) {
+      angle = std::min(angle, std::atan2(twice, -side[k].dot(side[(k + 1) % 3])));
+      longest = std::max(longest, side[k].squaredNorm());
+    }
+    angles.push_back(kDegrees * angle);
+    aspects.push_back(std::numbers::sqrt3 / 2 * longest / twice);
+    area += twice;
+    if (angles.back() < kSlim) {
+      slim_area += twice;
+      ++slim;
+    }
+  }
+  quality.smallest_angle = *std::min_element(angles.begin(), angles.end());
+  quality.median_angle = Quantile(angles, 0.5);
+  quality.below_5_degrees = slim / static_cast<double>(angles.size());
+  quality.slim_area = slim_area / area;
+  quality.median_aspect = Quantile(aspects, 0.5);
+  quality.aspect_p95 = Quantile(aspects, 0.95);
+  return quality;
+}
+
+}  // namespace penumbra
