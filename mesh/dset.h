@@ -79,10 +79,9 @@ using LeafFilter = std::function<bool(const Discontinuity&, ElementId)>;
 //  add no edge and do not count.
 //  (3) The heaviest come first; of equal weight, the one found first.
 // DiscontinuityChoice changes this: kRandom knows no (1) and puts (3) in a random order, kAll knows no (1)
-// and (2), and
-// kAdaptive activates in each leaf that the filter lets pass what fits there, whatever becomes of other
-// leaves. REQUIRES: the patch's quadtree is balanced; `found` are discontinuities on this patch; a filter for
-// kAdaptive.
+// and (2), and kAdaptive activates in each leaf that the filter lets pass what fits there, whatever becomes
+// of other leaves. REQUIRES: the patch's quadtree is balanced; `found` are discontinuities on this patch; a
+// filter for kAdaptive.
 PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
                                    std::span<const Discontinuity> found, const DiscontinuityOptions& options,
                                    const LeafFilter& filter = {});
