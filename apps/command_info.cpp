@@ -53,6 +53,7 @@ Json SolutionJson(const StoredRun& stored) {
             {"fragments", state.solution.fragments.size()},
             {"mesh_positions", state.mesh.positions.size()},
             {"mesh_triangles", state.mesh.triangles.size()}}},
+          {"triangles", TriangleQualityJson(state.report.quality)},
           {"options", stored.options},
           {"report", Json::parse(LastingReportJson(state.report))}};
 }
@@ -115,6 +116,7 @@ std::string InfoText(const LoadedScene& loaded, const SceneSummary& summary) {
     for (const auto& [name, rows] : solution["tables"].items())
       add(name == "visible_pairs" ? "tables" : "", fmt::format("{} {}", name, rows.get<std::size_t>()));
     const PipelineReport& report = loaded.stored->state.report;
+    add("shapes", TriangleQualityText(report.quality));
     add("error", fmt::format("interpolants: p99 {:.3g}; solution, estimated: {:.3g}; asked for {:.3g}: {}",
                              report.interpolant_error.p99, report.solution_error_estimate, report.error_asked,
                              report.error_met ? "met" : "not met"));

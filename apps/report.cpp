@@ -84,13 +84,7 @@ Json DiagnosticsJson(const PipelineReport& report) {
                  {"patch_worst", links.patch_reciprocity}}},
                {"open", {{"rays", report.views.rays}, {"escaping", report.views.escaping}}},
                {"reversed_faces", report.views.reversed_faces},
-               {"triangles",
-                {{"smallest_angle", report.quality.smallest_angle},
-                 {"median_angle", report.quality.median_angle},
-                 {"below_5_degrees", report.quality.below_5_degrees},
-                 {"slim_area", report.quality.slim_area},
-                 {"median_aspect", report.quality.median_aspect},
-                 {"aspect_p95", report.quality.aspect_p95}}}};
+               {"triangles", TriangleQualityJson(report.quality)}};
   if (!bounces.empty()) json["bounces"] = bounces;
   return json;
 }
@@ -129,6 +123,23 @@ Json OutcomeJson(const PipelineReport& report) {
 std::string Dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 }  // namespace
+
+Json TriangleQualityJson(const TriangleQuality& quality) {
+  return {{"smallest_angle", quality.smallest_angle},
+          {"median_angle", quality.median_angle},
+          {"below_5_degrees", quality.below_5_degrees},
+          {"slim_area", quality.slim_area},
+          {"angle_share", quality.angle_share},
+          {"median_aspect", quality.median_aspect},
+          {"aspect_p95", quality.aspect_p95}};
+}
+
+std::string TriangleQualityText(const TriangleQuality& quality) {
+  return fmt::format(
+      "{:.3g} % of the triangles have an angle below 5 degrees, on {:.2g} % of the area; median angle {:.3g} "
+      "degrees, aspect {:.3g}",
+      100 * quality.below_5_degrees, 100 * quality.slim_area, quality.median_angle, quality.median_aspect);
+}
 
 std::string ReportJson(const RunReport& report) {
   Json json = {{"version", PENUMBRA_VERSION},
@@ -211,11 +222,8 @@ std::string ReportTable(const RunReport& report) {
       counts.patches, counts.emitters, counts.elements, counts.leaves, counts.links, counts.links_partial,
       counts.discontinuities, counts.dsets_active, counts.triangles, counts.point_evaluations);
 
-  if (const TriangleQuality& quality = pipeline.quality; counts.triangles > 0)
-    table += fmt::format(
-        "   of the triangles {:.3g} % have an angle below 5 degrees, on {:.2g} % of the area; median angle "
-        "{:.3g} degrees, aspect {:.3g}\n",
-        100 * quality.below_5_degrees, 100 * quality.slim_area, quality.median_angle, quality.median_aspect);
+  if (pipeline.quality.median_aspect > 0)  // measured
+    table += fmt::format("   {}\n", TriangleQualityText(pipeline.quality));
 
   if (const auto& dense = pipeline.dense)
     table += fmt::format(

@@ -25,6 +25,10 @@ std::string LastingReportJson(const PipelineReport& report);
 // The same read back. Throws nlohmann::json::exception.
 PipelineReport PipelineReportFrom(const nlohmann::ordered_json& lasting);
 
+// How well shaped the triangles are, as in REPORT.json, and in a line.
+nlohmann::ordered_json TriangleQualityJson(const TriangleQuality& quality);
+std::string TriangleQualityText(const TriangleQuality& quality);
+
 // Phases with their seconds, counts, energy and error, a line each.
 std::string ReportTable(const RunReport& report);
 

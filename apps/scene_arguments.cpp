@@ -103,6 +103,7 @@ LoadedScene LoadSolution(const std::string& path) {
     stored.options = nlohmann::ordered_json::parse(solution.options);
     stored.solving = SolvingFrom(stored.options);
     stored.state.report = PipelineReportFrom(nlohmann::ordered_json::parse(solution.report));
+    stored.state.report.quality = MeasureQuality(stored.state.mesh);
   } catch (const std::exception& error) {
     throw InputError(
         fmt::format("{}: error: its options or its report cannot be read: {}", path, error.what()));

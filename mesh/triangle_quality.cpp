@@ -15,7 +15,9 @@ TriangleQuality MeasureQuality(const IrradianceMesh& mesh) {
   if (mesh.triangles.empty()) return quality;
   constexpr double kDegrees = 180 / std::numbers::pi, kSlim = 5;
   std::vector<double> angles, aspects;
-  double area = 0, slim_area = 0, slim = 0;
+  double area = 0, slim_area = 0;
+  std::size_t slim = 0;
+  std::array<std::size_t, 6> of_angle = {};
   for (const IrradianceMesh::Triangle& t : mesh.triangles) {
     const std::array<Vec3, 3> side = {mesh.positions[t.vertex[1]] - mesh.positions[t.vertex[0]],
                                       mesh.positions[t.vertex[2]] - mesh.positions[t.vertex[1]],
@@ -29,6 +31,7 @@ TriangleQuality MeasureQuality(const IrradianceMesh& mesh) {
     angles.push_back(kDegrees * angle);
     aspects.push_back(std::numbers::sqrt3 / 2 * longest / twice);
     area += twice;
+    ++of_angle[std::min(static_cast<std::size_t>(angles.back() / 10), of_angle.size() - 1)];
     if (angles.back() < kSlim) {
       slim_area += twice;
       ++slim;
@@ -36,7 +39,10 @@ TriangleQuality MeasureQuality(const IrradianceMesh& mesh) {
   }
   quality.smallest_angle = *std::min_element(angles.begin(), angles.end());
   quality.median_angle = Quantile(angles, 0.5);
-  quality.below_5_degrees = slim / static_cast<double>(angles.size());
+  const auto count = static_cast<double>(angles.size());
+  quality.below_5_degrees = static_cast<double>(slim) / count;
+  for (std::size_t i = 0; i < of_angle.size(); ++i)
+    quality.angle_share[i] = static_cast<double>(of_angle[i]) / count;
   quality.slim_area = slim_area / area;
   quality.median_aspect = Quantile(aspects, 0.5);
   quality.aspect_p95 = Quantile(aspects, 0.95);

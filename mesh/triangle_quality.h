@@ -5,6 +5,8 @@
 
 #pragma once
 
+#include <array>
+
 #include "mesh/irradiance_mesh.h"
 
 namespace penumbra {
@@ -16,6 +18,8 @@ struct TriangleQuality {
   double median_angle = 0;     // of the triangles' smallest angles [degrees]
   double below_5_degrees = 0;  // share of triangles with an angle below that
   double slim_area = 0;        // their share of the area
+  // Shares of triangles whose smallest angle lies in [0, 10), [10, 20) ... [50, 60] degrees.
+  std::array<double, 6> angle_share = {};
   double median_aspect = 0, aspect_p95 = 0;
 };
 

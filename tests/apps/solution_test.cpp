@@ -84,12 +84,16 @@ TEST(Solution, ServesLikeItsScene) {
   EXPECT_EQ(solution["options"]["eps"], 0.031);
   EXPECT_EQ(solution["options"]["max_reflectance"], 0.7);
   EXPECT_EQ(solution["tables"]["mesh_triangles"], report["counts"]["triangles"]);
+  EXPECT_EQ(solution["triangles"], report["diagnostics"]["triangles"]);
   EXPECT_EQ(solution["tables"]["links"], report["counts"]["links"]);
-  EXPECT_THAT(sandbox.Run({"info", "a.h5"}).out, HasSubstr("solved by"));
+  EXPECT_THAT(sandbox.Run({"info", "a.h5"}).out,
+              testing::AllOf(HasSubstr("solved by"), HasSubstr("median angle")));
 
   // A report about a run from the file tells what came out when it was solved.
   ASSERT_EQ(sandbox.Run({"render", "a.h5", "-o", "a.png", "--size", "8x6", "--report", "r.json"}).status, 0);
-  EXPECT_EQ(json::parse(ReadBytes(sandbox.Path("r.json")))["error"], report["error"]);
+  const json again = json::parse(ReadBytes(sandbox.Path("r.json")));
+  EXPECT_EQ(again["error"], report["error"]);
+  EXPECT_EQ(again["diagnostics"]["triangles"], report["diagnostics"]["triangles"]);
 }
 
 // What is no whole solution is refused in one line, with status 1, and nothing is written.

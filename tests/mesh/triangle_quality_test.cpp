@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <numbers>
 
 namespace penumbra {
 namespace {
@@ -24,9 +26,11 @@ TEST(MeasureQuality, KnowsSimpleTriangles) {
     add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     add({0, 0, 0}, {2, 0, 0}, {1, 0.01, 0});
     const TriangleQuality quality = MeasureQuality(mesh);
-    EXPECT_NEAR(quality.smallest_angle, std::atan(0.01) * 180 / M_PI, 1e-9);
+    EXPECT_NEAR(quality.smallest_angle, std::atan(0.01) * 180 / std::numbers::pi, 1e-9);
     EXPECT_NEAR(quality.median_angle, 45, 1e-9);
     EXPECT_NEAR(quality.below_5_degrees, 1.0 / 3, 1e-12);
+    const std::array<double, 6> share = {1.0 / 3, 0, 0, 0, 1.0 / 3, 1.0 / 3};
+    EXPECT_EQ(quality.angle_share, share);
     EXPECT_NEAR(quality.slim_area, 0.01 / (std::sqrt(0.1875) + 0.5 + 0.01), 1e-12);
     EXPECT_NEAR(quality.median_aspect, std::sqrt(3.0), 1e-12);
     EXPECT_NEAR(quality.aspect_p95, 100 * std::sqrt(3.0), 1e-9);
