@@ -35,8 +35,7 @@ void Fill(Srgb8Image* picture, const Rectangle& r, ScreenColour colour, double o
   };
   for (int y = std::max(r.y0, 0); y < std::min(r.y1, picture->height); ++y)
     for (int x = std::max(r.x0, 0); x < std::min(r.x1, picture->width); ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture->width) +
-                            static_cast<std::size_t>(x);
+      const std::size_t i = picture->Index(x, y);
       const std::uint8_t* under = &picture->pixels[3 * i];
       SetPixel(picture, i,
                {blend(under[0], colour.red), blend(under[1], colour.green), blend(under[2], colour.blue)});

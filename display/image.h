@@ -50,6 +50,10 @@ struct Srgb8Image {
     height = h;
     pixels.resize(3 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
   }
+  // Of a pixel: its bytes are at three times that.
+  std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  }
 };
 
 struct ScreenColour {

@@ -58,7 +58,8 @@ struct ScreenTriangle {
 
 // The triangles that a consecutive range of indices contributes, and for each tile which of them meet it.
 struct Bin {
-  std::vector<ScreenTriangle> triangles;
+  std::vector<ScreenTriangle> triangles;  // the first `count`
+  std::size_t count = 0;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> hits;  // tile, index in `triangles`
   std::vector<std::uint32_t> first;                           // per tile: where its part of `sorted` begins
   std::vector<std::uint32_t> sorted;  // indices in `triangles`, ascending in each tile
@@ -88,13 +89,20 @@ struct Pyramid {
   }
 };
 
-// Floats that keep their sign and need no digits beyond this.
-float Narrow(double value) { return static_cast<float>(std::clamp(value, -1e30, 1e30)); }
+// Values keep their sign and need no digits beyond this: anywhere in a picture they are then floats.
+constexpr double kLargest = 1e30;
+static_assert(kLargest * (1 + 2 * kMaxPictureSize) < static_cast<double>(std::numeric_limits<float>::max()));
 
-TilePlane ForTiles(const Plane& plane) { return {plane, Narrow(plane.x), Narrow(plane.y)}; }
+double Narrow(double value) { return std::clamp(value, -kLargest, kLargest); }
+Plane Narrow(const Plane& f) { return {Narrow(f.x), Narrow(f.y), Narrow(f.c)}; }
+
+TilePlane ForTiles(const Plane& f) {
+  const Plane plane = Narrow(f);
+  return {plane, static_cast<float>(plane.x), static_cast<float>(plane.y)};
+}
 
 TileTriangle::Affine ToTile(const TilePlane& f, int x, int y) {
-  return {f.x, f.y, Narrow(f.plane.At(x + 0.5, y + 0.5))};
+  return {f.x, f.y, static_cast<float>(f.plane.At(x + 0.5, y + 0.5))};
 }
 
 // The half-open rule: of an edge's two directions one is exclusive.
@@ -283,7 +291,7 @@ bool Rasteriser::Impl::SetUp(std::uint32_t id, ScreenTriangle* out) {
     std::tie(out->x_begin, out->x_end) = PixelRange(x_low, x_high, width);
     std::tie(out->y_begin, out->y_end) = PixelRange(y_low, y_high, height);
     if (out->x_begin >= out->x_end || out->y_begin >= out->y_end) return false;
-    out->max_inverse_z = Narrow((1 + 0x1p-20) / std::min({a.z, b.z, c.z}));
+    out->max_inverse_z = static_cast<float>(Narrow((1 + 0x1p-20) / std::min({a.z, b.z, c.z})));
   } else {
     out->x_begin = out->y_begin = 0;
     out->x_end = width;
@@ -302,7 +310,7 @@ bool Rasteriser::Impl::SetUp(std::uint32_t id, ScreenTriangle* out) {
   Plane* coordinates = &barycentric[3 * static_cast<std::size_t>(id)];
   for (std::size_t k = 0; k < 3; ++k) {
     out->edge[k] = ForTiles(ToPixelDistance(edges[k]));
-    coordinates[k] = edges[k].Scaled(scale);
+    coordinates[k] = Narrow(edges[k].Scaled(scale));
   }
   const Plane &p = coordinates[0], &q = coordinates[1], &r = coordinates[2];
   out->inverse_z = ForTiles({p.x + q.x + r.x, p.y + q.y + r.y, p.c + q.c + r.c});
@@ -312,17 +320,18 @@ bool Rasteriser::Impl::SetUp(std::uint32_t id, ScreenTriangle* out) {
 
 void Rasteriser::Impl::Fill(std::size_t bin_index) {
   Bin& bin = bins[bin_index];
-  bin.triangles.clear();
+  bin.count = 0;
   bin.hits.clear();
   for (std::size_t c = first_cluster[bin_index]; c < first_cluster[bin_index + 1]; ++c) {
     const Cluster& cluster = clusters[c];
     if (!MayBeSeen(cluster)) continue;
     Transform(cluster);
     for (std::uint32_t i = cluster.first_triangle; i < cluster.end_triangle; ++i) {
-      ScreenTriangle triangle;
-      if (!SetUp(i, &triangle)) continue;
-      AddHits(triangle, static_cast<std::uint32_t>(bin.triangles.size()), &bin);
-      bin.triangles.push_back(triangle);
+      // Set up where it stays: a copy of what was just written would wait for it.
+      if (bin.count == bin.triangles.size()) bin.triangles.emplace_back();
+      if (!SetUp(i, &bin.triangles[bin.count])) continue;
+      AddHits(bin.triangles[bin.count], static_cast<std::uint32_t>(bin.count), &bin);
+      ++bin.count;
     }
   }
   SortHits(&bin);
@@ -413,7 +422,9 @@ void Rasteriser::DrawTileIds(std::size_t index, Tile* tile) const {
   }
 }
 
-void Rasteriser::DrawTileBarycentrics(Tile* tile) const { FillBarycentrics(impl_->barycentric.data(), tile); }
+void Rasteriser::DrawRowBarycentrics(BlockRow* row) const {
+  FillBarycentrics(impl_->barycentric.data(), row);
+}
 
 void Rasteriser::Prepare(const PixelRays& rays, int width, int height) {
   PENUMBRA_CHECK(width > 0 && height > 0 && width <= kMaxPictureSize && height <= kMaxPictureSize);
@@ -432,7 +443,7 @@ void Rasteriser::DrawTriangleIds(const PixelRays& rays, int width, int height, s
   ParallelFor(tiles.Count(), 2, [&](std::size_t index) {
     Tile tile;
     DrawTileIds(index, &tile);
-    ForEachTilePart(tiles, tile.x, tile.y, [&](std::size_t from, std::size_t to, std::size_t n) {
+    ForEachPart(tiles, tile.x, tile.y, kTileSize, [&](std::size_t from, std::size_t to, std::size_t n) {
       CopyPart(tile.ids + from, n, ids.data() + to);
     });
   });
@@ -445,20 +456,22 @@ void Rasteriser::DrawBarycentrics(std::span<const std::uint32_t> ids, std::span<
                  static_cast<std::size_t>(tiles.width) * static_cast<std::size_t>(tiles.height));
   PENUMBRA_CHECK(s.size() == ids.size() && t.size() == ids.size());
   ParallelFor(tiles.Count(), 2, [&](std::size_t index) {
-    Tile tile;
-    tile.x = tiles.X(index);
-    tile.y = tiles.Y(index);
-    std::fill(std::begin(tile.ids), std::end(tile.ids), kNoTriangle);
-    ForEachTilePart(tiles, tile.x, tile.y, [&](std::size_t to, std::size_t from, std::size_t n) {
-      CopyPart(ids.data() + from, n, tile.ids + to);
-      CopyPart(s.data() + from, n, tile.s + to);
-      CopyPart(t.data() + from, n, tile.t + to);
-    });
-    FindRuns(&tile);
-    DrawTileBarycentrics(&tile);
-    ForEachTilePart(tiles, tile.x, tile.y, [&](std::size_t from, std::size_t to, std::size_t n) {
-      CopyPart(tile.s + from, n, s.data() + to);
-      CopyPart(tile.t + from, n, t.data() + to);
+    ForEachBlockRow(tiles, index, [&](int x, int y) {
+      BlockRow row;
+      row.x = x;
+      row.y = y;
+      std::fill(std::begin(row.ids), std::end(row.ids), kNoTriangle);
+      ForEachPart(tiles, x, y, kBlockSize, [&](std::size_t to, std::size_t from, std::size_t n) {
+        CopyPart(ids.data() + from, n, row.ids + to);
+        CopyPart(s.data() + from, n, row.s + to);
+        CopyPart(t.data() + from, n, row.t + to);
+      });
+      FindRuns(&row);
+      DrawRowBarycentrics(&row);
+      ForEachPart(tiles, x, y, kBlockSize, [&](std::size_t from, std::size_t to, std::size_t n) {
+        CopyPart(row.s + from, n, s.data() + to);
+        CopyPart(row.t + from, n, t.data() + to);
+      });
     });
   });
 }

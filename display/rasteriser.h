@@ -52,7 +52,7 @@ class Rasteriser : public Passes {
   // then be called from several threads, for a tile of their own each.
   void Prepare(const PixelRays& rays, int width, int height);
   void DrawTileIds(std::size_t index, Tile* tile) const;  // clears the tile, too
-  void DrawTileBarycentrics(Tile* tile) const;            // REQUIRES: FindRuns
+  void DrawRowBarycentrics(BlockRow* row) const;          // REQUIRES: FindRuns
 
  private:
   struct Impl;

@@ -24,11 +24,11 @@ struct TileGrid {
   int Y(std::size_t tile) const { return static_cast<int>(tile) / across * kTileSize; }
 };
 
-// Calls body(index in the tile, index in the picture, n) for the parts, n <= 4 pixels in a row, that the tile
-// at (x0, y0) and the picture share.
+// Calls body(index in the tile, index in the picture, n) for the parts, n <= 4 pixels in a row, that the
+// first `height` rows of the tile at (x0, y0) and the picture share. So for a row of blocks.
 template <class Body>
-void ForEachTilePart(const TileGrid& grid, int x0, int y0, const Body& body) {
-  const int rows = std::min(kTileSize, grid.height - y0), columns = std::min(kTileSize, grid.width - x0);
+void ForEachPart(const TileGrid& grid, int x0, int y0, int height, const Body& body) {
+  const int rows = std::min(height, grid.height - y0), columns = std::min(kTileSize, grid.width - x0);
   for (int y = 0; y < rows; ++y) {
     const std::size_t row = static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(grid.width) +
                             static_cast<std::size_t>(x0);
@@ -36,6 +36,13 @@ void ForEachTilePart(const TileGrid& grid, int x0, int y0, const Body& body) {
       body(static_cast<std::size_t>(TileIndex(x, y)), row + static_cast<std::size_t>(x),
            static_cast<std::size_t>(std::min(kBlockSize, columns - x)));
   }
+}
+
+// Calls body(x, y) for the upper left pixels of the rows of blocks of a tile that lie in the picture.
+template <class Body>
+void ForEachBlockRow(const TileGrid& grid, std::size_t tile, const Body& body) {
+  const int end = std::min(grid.Y(tile) + kTileSize, grid.height);
+  for (int y = grid.Y(tile); y < end; y += kBlockSize) body(grid.X(tile), y);
 }
 
 // Whole parts, nearly all of them, are copied as one word.

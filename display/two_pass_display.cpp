@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "display/tile_grid.h"
@@ -13,6 +14,11 @@ namespace penumbra {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr int kCacheLine = 64;  // bytes
+
+// Of this many rows of blocks one is timed part by part: looks at the clock would take as long as some parts.
+constexpr int kTimedRow = 4;
 
 // Milliseconds since the last call, or since it was made.
 class Lap {
@@ -104,7 +110,7 @@ void TwoPassDisplay::DrawPasses(const Camera& camera, int width, int height) {
   frame_.ms.barycentric = lap();
 }
 
-// Calls finish(tile) for all tiles, with `rgb` evaluated, and counts its time as `finishing`.
+// Calls finish(row) for all rows of blocks, with `rgb` evaluated, and counts its time as `finishing`.
 template <class Finish>
 void TwoPassDisplay::DrawTiles(const std::vector<TriangleShade>& shades, float background,
                                double FrameTimes::*finishing, const Finish& finish) {
@@ -112,38 +118,47 @@ void TwoPassDisplay::DrawTiles(const std::vector<TriangleShade>& shades, float b
   tile_times_.assign(tiles.Count(), {});
   Lap wall;
   ParallelFor(tiles.Count(), 1, [&](std::size_t index) {
-    Tile tile;
-    FrameTimes& times = tile_times_[index];
     Lap lap;
-    if (rasteriser_) {
-      rasteriser_->DrawTileIds(index, &tile);
-      FindRuns(&tile);
-      times.triangle_ids = lap();
-      rasteriser_->DrawTileBarycentrics(&tile);
-      times.barycentric = lap();
-    } else {
-      tile.x = tiles.X(index);
-      tile.y = tiles.Y(index);
-      ClearTile(&tile);
-      ForEachTilePart(tiles, tile.x, tile.y, [&](std::size_t to, std::size_t from, std::size_t n) {
-        CopyPart(frame_.triangle.data() + from, n, tile.ids + to);
-        CopyPart(frame_.s.data() + from, n, tile.s + to);
-        CopyPart(frame_.t.data() + from, n, tile.t + to);
-      });
-      FindRuns(&tile);
-    }
-    EvaluateRadiosity(shades.data(), background, &tile);
-    times.evaluate = lap();
-    finish(tile);
-    times.*finishing += lap();
+    Tile tile;
+    if (rasteriser_) rasteriser_->DrawTileIds(index, &tile);
+    FrameTimes& times = tile_times_[index];
+    const double ids = rasteriser_ ? lap() : 0;
+    ForEachBlockRow(tiles, index, [&](int x, int y) {
+      std::optional<Lap> part;
+      if (y / kBlockSize % kTimedRow == 0) part.emplace();
+      const auto count = [&](double FrameTimes::*as) {
+        if (part) times.*as += (*part)();
+      };
+      BlockRow row;
+      row.x = x;
+      row.y = y;
+      if (rasteriser_) {
+        std::copy_n(tile.ids + (y - tile.y) / kBlockSize * kRowPixels, kRowPixels, row.ids);
+        FindRuns(&row);
+        count(&FrameTimes::triangle_ids);
+        rasteriser_->DrawRowBarycentrics(&row);
+        count(&FrameTimes::barycentric);
+      } else {
+        std::fill(std::begin(row.ids), std::end(row.ids), kNoTriangle);
+        ForEachPart(tiles, x, y, kBlockSize, [&](std::size_t to, std::size_t from, std::size_t n) {
+          CopyPart(frame_.triangle.data() + from, n, row.ids + to);
+          CopyPart(frame_.s.data() + from, n, row.s + to);
+          CopyPart(frame_.t.data() + from, n, row.t + to);
+        });
+        FindRuns(&row);
+      }
+      EvaluateRadiosity(shades.data(), background, &row);
+      count(&FrameTimes::evaluate);
+      finish(row);
+      count(finishing);
+    });
+    times *= lap() / std::max(times.Total(), std::numeric_limits<double>::min());
+    times.triangle_ids += ids;
   });
   FrameTimes sum;
   for (const FrameTimes& times : tile_times_) sum += times;
-  const double scale = wall() / std::max(sum.Total(), std::numeric_limits<double>::min());
-  frame_.ms.triangle_ids += scale * sum.triangle_ids;
-  frame_.ms.barycentric += scale * sum.barycentric;
-  frame_.ms.evaluate += scale * sum.evaluate;
-  frame_.ms.tone_map += scale * sum.tone_map;
+  sum *= wall() / std::max(sum.Total(), std::numeric_limits<double>::min());
+  frame_.ms += sum;
 }
 
 const RenderedFrame& TwoPassDisplay::Render(const Camera& camera, int width, int height, ShadingMode mode) {
@@ -157,19 +172,19 @@ const RenderedFrame& TwoPassDisplay::Render(const Camera& camera, int width, int
 
   const bool radiosity = mode == ShadingMode::kRadiosity;
   const TileGrid tiles(width, height);
-  DrawTiles(radiosity ? radiosity_ : reflectance_, 0, &FrameTimes::evaluate, [&](const Tile& tile) {
-    ForEachTilePart(tiles, tile.x, tile.y, [&](std::size_t from, std::size_t to, std::size_t n) {
+  DrawTiles(radiosity ? radiosity_ : reflectance_, 0, &FrameTimes::evaluate, [&](const BlockRow& row) {
+    ForEachPart(tiles, row.x, row.y, kBlockSize, [&](std::size_t from, std::size_t to, std::size_t n) {
       for (std::size_t c = 0; c < 3; ++c)
-        CopyPart(tile.rgb[c] + from, n, frame_.linear.channel[c].data() + to);
+        CopyPart(row.rgb[c] + from, n, frame_.linear.channel[c].data() + to);
       for (std::size_t i = 0; i < n; ++i) {
-        const std::uint32_t id = tile.ids[from + i];
+        const std::uint32_t id = row.ids[from + i];
         const PixelKind kind = radiosity && id != kNoTriangle ? kind_[id] : PixelKind::kSurface;
         frame_.kind[to + i] = id == kNoTriangle ? PixelKind::kBackground : kind;
       }
       if (!rasteriser_) return;
-      CopyPart(tile.ids + from, n, frame_.triangle.data() + to);
-      CopyPart(tile.s + from, n, frame_.s.data() + to);
-      CopyPart(tile.t + from, n, frame_.t.data() + to);
+      CopyPart(row.ids + from, n, frame_.triangle.data() + to);
+      CopyPart(row.s + from, n, frame_.s.data() + to);
+      CopyPart(row.t + from, n, frame_.t.data() + to);
     });
   });
   return frame_;
@@ -179,16 +194,20 @@ const RenderedFrame& TwoPassDisplay::RenderScreen(const Camera& camera, int widt
                                                   ShadingMode mode, const ToneMapping& settings) {
   DrawPasses(camera, width, height);
   frame_.screen.Resize(width, height);
-  const ScreenTransfer transfer = {static_cast<float>(settings.exposure), kBackground,
-                                   settings.dither ? DitherOffsets() : nullptr};
+  const ScreenTransfer transfer(static_cast<float>(settings.exposure), kBackground,
+                                settings.dither ? DitherOffsets() : nullptr);
   const bool radiosity = mode == ShadingMode::kRadiosity;
   constexpr float kNothing = -1;  // radiosity is never below 0
-  const TileGrid tiles(width, height);
-  DrawTiles(radiosity ? screen_ : reflectance_, kNothing, &FrameTimes::tone_map, [&](Tile& tile) {
-    FillScreen(transfer, &tile);
-    ForEachTilePart(tiles, tile.x, tile.y, [&](std::size_t from, std::size_t to, std::size_t n) {
-      PackRow(tile.screen + from, n, frame_.screen.pixels.data() + 3 * to);
-    });
+  DrawTiles(radiosity ? screen_ : reflectance_, kNothing, &FrameTimes::tone_map, [&](BlockRow& row) {
+    const int rows = std::min(kBlockSize, height - row.y), columns = std::min(kTileSize, width - row.x);
+    const auto bytes = [&](int y) {
+      return frame_.screen.pixels.data() + 3 * frame_.screen.Index(row.x, row.y + y);
+    };
+    // Rows of the picture lie far apart: they are sent for while their codes are computed.
+    for (int y = 0; y < rows; ++y)
+      for (int at = 0; at < 3 * columns; at += kCacheLine) __builtin_prefetch(bytes(y) + at, 1);
+    FillScreen(transfer, &row);
+    for (int y = 0; y < rows; ++y) PackScreen(row, y, static_cast<std::size_t>(columns), bytes(y));
   });
   return frame_;
 }

@@ -24,7 +24,7 @@ enum class ShadingMode {
 };
 
 // What the last frame took, milliseconds of wall clock. Where all is done tile by tile, each gets the part of
-// the frame that the threads spent in it.
+// the frame that the threads spent in it, measured in some of the rows of blocks.
 struct FrameTimes {
   double triangle_ids = 0, barycentric = 0, evaluate = 0, tone_map = 0;
 
@@ -34,6 +34,13 @@ struct FrameTimes {
     barycentric += other.barycentric;
     evaluate += other.evaluate;
     tone_map += other.tone_map;
+    return *this;
+  }
+  FrameTimes& operator*=(double factor) {
+    triangle_ids *= factor;
+    barycentric *= factor;
+    evaluate *= factor;
+    tone_map *= factor;
     return *this;
   }
 };

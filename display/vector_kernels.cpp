@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -25,6 +26,12 @@ constexpr auto kLaneY = [] {
   for (int i = 0; i < kBlockPixels; ++i) y[static_cast<std::size_t>(i)] = static_cast<float>(i / kBlockSize);
   return y;
 }();
+constexpr auto kLaneBit = [] {
+  std::array<std::uint32_t, kBlockPixels> bit{};
+  for (std::size_t i = 0; i < kBlockPixels; ++i) bit[i] = 1u << i;
+  return bit;
+}();
+constexpr std::uint32_t kAllLanes = (1u << kBlockPixels) - 1;
 
 #define PENUMBRA_INLINE [[gnu::always_inline]] inline
 
@@ -33,6 +40,14 @@ PENUMBRA_INLINE float Max(float a, float b) { return a > b ? a : b; }
 
 PENUMBRA_INLINE float At(const TileTriangle::Affine& f, float x, float y) {
   return (f.c + f.y * y) + f.x * x;
+}
+
+// The largest and the least value over a block, as functions of its upper left pixel.
+PENUMBRA_INLINE TileTriangle::Affine AtHighest(const TileTriangle::Affine& f) {
+  return {f.x, f.y, f.c + (kBlockSize - 1) * (Max(f.x, 0) + Max(f.y, 0))};
+}
+PENUMBRA_INLINE TileTriangle::Affine AtLowest(const TileTriangle::Affine& f) {
+  return {f.x, f.y, f.c + (kBlockSize - 1) * (Min(f.x, 0) + Min(f.y, 0))};
 }
 
 // 255 times the sRGB encoding of x in [0, 1]: below the knee by definition, above by the minimax polynomial
@@ -49,8 +64,9 @@ PENUMBRA_INLINE float Encode255(float x) {
   return x <= 0.0031308f ? 255 * 12.92f * x : power;
 }
 
+// In [0, 255], since offsets are below 0.995.
 PENUMBRA_INLINE std::int32_t Dithered(float x, float offset) {
-  return static_cast<std::int32_t>(Min(Max(Encode255(x) + offset, 0.0f), 255.0f));
+  return static_cast<std::int32_t>(Encode255(x) + offset);
 }
 
 // threshold[k]: the least float whose nearest code is k.
@@ -86,6 +102,17 @@ PENUMBRA_INLINE float Exposed(float value, float exposure, float background) {
   return value < 0 ? background : surface;
 }
 
+// Four pixels are three words: `codes` of 4 n pixels, `words` 3 n.
+PENUMBRA_INLINE void PackWords(const std::uint32_t* __restrict codes, std::size_t n,
+                               std::uint32_t* __restrict words) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t p = codes[4 * i], q = codes[4 * i + 1], r = codes[4 * i + 2], s = codes[4 * i + 3];
+    words[3 * i] = p | (q << 24);
+    words[3 * i + 1] = (q >> 8) | (r << 16);
+    words[3 * i + 2] = (r >> 16) | (s << 8);
+  }
+}
+
 }  // namespace
 
 void ClearTile(Tile* tile) {
@@ -105,56 +132,50 @@ void DrawTileTriangle(const TileTriangle& triangle, Tile* tile) {
              row_end = static_cast<float>(triangle.row_end);
   const int x_begin = triangle.column_begin / kBlockSize, x_end = (triangle.column_end - 1) / kBlockSize + 1;
   const int y_begin = triangle.row_begin / kBlockSize, y_end = (triangle.row_end - 1) / kBlockSize + 1;
-  // The values of edges over a block, above that in its upper left pixel.
-  float rise[3], fall[3];
-  for (int k = 0; k < 3; ++k) {
-    const auto& [ex, ey, ec] = triangle.edge[k];
-    rise[k] = (kBlockSize - 1) * (Max(ex, 0) + Max(ey, 0));
-    fall[k] = (kBlockSize - 1) * (Min(ex, 0) + Min(ey, 0));
-  }
-  const bool few = (x_end - x_begin) * (y_end - y_begin) <= 2;
-  for (int by = y_begin; by < y_end; ++by) {
-    const auto top = static_cast<float>(by * kBlockSize);
-    for (int bx = x_begin; bx < x_end; ++bx) {
-      const auto left = static_cast<float>(bx * kBlockSize);
-      bool inside_all = false;
-      if (!few) {
-        // Margins of two fringes, far above the rounding of these sums.
-        bool outside = false;
-        inside_all = true;
-        for (int k = 0; k < 3; ++k) {
-          const auto& [ex, ey, ec] = triangle.edge[k];
-          const float corner = ec + ey * top + ex * left;
-          outside = outside || corner + rise[k] < -2 * kFringe;
-          inside_all = inside_all && corner + fall[k] > 2 * kFringe;
-        }
-        if (outside) continue;
-      }
-      const int at = (by * kBlocksAcross + bx) * kBlockPixels;
-      float* __restrict z = tile->inverse_z + at;
-      std::uint32_t* __restrict ids = tile->ids + at;
-      if (inside_all) {
-        for (std::size_t i = 0; i < kBlockPixels; ++i) {
-          const float w = Min(At(inverse_z, left + kLaneX[i], top + kLaneY[i]), w_max);
-          const bool nearer = (w > z[i]) | ((w == z[i]) & (id < ids[i]));
-          z[i] = nearer ? w : z[i];
-          ids[i] = nearer ? id : ids[i];
-        }
-        continue;
-      }
+  const TileTriangle::Affine high0 = AtHighest(e0), high1 = AtHighest(e1), high2 = AtHighest(e2);
+  const TileTriangle::Affine low0 = AtLowest(e0), low1 = AtLowest(e1), low2 = AtLowest(e2);
+  // A group of 4 x 4 blocks is looked at together: most triangles are not larger.
+  for (int group_y = y_begin; group_y < y_end; group_y += kBlockSize)
+    for (int group_x = x_begin; group_x < x_end; group_x += kBlockSize) {
+      // Margins of two fringes, far above the rounding of these sums.
+      std::uint32_t lanes = 0;  // that it meets, and, 16 bits higher, those that it covers
       for (std::size_t i = 0; i < kBlockPixels; ++i) {
-        const float x = left + kLaneX[i], y = top + kLaneY[i];
-        const float w = Min(At(inverse_z, x, y), w_max);
-        const float inside = Min(At(e0, x, y), Min(At(e1, x, y), At(e2, x, y)));
-        const float w_drawn = w + w * Min(inside, 0.0f);
-        const bool nearer = (w_drawn > z[i]) | ((w_drawn == z[i]) & (id < ids[i]));
-        const bool drawn = (inside >= -kFringe) & nearer & (x >= column_begin) & (x < column_end) &
-                           (y >= row_begin) & (y < row_end);
-        z[i] = drawn ? w_drawn : z[i];
-        ids[i] = drawn ? id : ids[i];
+        const float x = static_cast<float>(group_x * kBlockSize) + kBlockSize * kLaneX[i];
+        const float y = static_cast<float>(group_y * kBlockSize) + kBlockSize * kLaneY[i];
+        const float high = Min(At(high0, x, y), Min(At(high1, x, y), At(high2, x, y)));
+        const float low = Min(At(low0, x, y), Min(At(low1, x, y), At(low2, x, y)));
+        const bool met = (high >= -2 * kFringe) & (x < column_end) & (y < row_end);
+        lanes |= (met ? kLaneBit[i] : 0) | (low > 2 * kFringe ? kLaneBit[i] << kBlockPixels : 0);
+      }
+      for (std::uint32_t meets = lanes & kAllLanes; meets != 0; meets &= meets - 1) {
+        const int block = std::countr_zero(meets);
+        const int bx = group_x + block % kBlockSize, by = group_y + block / kBlockSize;
+        const auto left = static_cast<float>(bx * kBlockSize), top = static_cast<float>(by * kBlockSize);
+        const int at = (by * kBlocksAcross + bx) * kBlockPixels;
+        float* __restrict z = tile->inverse_z + at;
+        std::uint32_t* __restrict ids = tile->ids + at;
+        if ((lanes >> block >> kBlockPixels & 1) != 0) {
+          for (std::size_t i = 0; i < kBlockPixels; ++i) {
+            const float w = Min(At(inverse_z, left + kLaneX[i], top + kLaneY[i]), w_max);
+            const bool nearer = (w > z[i]) | ((w == z[i]) & (id < ids[i]));
+            z[i] = nearer ? w : z[i];
+            ids[i] = nearer ? id : ids[i];
+          }
+          continue;
+        }
+        for (std::size_t i = 0; i < kBlockPixels; ++i) {
+          const float x = left + kLaneX[i], y = top + kLaneY[i];
+          const float w = Min(At(inverse_z, x, y), w_max);
+          const float inside = Min(At(e0, x, y), Min(At(e1, x, y), At(e2, x, y)));
+          const float w_drawn = w + w * Min(inside, 0.0f);
+          const bool nearer = (w_drawn > z[i]) | ((w_drawn == z[i]) & (id < ids[i]));
+          const bool drawn = (inside >= -kFringe) & nearer & (x >= column_begin) & (x < column_end) &
+                             (y >= row_begin) & (y < row_end);
+          z[i] = drawn ? w_drawn : z[i];
+          ids[i] = drawn ? id : ids[i];
+        }
       }
     }
-  }
 }
 
 PENUMBRA_VECTOR_CLONES
@@ -176,52 +197,40 @@ void FindFarthest(const Tile& tile, RegionDepths* farthest) {
 }
 
 PENUMBRA_VECTOR_CLONES
-void FindRuns(Tile* tile) {
+void FindRuns(BlockRow* row) {
   int count = 0;
-  for (int block = 0; block < kTileBlocks; ++block) {
-    const std::uint32_t* ids = tile->ids + block * kBlockPixels;
-    const std::uint64_t twice = ids[0] | (std::uint64_t{ids[0]} << 32);
-    std::uint64_t different = 0;
-    for (int i = 0; i < kBlockPixels; i += 2) {
-      std::uint64_t two;
-      std::memcpy(&two, ids + i, sizeof(two));
-      different |= two ^ twice;
-    }
-    const auto place = static_cast<std::uint16_t>(block);
-    if (different == 0) {
-      tile->runs[count++] = {ids[0], place, true};
-      continue;
-    }
-    const int first = count;
-    for (int i = 0; i < kBlockPixels; ++i) {
-      int k = first;
-      while (k < count && tile->runs[k].id != ids[i]) ++k;
-      if (k == count) tile->runs[count++] = {ids[i], place, false};
+  for (int block = 0; block < kBlocksAcross; ++block) {
+    const std::uint32_t* ids = row->ids + block * kBlockPixels;
+    for (std::uint32_t open = kAllLanes; open != 0;) {
+      const std::uint32_t id = ids[std::countr_zero(open)];
+      std::uint32_t same = 0;
+      for (std::size_t i = 0; i < kBlockPixels; ++i) same |= ids[i] == id ? kLaneBit[i] : 0;
+      row->runs[count++] = {id, static_cast<std::uint16_t>(block)};
+      open &= ~same;
     }
   }
-  tile->run_count = count;
+  row->run_count = count;
 }
 
 PENUMBRA_VECTOR_CLONES
-void FillBarycentrics(const Plane* planes, Tile* tile) {
-  for (int r = 0; r < tile->run_count; ++r) {
-    const BlockRun run = tile->runs[r];
+void FillBarycentrics(const Plane* planes, BlockRow* row) {
+  for (int r = 0; r < row->run_count; ++r) {
+    const BlockRun run = row->runs[r];
     if (run.id == kNoTriangle) continue;
     const Plane* plane = planes + 3 * static_cast<std::size_t>(run.id);
-    const double x = tile->x + run.block % kBlocksAcross * kBlockSize + 0.5;
-    const double y = tile->y + run.block / kBlocksAcross * kBlockSize + 0.5;
+    const double x = row->x + run.block * kBlockSize + 0.5;
+    const double y = row->y + 0.5;
     TileTriangle::Affine f[3];
     for (int k = 0; k < 3; ++k) {
-      // Triangles that are nothing but rounding may have larger planes than floats hold.
-      const auto narrow = [](double value) { return static_cast<float>(std::clamp(value, -1e30, 1e30)); };
-      f[k] = {narrow(plane[k].x), narrow(plane[k].y), narrow(plane[k].At(x, y))};
+      f[k] = {static_cast<float>(plane[k].x), static_cast<float>(plane[k].y),
+              static_cast<float>(plane[k].At(x, y))};
     }
     const TileTriangle::Affine f0 = f[0], f1 = f[1], f2 = f[2];
     const int at = run.block * kBlockPixels;
     const std::uint32_t id = run.id;
-    const std::uint32_t* __restrict ids = tile->ids + at;
-    float* __restrict s = tile->s + at;
-    float* __restrict t = tile->t + at;
+    const std::uint32_t* __restrict ids = row->ids + at;
+    float* __restrict s = row->s + at;
+    float* __restrict t = row->t + at;
     for (std::size_t i = 0; i < kBlockPixels; ++i) {
       const float b0 = Max(At(f0, kLaneX[i], kLaneY[i]), 0.0f), b1 = Max(At(f1, kLaneX[i], kLaneY[i]), 0.0f),
                   b2 = Max(At(f2, kLaneX[i], kLaneY[i]), 0.0f);
@@ -234,27 +243,27 @@ void FillBarycentrics(const Plane* planes, Tile* tile) {
 }
 
 PENUMBRA_VECTOR_CLONES
-void EvaluateRadiosity(const TriangleShade* shades, float background, Tile* tile) {
-  for (int r = 0; r < tile->run_count; ++r) {
-    const BlockRun run = tile->runs[r];
+void EvaluateRadiosity(const TriangleShade* shades, float background, BlockRow* row) {
+  for (int r = 0; r < row->run_count; ++r) {
+    const BlockRun run = row->runs[r];
     const int at = run.block * kBlockPixels;
     const std::uint32_t id = run.id;
-    const std::uint32_t* __restrict ids = tile->ids + at;
+    const std::uint32_t* __restrict ids = row->ids + at;
     if (id == kNoTriangle) {
-      for (auto& channel : tile->rgb) {
+      for (auto& channel : row->rgb) {
         float* __restrict out = channel + at;
         for (int i = 0; i < kBlockPixels; ++i) out[i] = ids[i] == id ? background : out[i];
       }
       continue;
     }
     const TriangleShade& shade = shades[id];
-    const float* __restrict s = tile->s + at;
-    const float* __restrict t = tile->t + at;
+    const float* __restrict s = row->s + at;
+    const float* __restrict t = row->t + at;
     for (int channel = 0; channel < 3; ++channel) {
       const float a = shade.a[channel], b2 = shade.b2[channel], c2 = shade.c2[channel];
       const float d = shade.d[channel], e2 = shade.e2[channel], f = shade.f[channel];
       const float reflectance = shade.reflectance[channel], emittance = shade.emittance[channel];
-      float* __restrict out = tile->rgb[channel] + at;
+      float* __restrict out = row->rgb[channel] + at;
       for (int i = 0; i < kBlockPixels; ++i) {
         const float irradiance = (a * s[i] + b2 * t[i] + c2) * s[i] + (d * t[i] + e2) * t[i] + f;
         const float radiosity = Max(irradiance, 0.0f) * reflectance + emittance;
@@ -264,31 +273,34 @@ void EvaluateRadiosity(const TriangleShade* shades, float background, Tile* tile
   }
 }
 
+ScreenTransfer::ScreenTransfer(float the_exposure, float the_background, const float* dither)
+    : exposure(the_exposure), background(the_background), dithered(dither != nullptr) {
+  if (!dithered) return;
+  for (int half = 0; half < 2; ++half)
+    for (int i = 0; i < 2 * kBlockPixels; ++i) {
+      const int x = i / kBlockPixels * kBlockSize + i % kBlockSize;
+      const int y = half * kBlockSize + i % kBlockPixels / kBlockSize;
+      offset[half][i] = dither[8 * y + x];
+    }
+}
+
 PENUMBRA_VECTOR_CLONES
-void FillScreen(const ScreenTransfer& transfer, Tile* tile) {
-  constexpr int kPair = 2 * kBlockPixels;  // the dither repeats after two blocks
+void FillScreen(const ScreenTransfer& transfer, BlockRow* row) {
+  constexpr int kPair = 2 * kBlockPixels;
   const float exposure = transfer.exposure, background = transfer.background;
-  alignas(64) float offsets[2][kPair] = {};
-  if (transfer.dither != nullptr)
-    for (int half = 0; half < 2; ++half)
-      for (int i = 0; i < kPair; ++i) {
-        const int x = i / kBlockPixels * kBlockSize + i % kBlockSize;
-        const int y = half * kBlockSize + i % kBlockPixels / kBlockSize;
-        offsets[half][i] = transfer.dither[8 * y + x];
-      }
-  for (int begin = 0; begin < kTilePixels; begin += kPair) {
-    const float* __restrict offset = offsets[begin / (kBlocksAcross * kBlockPixels) % 2];
+  const float* __restrict offset = transfer.offset[row->y / kBlockSize % 2];
+  for (int begin = 0; begin < kRowPixels; begin += kPair) {
     alignas(64) std::int32_t codes[3][kPair];
     for (int channel = 0; channel < 3; ++channel) {
-      const float* __restrict value = tile->rgb[channel] + begin;
+      const float* __restrict value = row->rgb[channel] + begin;
       std::int32_t* __restrict code = codes[channel];
-      if (transfer.dither != nullptr)
+      if (transfer.dithered)
         for (int i = 0; i < kPair; ++i)
           code[i] = Dithered(Exposed(value[i], exposure, background), offset[i]);
       else
         for (int i = 0; i < kPair; ++i) code[i] = Nearest(Exposed(value[i], exposure, background));
     }
-    std::uint32_t* __restrict screen = tile->screen + begin;
+    std::uint32_t* __restrict screen = row->screen + begin;
     for (int i = 0; i < kPair; ++i) screen[i] = Code(codes[0][i], codes[1][i], codes[2][i]);
   }
 }
@@ -318,6 +330,27 @@ void EncodeRow(const float* __restrict red, const float* __restrict green, const
   for (std::size_t i = begin; i < n; ++i)
     codes[i] = Code(Dithered(red[i], dither[i - begin]), Dithered(green[i], dither[i - begin]),
                     Dithered(blue[i], dither[i - begin]));
+}
+
+PENUMBRA_VECTOR_CLONES
+void PackRow(const std::uint32_t* codes, std::size_t n, std::uint8_t* bytes) {
+  constexpr std::size_t kAtOnce = kTileSize;  // pixels
+  for (std::size_t begin = 0; begin < n; begin += kAtOnce) {
+    alignas(64) std::uint32_t some[kAtOnce] = {}, words[kAtOnce / 4 * 3];
+    const std::size_t count = std::min(kAtOnce, n - begin);
+    std::memcpy(some, codes + begin, count * sizeof(some[0]));
+    PackWords(some, kAtOnce / 4, words);
+    std::memcpy(bytes + 3 * begin, words, 3 * count);
+  }
+}
+
+PENUMBRA_VECTOR_CLONES
+void PackScreen(const BlockRow& row, int y, std::size_t n, std::uint8_t* bytes) {
+  alignas(64) std::uint32_t codes[kTileSize], words[kTileSize / 4 * 3];
+  for (int x = 0; x < kTileSize; x += kBlockSize)
+    std::memcpy(codes + x, row.screen + TileIndex(x, y), kBlockSize * sizeof(codes[0]));
+  PackWords(codes, kTileSize / 4, words);
+  std::memcpy(bytes, words, 3 * n);
 }
 
 }  // namespace penumbra

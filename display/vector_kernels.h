@@ -12,7 +12,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 #include "display/image.h"
 
@@ -23,9 +22,10 @@ inline constexpr int kTilePixels = kTileSize * kTileSize;
 inline constexpr int kBlockSize = 4;  // pixels a side
 inline constexpr int kBlockPixels = kBlockSize * kBlockSize;
 inline constexpr int kBlocksAcross = kTileSize / kBlockSize;
-inline constexpr int kTileBlocks = kBlocksAcross * kBlocksAcross;
+inline constexpr int kRowPixels = kBlocksAcross * kBlockPixels;  // of a row of blocks
 
-// Where the four pixels of a tile that begin at column x, a multiple of 4, and row y lie in its arrays.
+// Where the four pixels of a tile, or of a row of its blocks, that begin at column x, a multiple of 4, and
+// row y lie in its arrays.
 inline constexpr int TileIndex(int x, int y) {
   return (y / kBlockSize * kBlocksAcross + x / kBlockSize) * kBlockPixels + y % kBlockSize * kBlockSize;
 }
@@ -64,23 +64,28 @@ struct TriangleShade {
   float emittance[3];  // [W/m^2]
 };
 
-// The pixels of a block that show one triangle.
-struct BlockRun {
-  std::uint32_t id;
-  std::uint16_t block;
-  bool whole;  // all pixels of the block do
-};
-
-// A tile on its way to the screen.
+// A tile whose triangles are being found.
 struct Tile {
   int x = 0, y = 0;  // its upper left pixel in the picture
   alignas(64) std::uint32_t ids[kTilePixels];
   alignas(64) float inverse_z[kTilePixels];  // 1 / depth, 0 where there is nothing
-  alignas(64) float s[kTilePixels], t[kTilePixels];
-  alignas(64) float rgb[3][kTilePixels];
-  alignas(64) std::uint32_t screen[kTilePixels];  // a pixel's codes: red + 2^8 green + 2^16 blue
+};
+
+// The pixels of a block that show one triangle.
+struct BlockRun {
+  std::uint32_t id;
+  std::uint16_t block;
+};
+
+// A row of a tile's blocks on its way from the triangles to the screen: what a processor's first cache holds.
+struct BlockRow {
+  int x = 0, y = 0;  // its upper left pixel in the picture
+  alignas(64) std::uint32_t ids[kRowPixels];
+  alignas(64) float s[kRowPixels], t[kRowPixels];
+  alignas(64) float rgb[3][kRowPixels];
+  alignas(64) std::uint32_t screen[kRowPixels];  // a pixel's codes: red + 2^8 green + 2^16 blue
   int run_count = 0;
-  BlockRun runs[kTilePixels];
+  BlockRun runs[kRowPixels];
 };
 
 // Nothing in the whole tile yet.
@@ -99,27 +104,34 @@ using RegionDepths = std::array<float, kRegionsAcross * kRegionsAcross>;
 void FindFarthest(const Tile& tile, RegionDepths* farthest);
 
 // Collects `runs` from `ids`.
-void FindRuns(Tile* tile);
+void FindRuns(BlockRow* row);
 
 // (s, t), the coordinates of vertices 1 and 2, inside the triangle in spite of rounding, where there is one.
-// planes[3 id + k] is proportional to the coordinate of vertex k. REQUIRES: FindRuns.
-void FillBarycentrics(const Plane* planes, Tile* tile);
+// planes[3 id + k] is proportional to the coordinate of vertex k. REQUIRES: FindRuns; the planes' values are
+// floats anywhere in the picture.
+void FillBarycentrics(const Plane* planes, BlockRow* row);
 
 // rgb = max(irradiance(s, t), 0) x reflectance + emittance [W/m^2], and `background` where there is no
 // triangle. Irradiance is clamped since a quadratic through nonnegative samples may dip below 0 between them.
 // REQUIRES: FindRuns; s and t.
-void EvaluateRadiosity(const TriangleShade* shades, float background, Tile* tile);
+void EvaluateRadiosity(const TriangleShade* shades, float background, BlockRow* row);
 
-// The transfer of a linear value in [0, 1] to 8 bits. Dithered: 255 times the encoded value, `offset` added,
-// is within 1e-3 of the exact one before it is rounded down. Else: the nearest code, exactly.
+// The transfer of a linear value in [0, 1] to 8 bits. Dithered: 255 times the encoded value, an offset in
+// (0, 1) added, is within 1e-3 of the exact one before it is rounded down. Else: the nearest code, exactly.
 struct ScreenTransfer {
-  float exposure;       // factor of the values, which are cut off at 1 afterwards
-  float background;     // what shows, linear, where a value is negative
-  const float* dither;  // 64 offsets in (0, 1), rows of 8; null: round to the nearest code
+  // `dither`: 64 offsets, rows of 8; null: round to the nearest code.
+  ScreenTransfer(float exposure, float background, const float* dither);
+
+  float exposure;    // factor of the values, which are cut off at 1 afterwards
+  float background;  // what shows, linear, where a value is negative
+  bool dithered;
+  // Of the pixels of two blocks side by side, in even rows of blocks and in odd ones: there the dither
+  // repeats.
+  alignas(64) float offset[2][2 * kBlockPixels] = {};
 };
 
 // `screen` from `rgb`.
-void FillScreen(const ScreenTransfer& transfer, Tile* tile);
+void FillScreen(const ScreenTransfer& transfer, BlockRow* row);
 
 // min(max(exposure x value, 0), 1) of n values; emitters become 1, background `background`.
 void ExposeRow(const float* value, const PixelKind* kind, float exposure, float background, std::size_t n,
@@ -129,16 +141,10 @@ void ExposeRow(const float* value, const PixelKind* kind, float exposure, float 
 void EncodeRow(const float* red, const float* green, const float* blue, std::size_t n, const float* dither,
                std::uint32_t* codes);
 
-// Three bytes a pixel from n codes. Short rows are the usual case: inline.
-inline void PackRow(const std::uint32_t* __restrict codes, std::size_t n, std::uint8_t* __restrict bytes) {
-  std::size_t i = 0;
-  for (; i + 4 <= n; i += 4) {
-    const std::uint32_t p = codes[i], q = codes[i + 1], r = codes[i + 2], s = codes[i + 3];
-    const std::array<std::uint32_t, 3> words = {p | (q << 24), (q >> 8) | (r << 16), (r >> 16) | (s << 8)};
-    std::memcpy(bytes + 3 * i, words.data(), sizeof(words));
-  }
-  for (; i < n; ++i)
-    for (std::size_t c = 0; c < 3; ++c) bytes[3 * i + c] = static_cast<std::uint8_t>(codes[i] >> (8 * c));
-}
+// Three bytes a pixel from n codes.
+void PackRow(const std::uint32_t* codes, std::size_t n, std::uint8_t* bytes);
+
+// The same of the first n of row y of `screen`.
+void PackScreen(const BlockRow& row, int y, std::size_t n, std::uint8_t* bytes);
 
 }  // namespace penumbra

@@ -70,9 +70,7 @@ std::optional<ScreenLine> ToScreen(const View& view, const OverlayLine& line, in
 }
 
 void Blend(Srgb8Image* picture, int x, int y, Colour colour, double opacity) {
-  std::uint8_t* pixel =
-      picture->pixels.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture->width) +
-                                    static_cast<std::size_t>(x));
+  std::uint8_t* pixel = picture->pixels.data() + 3 * picture->Index(x, y);
   const std::uint8_t rgb[3] = {colour.red, colour.green, colour.blue};
   for (int c = 0; c < 3; ++c)
     pixel[c] = static_cast<std::uint8_t>(std::lround(pixel[c] + opacity * (rgb[c] - pixel[c])));

@@ -86,14 +86,15 @@ TEST(ToneMapping, ExposesSurfacesOnly) {
 
 // Three bytes a pixel, whatever the number of pixels.
 TEST(ToneMapping, PacksRows) {
-  for (std::size_t n = 0; n < 12; ++n) {
+  for (const std::size_t n : {0, 1, 2, 3, 4, 5, 63, 64, 65, 67, 128, 200}) {
     std::vector<std::uint32_t> codes(n);
     for (std::size_t i = 0; i < n; ++i)
-      codes[i] = static_cast<std::uint32_t>((3 * i + 1) + ((3 * i + 2) << 8) + ((3 * i + 3) << 16));
-    std::vector<std::uint8_t> bytes(3 * n + 1, 0);
+      codes[i] = static_cast<std::uint32_t>((3 * i + 1) % 251 + ((3 * i + 2) % 251 << 8) +
+                                            ((3 * i + 3) % 251 << 16));
+    std::vector<std::uint8_t> bytes(3 * n + 1, 255);
     PackRow(codes.data(), n, bytes.data());
-    for (std::size_t i = 0; i < 3 * n; ++i) EXPECT_EQ(bytes[i], i + 1);
-    EXPECT_EQ(bytes[3 * n], 0);
+    for (std::size_t i = 0; i < 3 * n; ++i) EXPECT_EQ(bytes[i], (i + 1) % 251) << n;
+    EXPECT_EQ(bytes[3 * n], 255) << n;
   }
 }
 
