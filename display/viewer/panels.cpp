@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <span>
+#include <string_view>
 #include <utility>
 
 #include "display/false_colour.h"
@@ -38,7 +40,22 @@ std::vector<std::string> PartsOf(const std::string& path) {
   return parts;
 }
 
+// The menus of the bar, in order.
+std::vector<std::string> TopMenus(const Menu& menu) {
+  std::vector<std::string> tops;
+  for (const MenuItem& item : menu.items())
+    if (std::string top = PartsOf(item.path)[0]; tops.empty() || tops.back() != top)
+      tops.push_back(std::move(top));
+  return tops;
+}
+
 constexpr float kGap = 8;
+
+// What the drawing control panel holds, and how wide its fields and those of the parameters are.
+constexpr std::string_view kControlGroups[] = {"Drawing", "Exposure", "Visualisations",
+                                               "Links",   "Graphs",   "Viewing"};
+constexpr std::string_view kParameterGroups[] = {"Solving"};
+constexpr float kControlField = 120, kParameterField = 150;
 
 // How much larger than plain everything is.
 float Scale() { return ImGui::GetFontSize() / kPlainFontSize; }
@@ -57,6 +74,18 @@ void PlaceNext(float x, float y, float width, float height) {
   ImGui::SetNextWindowSize(ImVec2(across, down), ImGuiCond_FirstUseEver);
 }
 
+// The width of a panel that shows all labels of these groups whole, in plain pixels.
+float PanelWidth(const Viewer& viewer, std::span<const std::string_view> groups, float field) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  float widest = 0;
+  for (const Setting& setting : viewer.settings().all())
+    if (std::find(groups.begin(), groups.end(), setting.group) != groups.end())
+      widest = std::max(
+          widest, ImGui::CalcTextSize(setting.help.c_str()).x +
+                      (setting.kind == SettingKind::kToggle ? ImGui::GetFrameHeight() : field * Scale()));
+  return (widest + style.ItemInnerSpacing.x + 2 * style.WindowPadding.x + style.ScrollbarSize) / Scale();
+}
+
 }  // namespace
 
 template <class Action>
@@ -67,6 +96,8 @@ void Panels::Try(Viewer& viewer, const Action& action) {
     viewer.Complain(error.what());
   }
 }
+
+bool Panels::Typing() { return ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive(); }
 
 void Panels::Draw(Viewer& viewer) {
   MenuBar(viewer);
@@ -83,27 +114,34 @@ void Panels::Draw(Viewer& viewer) {
 void Panels::MenuBar(Viewer& viewer) {
   if (!ImGui::BeginMainMenuBar()) return;
   std::string run;
-  const std::vector<MenuItem>& items = viewer.menu().items();
-  for (std::size_t i = 0; i < items.size();) {
-    const std::string top = PartsOf(items[i].path)[0];
-    std::size_t end = i;
-    while (end < items.size() && PartsOf(items[end].path)[0] == top) ++end;
-    if (ImGui::BeginMenu(top.c_str())) {
-      for (std::size_t k = i; k < end; ++k) {
-        const std::vector<std::string> parts = PartsOf(items[k].path);
-        if (parts.size() == 3 && !ImGui::BeginMenu(parts[1].c_str())) continue;
-        const bool checked = items[k].checked && items[k].checked();
-        if (ImGui::MenuItem(parts.back().c_str(), items[k].key.c_str(), checked)) run = items[k].path;
-        if (ImGui::IsItemHovered() && !items[k].help.empty()) ImGui::SetTooltip("%s", items[k].help.c_str());
-        if (parts.size() == 3) ImGui::EndMenu();
-      }
-      ImGui::EndMenu();
-    }
-    i = end;
+  float width = 0;
+  for (const std::string& top : TopMenus(viewer.menu()))
+    width += ImGui::CalcTextSize(top.c_str()).x + 2 * ImGui::GetStyle().ItemSpacing.x;
+  if (width <= ImGui::GetIO().DisplaySize.x) {
+    Menus(viewer, &run);
+  } else if (ImGui::BeginMenu("Menu")) {  // in a window without room for all of them
+    Menus(viewer, &run);
+    ImGui::EndMenu();
   }
   Status(viewer);
   ImGui::EndMainMenuBar();
   if (!run.empty()) Try(viewer, [&] { viewer.RunMenu(run); });
+}
+
+// `run`: the path of the item that was chosen.
+void Panels::Menus(const Viewer& viewer, std::string* run) {
+  for (const std::string& top : TopMenus(viewer.menu())) {
+    if (!ImGui::BeginMenu(top.c_str())) continue;
+    for (const MenuItem& item : viewer.menu().items()) {
+      const std::vector<std::string> parts = PartsOf(item.path);
+      if (parts[0] != top || (parts.size() == 3 && !ImGui::BeginMenu(parts[1].c_str()))) continue;
+      const bool checked = item.checked && item.checked();
+      if (ImGui::MenuItem(parts.back().c_str(), item.key.c_str(), checked)) *run = item.path;
+      if (ImGui::IsItemHovered() && !item.help.empty()) ImGui::SetTooltip("%s", item.help.c_str());
+      if (parts.size() == 3) ImGui::EndMenu();
+    }
+    ImGui::EndMenu();
+  }
 }
 
 // The status indicator, upper right (thesis B.2): what is being done, how far, and a button that ends it.
@@ -179,18 +217,18 @@ void Panels::Widget(Viewer& viewer, const Setting& setting) {
   if (chosen != value) Try(viewer, [&] { viewer.Set(setting.name, chosen); });
 }
 
-void Panels::Group(Viewer& viewer, const std::string& group) {
+void Panels::Group(Viewer& viewer, std::string_view group) {
   for (const Setting& setting : viewer.settings().all())
     if (setting.group == group) Widget(viewer, setting);
 }
 
 void Panels::ControlPanel(Viewer& viewer) {
   if (!viewer.panels().control) return;
-  PlaceNext(kGap, 30, 330, 620);
+  PlaceNext(kGap, 30, PanelWidth(viewer, kControlGroups, kControlField), 620);
   if (ImGui::Begin("Drawing Control Panel", &viewer.panels().control)) {
-    ImGui::PushItemWidth(120 * Scale());
-    for (const char* group : {"Drawing", "Exposure", "Visualisations", "Links", "Graphs", "Viewing"})
-      if (ImGui::CollapsingHeader(group, ImGuiTreeNodeFlags_DefaultOpen)) Group(viewer, group);
+    ImGui::PushItemWidth(kControlField * Scale());
+    for (const std::string_view group : kControlGroups)
+      if (ImGui::CollapsingHeader(group.data(), ImGuiTreeNodeFlags_DefaultOpen)) Group(viewer, group);
     ImGui::PopItemWidth();
   }
   ImGui::End();
@@ -198,10 +236,12 @@ void Panels::ControlPanel(Viewer& viewer) {
 
 void Panels::Parameters(Viewer& viewer) {
   if (!viewer.panels().parameters) return;
-  PlaceNext(350, 30, 420, 360);
+  // Beside the control panel.
+  PlaceNext(PanelWidth(viewer, kControlGroups, kControlField) + 2 * kGap, 30,
+            PanelWidth(viewer, kParameterGroups, kParameterField), 360);
   if (ImGui::Begin("Parameters", &viewer.panels().parameters)) {
-    ImGui::PushItemWidth(150 * Scale());
-    Group(viewer, "Solving");
+    ImGui::PushItemWidth(kParameterField * Scale());
+    for (const std::string_view group : kParameterGroups) Group(viewer, group);
     ImGui::PopItemWidth();
     ImGui::TextDisabled("The next iteration starts over where they differ.");
     for (const char* path : {"Iteration/Iterate", "Iteration/Iterate to convergence"}) {
@@ -224,7 +264,10 @@ void Panels::Details(Viewer& viewer) {
 
 void Panels::Report(Viewer& viewer) {
   if (!viewer.panels().report) return;
-  PlaceNext(350, 60, 460, 360);
+  // In the lower right corner, below the details and the parameters.
+  constexpr float kWidth = 480, kHeight = 360;
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  PlaceNext((display.x - kGap) / Scale() - kWidth, (display.y - kGap) / Scale() - kHeight, kWidth, kHeight);
   if (ImGui::Begin("Report", &viewer.panels().report)) {
     const Snapshot& now = viewer.snapshot();
     Text(fmt::format("{} patches, {} iterations{}, {} corrections", now.scene->patches.size(),
@@ -348,31 +391,40 @@ void Panels::Message(Viewer& viewer) {
   ImGui::End();
 }
 
-// The scale of false colours.
+// The scale of false colours: smaller in a window that has no room for it.
 void Panels::Legend(Viewer& viewer) {
   const ViewState& view = viewer.view();
   const bool errors = view.error_map;
   if (!errors && !view.false_colour) return;
   const double top = errors ? view.error_map_max : viewer.picture().scale_top();
-  const float scale = Scale(), width = 18 * scale, height = 220 * scale;
+  constexpr float kWidth = 112, kHeight = 270, kBarTop = 34, kBarLeft = 12, kBarWidth = 18, kBarHeight = 220;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const ImVec2 at(size.x - 110 * scale, size.y - height - 40 * scale);
+  const float menus = ImGui::GetFrameHeight();
+  const float scale = std::max(
+      std::min({Scale(), (size.x - 2 * kGap) / kWidth, (size.y - menus - 2 * kGap) / kHeight}), 0.0F);
+  const float letters = kPlainFontSize * scale;
+  const ImVec2 box(size.x - kGap - kWidth * scale, size.y - kGap - kHeight * scale);
+  const ImVec2 bar(box.x + kBarLeft * scale, box.y + kBarTop * scale);
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
-  draw->AddRectFilled(ImVec2(at.x - 12 * scale, at.y - 34 * scale),
-                      ImVec2(at.x + 100 * scale, at.y + height + 16 * scale), IM_COL32(20, 20, 20, 190), 4);
+  draw->AddRectFilled(box, ImVec2(box.x + kWidth * scale, box.y + kHeight * scale), IM_COL32(20, 20, 20, 190),
+                      4);
   constexpr int kSteps = 64;
   for (int i = 0; i < kSteps; ++i) {
-    const float y = at.y + height * static_cast<float>(kSteps - 1 - i) / kSteps;
-    draw->AddRectFilled(ImVec2(at.x, y), ImVec2(at.x + width, y + height / kSteps + 1),
+    const float y = bar.y + kBarHeight * scale * static_cast<float>(kSteps - 1 - i) / kSteps;
+    draw->AddRectFilled(ImVec2(bar.x, y),
+                        ImVec2(bar.x + kBarWidth * scale, y + kBarHeight * scale / kSteps + 1),
                         ToImGui(FalseColour((i + 0.5) / kSteps)));
   }
-  draw->AddText(ImVec2(at.x - 4 * scale, at.y - 28 * scale), IM_COL32_WHITE, errors ? "rel. error" : "W/m^2");
+  const auto write = [&](float x, float y, const std::string& text) {
+    draw->AddText(ImGui::GetFont(), letters, ImVec2(x, y), IM_COL32_WHITE, text.c_str());
+  };
+  write(box.x + 8 * scale, box.y + 6 * scale, errors ? "rel. error" : "W/m^2");
   constexpr int kTicks = 4;
   for (int i = 0; i <= kTicks; ++i) {
-    const float y = at.y + height * static_cast<float>(kTicks - i) / kTicks;
-    draw->AddLine(ImVec2(at.x + width, y), ImVec2(at.x + width + 5, y), IM_COL32_WHITE);
-    draw->AddText(ImVec2(at.x + width + 9, y - 7), IM_COL32_WHITE,
-                  fmt::format("{:.3g}", top * i / kTicks).c_str());
+    const float x = bar.x + kBarWidth * scale;
+    const float y = bar.y + kBarHeight * scale * static_cast<float>(kTicks - i) / kTicks;
+    draw->AddLine(ImVec2(x, y), ImVec2(x + 5 * scale, y), IM_COL32_WHITE);
+    write(x + 9 * scale, y - letters / 2, fmt::format("{:.3g}", top * i / kTicks));
   }
 }
 

@@ -2,23 +2,31 @@
 
 #pragma once
 
+#include <string>
+#include <string_view>
+
 #include "display/viewer/viewer.h"
 
 namespace penumbra::viewer {
 
-// Draws menus and panels with Dear ImGui, and runs what the user does with them. REQUIRES: within a frame of
-// ImGui.
 // The letters' height where nothing is enlarged [pixels]; panels grow with them.
 inline constexpr float kPlainFontSize = 13;
 
+// Draws menus and panels with Dear ImGui, and runs what the user does with them.
 class Panels {
  public:
+  // REQUIRES: within a frame of ImGui.
   void Draw(Viewer& viewer);
+
+  // Whether keys belong to a field that is being edited. ImGui's WantTextInput tells two frames after the
+  // end.
+  static bool Typing();
 
  private:
   void MenuBar(Viewer& viewer);
+  static void Menus(const Viewer& viewer, std::string* run);
   void Status(Viewer& viewer);
-  void Group(Viewer& viewer, const std::string& group);
+  void Group(Viewer& viewer, std::string_view group);
   void Widget(Viewer& viewer, const Setting& setting);
   void ControlPanel(Viewer& viewer);
   void Parameters(Viewer& viewer);

@@ -4,12 +4,14 @@
 #include <cmath>
 
 #include "display/false_colour.h"
+#include "display/opengl_passes.h"
 #include "display/split_view.h"
 #include "display/viewer/mesh_tools.h"
 #include "display/viewer/selection.h"
 #include "solver/base/check.h"
 
 namespace penumbra::viewer {
+
 MeshKind MeshOf(DrawMode mode) {
   switch (mode) {
     case DrawMode::kFlat:
@@ -54,7 +56,9 @@ void PictureMaker::ChooseMesh(const OverlayContext& context, const ViewState& vi
       if (mesh.get() == &context.mesh) wanted = mesh;
   const Selection isolated = isolate ? context.selection : Selection{};
   const bool same_results = isolated.kind != SelectionKind::kDiscontinuity || isolated_by_ == context.results;
-  if (wanted == whole_ && isolated == isolated_ && same_results && display_) return;
+  if (wanted == whole_ && isolated == isolated_ && same_results && view.backend == backend_ && display_)
+    return;
+  backend_ = view.backend;
   whole_ = wanted;
   isolated_ = isolated;
   isolated_by_ = context.results;
@@ -62,7 +66,20 @@ void PictureMaker::ChooseMesh(const OverlayContext& context, const ViewState& vi
   if (isolated)
     drawn_ = std::make_shared<const MeshState>(
         context.snapshot.scene, SubMesh(whole_->mesh(), IsolatedTriangles(context, whole_->mesh())));
-  display_.emplace(*context.snapshot.scene, drawn_->mesh());
+  display_.emplace(*context.snapshot.scene, drawn_->mesh(), MakePasses(backend_));
+}
+
+// Of what is drawn; the rasteriser's where there is no OpenGL.
+std::unique_ptr<Passes> PictureMaker::MakePasses(Backend backend) {
+  backend_error_.clear();
+  if (backend == Backend::kOpenGl) {
+    try {
+      return OpenGlPasses(drawn_->mesh());
+    } catch (const InputError& error) {
+      backend_error_ = error.what();
+    }
+  }
+  return SoftwarePasses(drawn_->mesh());
 }
 
 void PictureMaker::PaintErrors(const ErrorMap& errors, double top, Srgb8Image* out) const {

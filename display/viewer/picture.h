@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "display/two_pass_display.h"
@@ -41,10 +42,13 @@ class PictureMaker {
   MeshKind drawn_kind() const { return kind_; }
   double exposure() const { return exposure_; }    // screen value per W/m^2
   double scale_top() const { return scale_top_; }  // of false colours
+  // Why the view's back end did not draw the passes, and the rasteriser did; empty: it did.
+  const std::string& backend_error() const { return backend_error_; }
   const FrameTimes& times() const { return times_; }
 
  private:
   void ChooseMesh(const OverlayContext& context, const ViewState& view);
+  std::unique_ptr<Passes> MakePasses(Backend backend);
   void CastRays(const OverlayContext& context, const ViewState& view, int width, int height);
   void Shade(const OverlayContext& context, const ViewState& view, Srgb8Image* out);
   void PaintErrors(const ErrorMap& errors, double top, Srgb8Image* out) const;
@@ -54,6 +58,8 @@ class PictureMaker {
   Selection isolated_;
   AnalysisResults isolated_by_;
   std::optional<TwoPassDisplay> display_;
+  Backend backend_ = Backend::kSoftware;  // that was asked for
+  std::string backend_error_;
   std::optional<DepthMap> depth_;
   RayPicture rays_;
   bool by_rays_ = false;  // the last picture

@@ -21,6 +21,9 @@ inline bool CastsRays(DrawMode mode) { return mode == DrawMode::kExact || mode =
 // The mesh that a mode draws.
 MeshKind MeshOf(DrawMode mode);
 
+// Who draws the two passes.
+enum class Backend : std::uint8_t { kSoftware, kOpenGl };
+
 enum class Navigation : std::uint8_t { kArcball, kWalk };
 
 enum class SelectionKind : std::uint8_t { kNone, kElement, kLink, kTube, kTriangle, kDiscontinuity };
@@ -71,6 +74,7 @@ struct ViewState {
   Vec3 up_axis = Vec3::UnitZ();  // of walking
 
   DrawMode mode = DrawMode::kFlat;
+  Backend backend = Backend::kSoftware;
   bool faces = true;
   bool trees_by_reflectance = false;  // flat faces by rho (thesis B.4.1)
   bool split = false;                 // ids, coordinates and picture side by side (thesis B.3.2)

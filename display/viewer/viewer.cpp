@@ -127,6 +127,10 @@ const Srgb8Image& Viewer::Frame(int width, int height, double seconds) {
     drawn_of_ = std::move(now);
   }
   picture_.Make(Context(), view_, drawing_, width, height);
+  if (!picture_.backend_error().empty()) {
+    Complain(picture_.backend_error());
+    view_.backend = Backend::kSoftware;
+  }
   fresh_ = true;
   return picture_.screen();
 }

@@ -51,7 +51,7 @@ class Viewer {
   Viewer(const OpenedScene& opened, ViewerOptions options);
 
   // A frame: takes over what the solver and the analyses have done since the last, moves a walking camera by
-  // `seconds`, and draws width x height pixels.
+  // `seconds`, and draws width x height pixels. REQUIRES: no context of OpenGL is current in this thread.
   const Srgb8Image& Frame(int width, int height, double seconds);
 
   // What the user did to the picture, in the order of time.

@@ -55,6 +55,8 @@ void Viewer::AddMenus() {
   choose("Drawing/Reflectance", "5", "mode", "rho");
   choose("Drawing/Exact irradiance, by rays", "6", "mode", "exact");
   choose("Drawing/Interpolants, by rays", "7", "mode", "lerp");
+  choose("Drawing/Passes by the rasteriser", "", "backend", "software");
+  choose("Drawing/Passes by OpenGL", "", "backend", "opengl");
   toggle("Drawing/Draw faces", "f", "faces");
   toggle("Drawing/Draw trees using rho", "r", "trees-by-reflectance");
   toggle("Drawing/Split view", "v", "split");

@@ -32,6 +32,7 @@ void Viewer::AddViewSettings() {
   Settings& s = settings_;
   s.Choice("mode", "Drawing", "Drawing mode", &view_.mode,
            {"flat", "gouraud", "gouraud-mesh", "interpolant", "exact", "lerp", "rho"});
+  s.Choice("backend", "Drawing", "Who draws the two passes", &view_.backend, {"software", "opengl"});
   s.Toggle("faces", "Drawing", "Faces", &view_.faces);
   s.Toggle("trees-by-reflectance", "Drawing", "Flat faces by reflectance", &view_.trees_by_reflectance);
   s.Toggle("split", "Drawing", "Ids, coordinates, depth and picture", &view_.split);

@@ -282,7 +282,7 @@ void Window::Feed(const InputEvent& event) {
         if (event.key == name) io.KeysDown[number] = down;
         ++number;
       }
-      if (!down || !io.WantTextInput) viewer_.Handle(event);
+      if (!down || !Panels::Typing()) viewer_.Handle(event);
       return;
     }
     case InputEvent::Kind::kText:
@@ -344,7 +344,10 @@ void Window::DrawFrame(double seconds) {
   io.DisplaySize = ImVec2(static_cast<float>(w), static_cast<float>(h));
   io.DisplayFramebufferScale = ImVec2(static_cast<float>(scale_x_), static_cast<float>(scale_y_));
   io.DeltaTime = static_cast<float>(std::max(seconds, 1e-4));
+  // The viewer may draw with a context of its own, and a thread has one at a time.
+  glfwMakeContextCurrent(nullptr);
   const Srgb8Image& picture = viewer_.Frame(width, height, seconds);
+  glfwMakeContextCurrent(window_);
   glBindTexture(GL_TEXTURE_2D, texture_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, width, height, 0, GL_RGB, GL_UNSIGNED_BYTE, picture.pixels.data());

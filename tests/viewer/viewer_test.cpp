@@ -13,6 +13,7 @@
 #include <set>
 
 #include "display/image_io.h"
+#include "display/opengl_passes.h"
 #include "display/viewer/script.h"
 #include "display/viewer/user_files.h"
 #include "solver/base/check.h"
@@ -47,6 +48,29 @@ TEST_F(SolvedViewer, FollowsTheSolutionToItsInterpolants) {
   EXPECT_TRUE(viewer.snapshot().converged);
   EXPECT_TRUE(viewer.snapshot().Mesh(MeshKind::kInterpolant));
   EXPECT_EQ(viewer.picture().drawn_kind(), MeshKind::kInterpolant);
+}
+
+// OpenGL draws what the rasteriser draws, edges aside, and so it does again after a change of the mesh.
+TEST_F(SolvedViewer, OpenGlDrawsThePassesAsWell) {
+  try {
+    OpenGlPasses({});
+  } catch (const InputError& error) {
+    GTEST_SKIP() << error.what();
+  }
+  for (const char* mode : {"interpolant", "flat"}) {
+    viewer.Set("mode", mode);
+    viewer.Set("backend", "software");
+    EXPECT_TRUE(Settle(viewer));
+    const Srgb8Image before = viewer.Frame(96, 64, 0);
+    viewer.Set("backend", "opengl");
+    const Srgb8Image after = viewer.Frame(96, 64, 0);
+    EXPECT_EQ(viewer.view().backend, Backend::kOpenGl);
+    EXPECT_EQ(viewer.message(), "");
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < before.pixels.size(); ++i)
+      different += std::abs(before.pixels[i] - after.pixels[i]) > 1 ? 1 : 0;
+    EXPECT_LT(different, before.pixels.size() / 100) << mode;
+  }
 }
 
 // The picture is a function of state and view: the way to them does not matter.

@@ -189,6 +189,12 @@ type corner
 key enter
 wait frames 2
 set camera corner
+key ctrl+k
+wait frames 2
+key escape
+key d
+screenshot panel-again.png
+key d
 key ctrl+o
 wait frames 2
 type nowhere.obj
@@ -198,7 +204,7 @@ screenshot message.png
   EXPECT_EQ(run.status, 0) << run.err;
   const Shot plain = Load("plain.png");
   EXPECT_EQ(Load("plain-again.png").Different(plain), 0U);
-  for (const char* name : {"panel", "help", "menu", "message"})
+  for (const char* name : {"panel", "panel-again", "help", "menu", "message"})
     EXPECT_GT(Load(std::string(name) + ".png").Different(plain), 1000U) << name;
 }
 

@@ -1,0 +1,170 @@
+// The panels around the picture, without a window: what lies where, and what can be reached.
+
+#include "display/viewer/panels.h"
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "tests/viewer/viewer_test_scenes.h"
+
+namespace penumbra::viewer {
+namespace {
+
+using viewer_test::Options;
+using viewer_test::ShadowScene;
+
+// ImGui in a display of a given size, letters `scale` times as large as plain ones.
+class Stage {
+ public:
+  Stage(float width, float height, float scale) : viewer_(ShadowScene(), Options(false)) {
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.DisplaySize = ImVec2(width, height);
+    io.DeltaTime = 0.02F;
+    io.KeyMap[ImGuiKey_Escape] = kEscape;
+    ImFontConfig font;
+    font.SizePixels = std::round(kPlainFontSize * scale);
+    io.Fonts->AddFontDefault(&font);
+    ImGui::GetStyle().ScaleAllSizes(scale);
+    unsigned char* pixels = nullptr;
+    int w = 0, h = 0;
+    io.Fonts->GetTexDataAsAlpha8(&pixels, &w, &h);
+  }
+  ~Stage() { ImGui::DestroyContext(); }
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  void Frames(int count = 5) {
+    for (int i = 0; i < count; ++i) {
+      viewer_.Frame(64, 48, 0.02);
+      ImGui::NewFrame();
+      panels_.Draw(viewer_);
+      ImGui::Render();
+    }
+  }
+  void Point(float x, float y) {
+    ImGui::GetIO().MousePos = ImVec2(x, y);
+    Frames();
+  }
+  void Click(float x, float y) {
+    Point(x, y);
+    ImGui::GetIO().MouseDown[0] = true;
+    Frames(2);
+    ImGui::GetIO().MouseDown[0] = false;
+    Frames();
+  }
+  Viewer& viewer() { return viewer_; }
+
+  static constexpr int kEscape = 1;
+
+ private:
+  Viewer viewer_;
+  Panels panels_;
+};
+
+constexpr const char* kControl = "Drawing Control Panel";
+
+void OpenPanels(Stage& stage) {
+  for (const char* panel : {"control-panel", "parameters", "report"}) stage.viewer().Set(panel, "on");
+  stage.Frames();
+}
+
+// No label is cut off in a panel that nobody has made larger, however large the letters are.
+TEST(Panels, ShowTheirLabelsWhole) {
+  for (const float scale : {1.0F, 2.0F}) {
+    Stage stage(1400 * scale, 900 * scale, scale);
+    OpenPanels(stage);
+    for (const char* name : {kControl, "Parameters"}) {
+      const ImGuiWindow* panel = ImGui::FindWindowByName(name);
+      ASSERT_NE(panel, nullptr) << name;
+      EXPECT_LE(panel->ContentSize.x, panel->WorkRect.GetWidth() + 1) << name;
+    }
+  }
+}
+
+// Panels open beside one another, where the window has room for that.
+TEST(Panels, OpenBesideOneAnother) {
+  Stage stage(1280, 800, 1);
+  OpenPanels(stage);
+  const char* const names[] = {kControl, "Parameters", "Report"};
+  for (const char* a : names)
+    for (const char* b : names) {
+      if (a == b) continue;
+      const ImRect one = ImGui::FindWindowByName(a)->Rect(), other = ImGui::FindWindowByName(b)->Rect();
+      EXPECT_FALSE(one.Overlaps(other)) << a << " and " << b;
+    }
+}
+
+// In a window of any size the scale of false colours lies inside, below the menus.
+TEST(Panels, TheLegendFits) {
+  for (const auto& [width, height, scale] : {std::tuple{1280.0F, 800.0F, 1.0F},
+                                             {640.0F, 480.0F, 3.0F},
+                                             {300.0F, 140.0F, 2.0F},
+                                             {60.0F, 60.0F, 1.0F}}) {
+    Stage stage(width, height, scale);
+    stage.viewer().Set("false-colour", "on");
+    stage.Frames();
+    const ImDrawList* drawn = ImGui::GetBackgroundDrawList();
+    ASSERT_GT(drawn->VtxBuffer.Size, 300);
+    for (const ImDrawVert& vertex : drawn->VtxBuffer) {
+      EXPECT_GE(vertex.pos.x, 0) << width << " x " << height;
+      EXPECT_LE(vertex.pos.x, width) << width << " x " << height;
+      EXPECT_GE(vertex.pos.y, ImGui::GetFrameHeight()) << width << " x " << height;
+      EXPECT_LE(vertex.pos.y, height) << width << " x " << height;
+    }
+  }
+}
+
+// The window of the menu that was opened last.
+const ImGuiWindow* OpenMenu() {
+  const ImVector<ImGuiPopupData>& open = GImGui->OpenPopupStack;
+  return open.empty() ? nullptr : open.back().Window;
+}
+
+// The last menu can be opened and its first item chosen with the mouse, however narrow the window is.
+TEST(Panels, MenusAreReachedInNarrowWindows) {
+  for (const float width : {1280.0F, 400.0F, 130.0F}) {
+    Stage stage(width, 400, 1);
+    stage.Frames();
+    stage.Click(12, 8);
+    const ImGuiWindow* first = OpenMenu();
+    ASSERT_NE(first, nullptr) << width;
+    if (width < 600) {  // one menu holds them all, a row each
+      stage.Point(first->Pos.x + 12, first->Pos.y + first->Size.y - 14);
+    } else {
+      float x = 0;
+      for (const char* top :
+           {"File", "Viewing", "Cameras", "Drawing", "Visualisation", "Geometry", "Iteration"})
+        x += ImGui::CalcTextSize(top).x + 2 * ImGui::GetStyle().ItemSpacing.x;
+      stage.Point(x + 20, 8);
+    }
+    stage.Frames(30);  // menus open after a while
+    const ImGuiWindow* last = OpenMenu();
+    ASSERT_NE(last, nullptr) << width;
+    EXPECT_FALSE(stage.viewer().panels().help);
+    stage.Click(last->Pos.x + 12, last->Pos.y + 14);
+    EXPECT_TRUE(stage.viewer().panels().help) << width;
+  }
+}
+
+// The key that follows a dialog's end is not the dialog's any more.
+TEST(Panels, TypingEndsWithItsDialog) {
+  Stage stage(640, 480, 1);
+  stage.Frames();
+  EXPECT_FALSE(Panels::Typing());
+  stage.viewer().RunMenu("File/Open...");
+  stage.Frames();
+  EXPECT_TRUE(Panels::Typing());
+  ImGui::GetIO().KeysDown[Stage::kEscape] = true;
+  stage.Frames(1);
+  EXPECT_TRUE(stage.viewer().panels().dialog.empty());
+  EXPECT_FALSE(Panels::Typing());
+}
+
+}  // namespace
+}  // namespace penumbra::viewer
