@@ -9,6 +9,7 @@ class DiscontinuityOverlay final : public Overlay {
  public:
   void Draw(const OverlayContext& context, OverlayDrawing* drawing) const override {
     if (!context.settings.discontinuities || !context.results.discontinuities) return;
+    if (context.Isolates(SelectionKind::kDiscontinuity)) return;  // the selection draws it
     const DiscontinuityList& list = *context.results.discontinuities;
     const bool one = context.selection.kind == SelectionKind::kElement && context.snapshot.light;
     for (std::size_t i = 0; i < list.all.size(); ++i) {

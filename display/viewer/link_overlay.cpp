@@ -12,6 +12,8 @@ class LinkOverlay final : public Overlay {
     const OverlaySettings& settings = context.settings;
     if (!settings.visible_links && !settings.split_links && !settings.partial_links) return;
     if (!context.snapshot.light) return;
+    // The selection draws the one that is left.
+    if (context.Isolates(SelectionKind::kLink) || context.Isolates(SelectionKind::kTube)) return;
     const RadiositySolution& solution = context.snapshot.light->solution();
     for (const std::uint32_t i : ShownLinks(solution, settings, context.selection)) {
       const Link& link = solution.links.links[i];

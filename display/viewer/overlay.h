@@ -35,6 +35,9 @@ struct OverlayContext {
   const OverlaySettings& settings;
   const Selection& selection;
   const AnalysisResults& results;
+  bool isolated = false;  // nothing but what is selected is drawn
+
+  bool Isolates(SelectionKind kind) const { return isolated && selection.kind == kind; }
 };
 
 class Overlay {

@@ -259,6 +259,10 @@ void Panels::Details(Viewer& viewer) {
                           ImVec2(1, 0));
   if (ImGui::Begin("Details", nullptr, ImGuiWindowFlags_AlwaysAutoResize))
     for (const std::string& line : lines) Text(line);
+  // It grows with what it tells: back into the window where it stands out.
+  const ImVec2 at = ImGui::GetWindowPos();
+  const float room = ImGui::GetIO().DisplaySize.x - kGap - ImGui::GetWindowSize().x;
+  if (at.x > room) ImGui::SetWindowPos(ImVec2(std::max(room, 0.0F), at.y));
   ImGui::End();
 }
 

@@ -18,6 +18,8 @@ class TriangulationOverlay final : public Overlay {
     if (context.selection.kind == SelectionKind::kElement && context.snapshot.light) {
       const auto top = static_cast<ElementId>(context.selection.index);
       shown = TrianglesOf(*context.snapshot.light, mesh, {&top, 1});
+    } else if (context.Isolates(SelectionKind::kTriangle)) {
+      shown.push_back(static_cast<std::uint32_t>(context.selection.index));
     } else {
       for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) shown.push_back(i);
     }

@@ -55,7 +55,7 @@ std::shared_ptr<const MeshState> Viewer::ToolsMesh() const {
 }
 
 OverlayContext Viewer::Context() const {
-  return {*snapshot_, *tools_, view_.overlays, view_.selection, results_};
+  return {*snapshot_, *tools_, view_.overlays, view_.selection, results_, view_.isolate};
 }
 
 void Viewer::Want(MeshKind kind) {
@@ -120,7 +120,7 @@ const Srgb8Image& Viewer::Frame(int width, int height, double seconds) {
     }
   }
 
-  DrawnOf now{snapshot_, tools_, view_.overlays, view_.selection, results_};
+  DrawnOf now{snapshot_, tools_, view_.overlays, view_.selection, view_.isolate, results_};
   if (!(drawn_of_ == now)) {
     drawing_ = {};
     for (const auto& overlay : AllOverlays()) overlay->Draw(Context(), &drawing_);

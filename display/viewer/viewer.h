@@ -152,6 +152,7 @@ class Viewer {
     std::shared_ptr<const MeshState> tools;
     OverlaySettings settings;
     Selection selection;
+    bool isolate = false;
     AnalysisResults results;
     bool operator==(const DrawnOf&) const = default;
   };

@@ -277,6 +277,32 @@ TEST_F(SolvedViewer, SelectsLinksTubesTrianglesAndDiscontinuities) {
   EXPECT_THAT(viewer.Details(), testing::Contains(HasSubstr("blocker")));
 }
 
+// What is selected among many of its kind is alone in the picture, unless that is switched off.
+TEST_F(SolvedViewer, IsolatesALinkFromTheOthers) {
+  viewer.Set("mode", "flat");
+  const auto links = [&](const char* value) {
+    for (const char* kind : {"visible-links", "split-links", "partial-links"}) viewer.Set(kind, value);
+  };
+  links("on");
+  viewer.Set("hidden-lines", "on");
+  ASSERT_TRUE(Settle(viewer));
+  const RadiositySolution& solution = viewer.snapshot().light->solution();
+  ASSERT_GT(solution.links.links.size(), 10U);
+  for (const Link& link : solution.links.links) {
+    const Vec3 middle = 0.5 * (Centroid(solution.forest[link.receiver].Vertices()) +
+                               Centroid(solution.forest[link.source].Vertices()));
+    Click(viewer, MouseButton::kLeft, PlaceOf(viewer, middle).x, PlaceOf(viewer, middle).y);
+    if (viewer.view().selection.kind == SelectionKind::kLink) break;
+  }
+  ASSERT_EQ(viewer.view().selection.kind, SelectionKind::kLink);
+  const Srgb8Image alone = viewer.Frame(96, 64, 1);
+  links("off");
+  EXPECT_EQ(Difference(alone, viewer.Frame(96, 64, 1)), 0U);
+  links("on");
+  viewer.Set("isolate", "off");
+  EXPECT_GT(Difference(alone, viewer.Frame(96, 64, 1)), 100U);
+}
+
 TEST_F(SolvedViewer, ProbesTellWhatTheyFind) {
   const ScreenPoint at = PlaceOf(viewer, Vec3(-0.7, -0.6, 0));
   Click(viewer, MouseButton::kRight, at.x, at.y);
