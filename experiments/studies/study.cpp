@@ -56,15 +56,32 @@ double ProcessorSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-double MedianSeconds(int repeats, const std::function<void()>& work) {
+namespace {
+
+double MedianOf(int repeats, double (*clock)(), const std::function<void()>& work) {
   std::vector<double> seconds;
   for (int i = 0; i < repeats; ++i) {
-    const Stopwatch stopwatch;
+    const double begin = clock();
     work();
-    seconds.push_back(stopwatch.Seconds());
+    seconds.push_back(clock() - begin);
   }
   std::sort(seconds.begin(), seconds.end());
   return seconds[seconds.size() / 2];
+}
+
+double WallSeconds() {
+  static const Stopwatch since;
+  return since.Seconds();
+}
+
+}  // namespace
+
+double MedianSeconds(int repeats, const std::function<void()>& work) {
+  return MedianOf(repeats, &WallSeconds, work);
+}
+
+double MedianProcessorSeconds(int repeats, const std::function<void()>& work) {
+  return MedianOf(repeats, &ProcessorSeconds, work);
 }
 
 double SecondsPerCall(double at_least, const std::function<void()>& work) {

@@ -76,8 +76,9 @@ std::vector<ReferencePoint> ReadReference(const std::string& name);
 // Of all threads of this process so far: differences do not depend on what else the machine does [s].
 double ProcessorSeconds();
 
-// The median of the wall-clock seconds of `repeats` calls.
+// The median of the wall-clock seconds of `repeats` calls, and the same of the processors' seconds.
 double MedianSeconds(int repeats, const std::function<void()>& work);
+double MedianProcessorSeconds(int repeats, const std::function<void()>& work);
 
 // The wall-clock seconds of one call, taken over as many calls as last at least `at_least` seconds.
 double SecondsPerCall(double at_least, const std::function<void()>& work);
