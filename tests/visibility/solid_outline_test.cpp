@@ -54,7 +54,7 @@ struct Comparison {
   }
 };
 
-ReceiverPoint PointOn(const Patch& patch, Random& random) {
+ReceiverPoint ReceiverOn(const Patch& patch, Random& random) {
   ReceiverPoint at;
   const double u = random.Uniform(0.01, 0.99), v = random.Uniform(0.01, 0.99);
   at.position = patch.vertex[0] + u * (patch.vertex[1] - patch.vertex[0]) +
@@ -79,7 +79,7 @@ TEST(SolidOutline, HidesWhatItsSidesHide) {
         i % 2 == 0 ? Mapped(scene, [](const Vec3& v) { return v; }) : Mapped(scene, RandomMotion(random, 10));
     for (int k = 0; k < 12; ++k) {
       const auto own = static_cast<PatchId>(random.Index(static_cast<std::uint32_t>(scene.patches.size())));
-      comparison.Compare(scene, PointOn(scene.patches[static_cast<std::size_t>(own)], random), own);
+      comparison.Compare(scene, ReceiverOn(scene.patches[static_cast<std::size_t>(own)], random), own);
     }
   }
   comparison.Print("rooms", kSeed);
@@ -119,7 +119,7 @@ TEST(SolidOutline, FrustaAnywhere) {
     FindConvexSolids(scene);
     for (int k = 0; k < 4; ++k) {
       const auto own = static_cast<PatchId>(random.Index(static_cast<std::uint32_t>(scene.patches.size())));
-      comparison.Compare(scene, PointOn(scene.patches[static_cast<std::size_t>(own)], random), own);
+      comparison.Compare(scene, ReceiverOn(scene.patches[static_cast<std::size_t>(own)], random), own);
       ReceiverPoint in_space;
       in_space.position = RandomPoint(random, 2.9);
       in_space.normal = RandomDirection(random);
