@@ -224,14 +224,15 @@ double Gathering::Outshone(const Rgb& light) const {
   return times;
 }
 
-// Whether a subtree may be seen as one, with its radiosity's moment where nothing hides it: the error beside
-// its own light is small, or the light beside that of the whole source.
+// Whether a subtree may be seen as one: where nothing hides it with its radiosity's moment, and else by the
+// plane that fits its radiosities. The error beside its own light is small, or the light beside that of the
+// whole source.
 bool Gathering::IsOne(const Node& node, bool visible) const {
-  if (node.spread <= tolerance_here_) return true;
+  double error = visible ? node.spread : node.residual;
+  if (error <= tolerance_here_) return true;
   const Vec3 to = node.centre - at_.position;
   const double distance = to.norm(), gap = distance - node.radius;
   if (gap <= 0) return false;
-  double error = node.spread;
   // Form factors per area fall with the square of the distance, and about as fast with the two angles.
   constexpr double kSteepness = 3;
   if (visible) {
@@ -241,10 +242,7 @@ bool Gathering::IsOne(const Node& node, bool visible) const {
   }
   const double high = std::min(1.0, (at_.normal.dot(to) + node.radius) / distance),
                deep = std::min(1.0, (source_normal_.dot(-to) + node.radius) / distance);
-  // Of a node that a shadow crosses the brighter part tends to be seen: errors there do not average out.
-  constexpr double kShadowed = 0.3;
-  const double allowed = (visible ? tolerance_here_ : kShadowed * tolerance_here_) * whole_;
-  return error * node.area * high * deep <= allowed * std::numbers::pi * gap * gap;
+  return error * node.area * high * deep <= tolerance_here_ * whole_ * std::numbers::pi * gap * gap;
 }
 
 // Adds a subtree that nothing hides, in parts that may be seen as one.
@@ -264,7 +262,7 @@ void Gathering::GatherAsOne(Tree nodes) {
       listed.radiosity.push_back(node.radiosity);
       if (node.skip > 1) AddMoment(node);
     } else {
-      AddNode(node, FormFactor(view_.SeeSource(Vertices(node)), at_.normal));
+      Add(node.radiosity, FormFactor(view_.SeeSource(Vertices(node)), at_.normal));
     }
   }
 }
@@ -323,11 +321,25 @@ void Gathering::AddVisiblePieces(const ImageFrame& frame, double factor_before) 
     const double factor = cancels ? visible.PieceByQuadrature(frame, at_.normal, p)
                                   : 0.5 * std::numbers::inv_pi * visible.PieceSum(p);
     const std::int32_t owner = visible.Owner(p);
-    if (owner >= 0)
+    if (owner >= 0) {
       Add(owner, std::max(0.0, factor));
-    else
-      AddNode(sources_.NodeAt(static_cast<std::size_t>(-1 - owner)), std::max(0.0, factor));
+    } else {
+      // Of a node that a shadow crosses the brighter part tends to be seen: its mean would not do.
+      const Node& node = sources_.NodeAt(static_cast<std::size_t>(-1 - owner));
+      Add(RadiosityToward(node, frame.Direction(visible.Centroid(p))), std::max(0.0, factor));
+    }
   }
+}
+
+// What the plane that fits the radiosities of a node says of the place that is seen in a direction.
+Rgb Gathering::RadiosityToward(const Node& node, const Vec3& direction) const {
+  const double fall = source_normal_.dot(direction);
+  if (fall >= 0 || view_.SourceInContact()) return node.radiosity;
+  const Vec3 to_centre = node.centre - at_.position;
+  Vec3 offset = source_normal_.dot(to_centre) / fall * direction - to_centre;
+  const double length = offset.norm();
+  if (length > node.radius) offset *= node.radius / length;  // by rounding, at grazing angles
+  return (node.radiosity + (node.slope * offset).array()).max(0.0);
 }
 
 // How many times its value the angles of a sum may add up to: sums lose digits in proportion. With a
@@ -367,9 +379,9 @@ void Gathering::Add(std::int32_t leaf, double factor) {
   irradiance_ += factor * sources_.LeafRadiosities()[static_cast<std::size_t>(leaf)];
 }
 
-void Gathering::AddNode(const Node& node, double factor) {
+void Gathering::Add(const Rgb& radiosity, double factor) {
   factor_ += factor;
-  irradiance_ += factor * node.radiosity;
+  irradiance_ += factor * radiosity;
 }
 
 void Gathering::AddGradient(std::int32_t leaf, const Vec3& gradient) {

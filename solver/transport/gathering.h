@@ -92,7 +92,8 @@ class Gathering {
   double CancellationAllowed() const;
   void AddGradientOfPieces(const ImageFrame& frame);
   void Add(std::int32_t leaf, double factor);
-  void AddNode(const SourceSet::Node& node, double factor);
+  void Add(const Rgb& radiosity, double factor);
+  Rgb RadiosityToward(const SourceSet::Node& node, const Vec3& direction) const;
   void AddGradient(std::int32_t leaf, const Vec3& gradient);
 
   const Scene& scene_;

@@ -134,7 +134,8 @@ SourceSet SourceSet::FromSolution(const RadiositySolution& solution, std::span<c
   }
   set.first_.push_back(set.nodes_.size());
   set.NumberLeaves();
-  set.MeasureSpread();
+  set.MeasurePolygons();
+  set.MeasureSubtrees();
   return set;
 }
 
@@ -148,7 +149,8 @@ SourceSet SourceSet::Emitters(const Scene& scene) {
   }
   set.first_.push_back(set.nodes_.size());
   set.NumberLeaves();
-  set.MeasureSpread();
+  set.MeasurePolygons();
+  set.MeasureSubtrees();
   return set;
 }
 
@@ -167,57 +169,104 @@ void SourceSet::NumberLeaves() {
     nodes_[i].leaf_count = before[i + static_cast<std::size_t>(nodes_[i].skip)] - before[i];
 }
 
-// Means and spreads of subtrees, from their leaves.
-void SourceSet::MeasureSpread() {
-  // In dark places radiosities count relative to this share of the reflected light's mean.
-  constexpr double kDark = 0.5;
-  struct Moments {
-    double area = 0;
-    Rgb sum = Rgb::Zero(), squares = Rgb::Zero();
-    Vec3 place = Vec3::Zero();
-    Eigen::Matrix3d places = Eigen::Matrix3d::Zero();
-  };
+// Where the nodes' polygons are, and how large.
+void SourceSet::MeasurePolygons() {
+  for (Node& node : nodes_) {
+    const std::span<const Vec3> polygon(node.vertex.data(), static_cast<std::size_t>(node.size));
+    node.centre = Centroid(polygon);
+    for (const Vec3& v : polygon) node.radius = std::max(node.radius, (v - node.centre).norm());
+    node.area = VectorArea(polygon).norm();
+  }
+}
+
+// By area, of all leaves.
+Rgb SourceSet::MeanReflected() const {
   Rgb reflected = Rgb::Zero();
   double area = 0;
+  for (std::size_t p = 0; p + 1 < first_.size(); ++p)
+    for (const Node& node : Tree(static_cast<PatchId>(p))) {
+      if (node.skip != 1) continue;
+      reflected += node.area * (node.radiosity - emittance_[p]);
+      area += node.area;
+    }
+  return area > 0 ? Rgb(reflected / area) : reflected;
+}
+
+namespace {
+
+// Sums over leaves by area, of radiosities and of places. Those count from a point near by: far from the
+// origin their squares would keep no digits.
+struct Moments {
+  double area = 0;
+  Rgb sum = Rgb::Zero(), squares = Rgb::Zero();
+  Vec3 place = Vec3::Zero();
+  Eigen::Matrix3d sum_of_places = Eigen::Matrix3d::Zero(), squares_of_places = Eigen::Matrix3d::Zero();
+
+  static Moments Of(const SourceSet::Node& leaf, const Vec3& origin) {
+    const Vec3 place = leaf.centre - origin;
+    const Rgb sum = leaf.area * leaf.radiosity;
+    return {leaf.area,
+            sum,
+            sum * leaf.radiosity,
+            leaf.area * place,
+            sum.matrix() * place.transpose(),
+            leaf.area * place * place.transpose()};
+  }
+  Moments& operator+=(const Moments& other) {
+    area += other.area;
+    sum += other.sum;
+    squares += other.squares;
+    place += other.place;
+    sum_of_places += other.sum_of_places;
+    squares_of_places += other.squares_of_places;
+    return *this;
+  }
+};
+
+// The slope of the plane that fits radiosities with this moment best. Across what is much narrower than long,
+// or has its leaves in a row, there is none.
+Eigen::Matrix3d Slope(const Eigen::Matrix3d& moment, const Moments& leaves) {
+  constexpr double kNarrow = 1e-9;  // by the square of the width
+  const Eigen::Matrix3d squares =
+      leaves.squares_of_places - leaves.place * leaves.place.transpose() / leaves.area;
+  Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> decomposition;
+  decomposition.setThreshold(kNarrow);
+  decomposition.compute(squares);
+  return moment * decomposition.pseudoInverse();
+}
+
+}  // namespace
+
+// Means and spreads, from the leaves.
+void SourceSet::MeasureSubtrees() {
+  // In dark places radiosities count relative to this share of the reflected light's mean.
+  constexpr double kDark = 0.5;
+  const Rgb dark = kDark * MeanReflected();
   std::vector<Moments> moments(nodes_.size());
   for (std::size_t p = 0; p + 1 < first_.size(); ++p)
-    for (std::size_t i = first_[p]; i < first_[p + 1]; ++i) {
+    for (std::size_t i = first_[p + 1]; i-- > first_[p];) {
       Node& node = nodes_[i];
-      const std::span<const Vec3> polygon(node.vertex.data(), static_cast<std::size_t>(node.size));
-      node.centre = Centroid(polygon);
-      for (const Vec3& v : polygon) node.radius = std::max(node.radius, (v - node.centre).norm());
-      node.area = VectorArea(polygon).norm();
-      if (node.skip != 1) continue;
       Moments& own = moments[i];
-      own.area = node.area;
-      own.sum = own.area * node.radiosity;
-      own.squares = own.area * node.radiosity.square();
-      own.place = own.area * node.centre;
-      own.places = own.sum.matrix() * node.centre.transpose();
-      reflected += own.area * (node.radiosity - emittance_[p]);
-      area += own.area;
+      if (node.skip == 1) {
+        own = Moments::Of(node, nodes_[first_[p]].centre);
+        continue;
+      }
+      for (std::size_t child = i + 1; child < i + static_cast<std::size_t>(node.skip);
+           child += static_cast<std::size_t>(nodes_[child].skip))
+        own += moments[child];
+      node.radiosity = own.sum / own.area;
+      node.moment = own.sum_of_places - node.radiosity.matrix() * own.place.transpose();
+      node.slope = Slope(node.moment, own);
+      const Rgb variance = (own.squares / own.area - node.radiosity.square()).max(0.0),
+                by_slope = node.slope.cwiseProduct(node.moment).rowwise().sum().array() / own.area;
+      const Rgb around = node.radiosity.max(dark);
+      for (int c = 0; c < 3; ++c) {
+        if (around[c] <= 0) continue;
+        node.spread = std::max(node.spread, std::sqrt(variance[c]) / around[c]);
+        node.residual =
+            std::max(node.residual, std::sqrt(std::max(0.0, variance[c] - by_slope[c])) / around[c]);
+      }
     }
-  if (area > 0) reflected /= area;
-  for (std::size_t i = nodes_.size(); i-- > 0;) {
-    Node& node = nodes_[i];
-    if (node.skip == 1) continue;
-    Moments& own = moments[i];
-    for (std::size_t child = i + 1; child < i + static_cast<std::size_t>(node.skip);
-         child += static_cast<std::size_t>(nodes_[child].skip)) {
-      own.area += moments[child].area;
-      own.sum += moments[child].sum;
-      own.squares += moments[child].squares;
-      own.place += moments[child].place;
-      own.places += moments[child].places;
-    }
-    node.radiosity = own.sum / own.area;
-    node.moment = own.places - node.radiosity.matrix() * own.place.transpose();
-    const Rgb deviation = (own.squares / own.area - node.radiosity.square()).max(0.0).sqrt();
-    for (int c = 0; c < 3; ++c) {
-      const double around = std::max(node.radiosity[c], kDark * reflected[c]);
-      if (around > 0) node.spread = std::max(node.spread, deviation[c] / around);
-    }
-  }
 }
 
 }  // namespace penumbra

@@ -34,12 +34,15 @@ class SourceSet {
     // Of a subtree: how far its leaves' radiosities are from their mean, relative to that or, where it is
     // darker, to the reflected light around; root mean square, the worst channel [1].
     double spread = 0;
+    double residual = 0;         // the same, but from the plane that fits them best
     Vec3 centre = Vec3::Zero();  // of the polygon [m]
     double radius = 0;           // about it [m]
     double area = 0;             // [m^2]
 
     // One row a channel: its leaves' radiosities less their mean, times areas and places, summed [W m].
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+    // One row a channel: how that plane rises along the polygon [W/m^3].
+    Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();
   };
 
   // What the leaves of the solution emit and reflect.
@@ -75,7 +78,9 @@ class SourceSet {
 
  private:
   void NumberLeaves();
-  void MeasureSpread();
+  void MeasurePolygons();
+  Rgb MeanReflected() const;
+  void MeasureSubtrees();
 
   std::vector<std::size_t> first_;  // per patch, into nodes_
   std::vector<Node> nodes_;

@@ -52,6 +52,21 @@ void ImageEdges::AddPiece(const double* x, const double* y, const std::int32_t* 
   }
 }
 
+Vec2 ImageEdges::Centroid(std::size_t piece) const {
+  const std::size_t first = Begin(piece), last = Begin(piece + 1);
+  double area = 0;
+  Vec2 sum = Vec2::Zero();
+  Vec2 a = Difference(first);  // from the first vertex
+  for (std::size_t i = first + 1; i + 1 < last; ++i) {
+    const Vec2 b = a + Difference(i);
+    const double twice = a.x() * b.y() - a.y() * b.x();
+    area += twice;
+    sum += twice * (a + b);
+    a = b;
+  }
+  return area > 0 ? Vec2(Start(first) + sum / (3 * area)) : Start(first);
+}
+
 ImageEdges::Sum ImageEdges::FormFactorSum(const ImageFrame& frame, const Vec3& normal) {
   term_.resize(edge_[0].size());
   angle_.resize(edge_[0].size());

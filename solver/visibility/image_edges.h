@@ -30,6 +30,8 @@ class ImageEdges {
   std::size_t Begin(std::size_t piece) const { return piece < start_.size() ? start_[piece] : label_.size(); }
   Vec2 Start(std::size_t edge) const { return {edge_[0][edge], edge_[1][edge]}; }
   Vec2 Difference(std::size_t edge) const { return {edge_[2][edge], edge_[3][edge]}; }
+  // The centroid of a piece's image; the first vertex of one without area.
+  Vec2 Centroid(std::size_t piece) const;
   std::int32_t Label(std::size_t edge) const { return label_[edge]; }
 
   // Over all edges, for a point with unit normal `normal`. The same for any vector width.
