@@ -7,6 +7,7 @@
 
 #include "solver/transport/cubature.h"
 #include "solver/visibility/area_form_factor.h"
+#include "solver/visibility/form_factor_batch.h"
 #include "solver/visibility/point_view.h"
 #include "solver/visibility/tube_blockers.h"
 
@@ -36,6 +37,38 @@ double Radius(const Element& element, const Vec3& centre) {
   for (const Vec3& v : element.Vertices()) square = std::max(square, (v - centre).squaredNorm());
   return std::sqrt(square);
 }
+
+// Form factors of one point to polygons that nothing hides, evaluated together. Each goes, times its weight,
+// to places that must stay.
+class ListedFactors {
+ public:
+  void Clear() {
+    polygons_.Clear();
+    results_.clear();
+  }
+  void Add(std::span<const Vec3> polygon, double weight, std::span<double> to) {
+    polygons_.Add(polygon);
+    results_.push_back({weight, to});
+  }
+  void Evaluate(const ReceiverPoint& at) {
+    const std::size_t count = results_.size();
+    factor_.resize(count);
+    angles_.resize(count);
+    // What the sums lose is nothing beside what the rule does.
+    FormFactorSums(polygons_, 0, count, at.position, at.normal, factor_.data(), angles_.data());
+    for (std::size_t i = 0; i < count; ++i)
+      std::fill(results_[i].to.begin(), results_[i].to.end(), results_[i].weight * std::max(0.0, factor_[i]));
+  }
+
+ private:
+  struct Result {
+    double weight;
+    std::span<double> to;
+  };
+  PolygonBatch polygons_;
+  std::vector<Result> results_;
+  std::vector<double> factor_, angles_;
+};
 
 class Former {
  public:
@@ -141,39 +174,49 @@ class Former {
       at.position = point.position;
       at.normal = patch_.normal;
       PointView view(forest_.scene(), at);
-      for (const std::size_t i : which) {
-        const std::array<double, 4> factor = PointFactors(view, pending_[i]);
+      factors_.assign(which.size(), {});
+      listed_.Clear();
+      for (std::size_t k = 0; k < which.size(); ++k) FindFactors(view, pending_[which[k]], &factors_[k]);
+      listed_.Evaluate(at);
+      for (std::size_t k = 0; k < which.size(); ++k) {
+        Pending& pending = pending_[which[k]];
         double sum = 0;
         for (std::size_t q = 0; q < 4; ++q) {
-          pending_[i].mean[q] += point.weight * factor[q];
-          sum += factor[q];
+          pending.mean[q] += point.weight * factors_[k][q];
+          sum += factors_[k][q];
         }
-        pending_[i].mean_square += point.weight * sum * sum;
+        pending.mean_square += point.weight * sum * sum;
       }
     }
   }
 
-  // The form factors of a point to the quarters of a source.
-  std::array<double, 4> PointFactors(PointView& view, const Pending& pending) const {
-    std::array<double, 4> factor{};
+  // The form factors of a point to the quarters of a source, those that nothing hides once they are
+  // evaluated.
+  void FindFactors(PointView& view, const Pending& pending, std::array<double, 4>* factor) {
     const Link& link = set_.links[pending.link];
     const Element& source = forest_[link.source];
-    if (!view.FaceSource(source.patch)) return factor;
+    if (!view.FaceSource(source.patch)) return;
     std::vector<Occluder>& occluders = view.occluder_stack();
     occluders.clear();
     if (!pending.blockers.empty()) {
       const DirectionPolygon whole = view.SeeSource(source.Vertices());
-      if (whole.empty() || !view.FindBlockers(pending.blockers, receiver_.patch, whole, occluders))
-        return factor;
+      if (whole.empty() || !view.FindBlockers(pending.blockers, receiver_.patch, whole, occluders)) return;
     }
+    const bool listed = occluders.empty() && view.SourceIsPlain();
     if (pending.uniform) {
-      factor.fill(0.25 * view.VisibleFormFactor(view.SeeSource(source.Vertices()), occluders));
-      return factor;
+      if (listed)
+        listed_.Add(source.Vertices(), 0.25, *factor);
+      else
+        factor->fill(0.25 * view.VisibleFormFactor(view.SeeSource(source.Vertices()), occluders));
+      return;
     }
-    for (std::size_t q = 0; q < 4; ++q)
-      factor[q] = view.VisibleFormFactor(
-          view.SeeSource({pending.quarters[q].data(), static_cast<std::size_t>(source.size)}), occluders);
-    return factor;
+    for (std::size_t q = 0; q < 4; ++q) {
+      const std::span<const Vec3> quarter(pending.quarters[q].data(), static_cast<std::size_t>(source.size));
+      if (listed)
+        listed_.Add(quarter, 1, {factor->data() + q, 1});
+      else
+        (*factor)[q] = view.VisibleFormFactor(view.SeeSource(quarter), occluders);
+    }
   }
 
   const ElementForest& forest_;
@@ -185,6 +228,8 @@ class Former {
   double radius_;
   LinkSet set_;
   std::vector<Pending> pending_;
+  std::vector<std::array<double, 4>> factors_;  // of a point to the quarters of each source
+  ListedFactors listed_;
 };
 
 }  // namespace
