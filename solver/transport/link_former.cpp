@@ -7,6 +7,8 @@
 
 #include "solver/transport/cubature.h"
 #include "solver/visibility/area_form_factor.h"
+#include "solver/visibility/clipping.h"
+#include "solver/visibility/form_factor.h"
 #include "solver/visibility/form_factor_batch.h"
 #include "solver/visibility/point_view.h"
 #include "solver/visibility/tube_blockers.h"
@@ -202,7 +204,8 @@ class Former {
       const DirectionPolygon whole = view.SeeSource(source.Vertices());
       if (whole.empty() || !view.FindBlockers(pending.blockers, receiver_.patch, whole, occluders)) return;
     }
-    const bool listed = occluders.empty() && view.SourceIsPlain();
+    const bool clear = occluders.empty();
+    const bool listed = clear && view.SourceIsPlain();
     if (pending.uniform) {
       if (listed)
         listed_.Add(source.Vertices(), 0.25, *factor);
@@ -210,13 +213,18 @@ class Former {
         factor->fill(0.25 * view.VisibleFormFactor(view.SeeSource(source.Vertices()), occluders));
       return;
     }
+    std::array<DirectionPolygon, 4> seen;
     for (std::size_t q = 0; q < 4; ++q) {
       const std::span<const Vec3> quarter(pending.quarters[q].data(), static_cast<std::size_t>(source.size));
-      if (listed)
+      if (listed) {
         listed_.Add(quarter, 1, {factor->data() + q, 1});
-      else
-        (*factor)[q] = view.VisibleFormFactor(view.SeeSource(quarter), occluders);
+      } else {
+        seen[q] = view.SeeSource(quarter);
+        if (clear) (*factor)[q] = FormFactor(seen[q], patch_.normal);
+      }
     }
+    if (!clear)
+      VisibleFormFactors(view.SeeSource(source.Vertices()), seen, occluders, patch_.normal, *factor);
   }
 
   const ElementForest& forest_;

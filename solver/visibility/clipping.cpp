@@ -462,20 +462,50 @@ void ForEachVisiblePiece(const DirectionPolygon& source, std::span<const Occlude
   });
 }
 
+namespace {
+
+// Adds the form factors of what is visible in the image to those of its owners.
+void AddVisible(ImageEdges& visible, const ImageFrame& frame, const Vec3& normal, std::span<double> factors) {
+  const ImageEdges::Sum sum = visible.FormFactorSum(frame, normal);
+  const bool cancels = sum.angles > kFormFactorCancellation * std::abs(sum.value);
+  for (std::size_t p = 0; p < visible.Pieces(); ++p)
+    factors[static_cast<std::size_t>(visible.Owner(p))] +=
+        cancels ? visible.PieceByQuadrature(frame, normal, p)
+                : visible.PieceSum(p) * (0.5 * std::numbers::inv_pi);
+}
+
+}  // namespace
+
+void VisibleFormFactors(const DirectionPolygon& whole, std::span<const DirectionPolygon> parts,
+                        std::span<const Occluder> occluders, const Vec3& normal, std::span<double> factors) {
+  const Vec3 axis = ImageAxis(whole);
+  if (axis.isZero(0)) {
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      factors[i] = Clipping().VisibleFormFactor(parts[i], occluders, normal);
+    return;
+  }
+  std::fill(factors.begin(), factors.end(), 0.0);
+  Clipper& clipper = ThreadClipper();
+  const ImageFrame frame(whole, axis);
+  const Clipper::Candidates all = clipper.Begin(frame, whole, occluders);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    Clipper::Candidates own;
+    if (!parts[i].empty() && clipper.Narrow(parts[i], all, &own) != Overlap::kAll)
+      clipper.CutOut(parts[i], own, static_cast<std::int32_t>(i));
+    clipper.Restore(all);
+  }
+  AddVisible(clipper.Visible(), frame, normal, factors);
+  for (double& factor : factors) factor = std::max(0.0, factor);
+}
+
 double Clipping::VisibleFormFactor(const DirectionPolygon& source, std::span<const Occluder> occluders,
                                    const Vec3& normal) const {
   Clipper& clipper = ThreadClipper();
   double factor = 0;
   ForEachImage(clipper, source, occluders, normal, [&](const ImageFrame& frame) {
-    ImageEdges& visible = clipper.Visible();
-    const ImageEdges::Sum sum = visible.FormFactorSum(frame, normal);
-    if (sum.angles <= kFormFactorCancellation * std::abs(sum.value)) {
-      factor += std::max(0.0, sum.value * (0.5 * std::numbers::inv_pi));
-      return;
-    }
-    for (std::size_t p = 0; p < visible.Pieces(); ++p) factor += visible.PieceByQuadrature(frame, normal, p);
+    AddVisible(clipper.Visible(), frame, normal, {&factor, 1});
   });
-  return factor;
+  return std::max(0.0, factor);
 }
 
 }  // namespace penumbra
