@@ -248,6 +248,43 @@ TEST(OcclusionMethod, AgreeFarFromTheOrigin) {
   CompareAll("far from the origin", RandomSizesFarAway, 607, 10000);
 }
 
+// The quarters of sources in one image, against one after the other. Far from the origin and beside the
+// horizon, too; sources that fit into no image go one by one.
+TEST(OcclusionMethod, PartsTogetherAreAsPartsAlone) {
+  std::size_t compared = 0;
+  double worst = 0;
+  for (const Generator generator : {RandomSizes, Room, TurnedRoom, Contact})
+    for (std::uint64_t i = 0; i < 500; ++i) {
+      Random random(611, i);
+      const Case problem = generator(random);
+      PointView view(problem.scene, problem.at);
+      for (const PatchId source : problem.sources) {
+        const std::span<const Vec3> v = problem.scene.patches[static_cast<std::size_t>(source)].Vertices();
+        if (source == problem.own || v.size() != 4 || !view.FaceSource(source)) continue;
+        const DirectionPolygon whole = view.SeeSource(v);
+        std::vector<Occluder> occluders;
+        if (whole.empty() || !view.FindBlockers(AllPatches(problem.scene), problem.own, whole, occluders))
+          continue;
+        const Vec3 centre = 0.25 * (v[0] + v[1] + v[2] + v[3]);
+        std::array<DirectionPolygon, 4> parts;
+        std::array<double, 4> together;
+        for (std::size_t q = 0; q < 4; ++q)
+          parts[q] = view.SeeSource(std::array<Vec3, 4>{v[q], 0.5 * (v[q] + v[(q + 1) % 4]), centre,
+                                                        0.5 * (v[q] + v[(q + 3) % 4])});
+        VisibleFormFactors(whole, parts, occluders, problem.at.normal, together);
+        for (std::size_t q = 0; q < 4; ++q) {
+          const double alone = Clipping().VisibleFormFactor(parts[q], occluders, problem.at.normal);
+          worst = std::max(worst, std::abs(together[q] - alone) / FormFactor(whole, problem.at.normal));
+          ++compared;
+        }
+      }
+    }
+  std::printf("seed 611: %zu parts, largest difference %.2g of the whole source (bound %.2g)\n", compared,
+              worst, kOcclusionError);
+  EXPECT_GT(compared, 2000U);
+  EXPECT_LE(worst, kOcclusionError);
+}
+
 // Closed cases, seen from the origin, which looks up.
 
 const Vec3 kUp = Vec3::UnitZ();

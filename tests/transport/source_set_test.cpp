@@ -1,0 +1,105 @@
+// What a source's subtrees tell of their leaves.
+
+#include "solver/transport/source_set.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "solver/transport/solution.h"
+#include "tests/transport/transport_test_tools.h"
+
+namespace penumbra {
+namespace {
+
+constexpr int kLevels = 3;
+
+// A wall of 4 m x 2 m, far from the origin and turned anyhow, in leaves whose radiosities rise along it as a
+// plane does.
+struct Wall {
+  Wall(const Vec3& from, const Vec3& slope) {
+    const Vec3 u = Vec3(2, 1, 2) / 3, v = Vec3(1, 2, -2) / 3;
+    scene_test::AddMaterial(scene, 0.5, 0);
+    scene_test::Add(scene, {from, from + 4 * u, from + 4 * u + 2 * v, from + 2 * v}, 0);
+    solution.forest = ElementForest(scene);
+    for (int level = 0; level < kLevels; ++level)
+      for (const ElementId leaf : solution.forest.Leaves(0)) solution.forest.Subdivide(leaf);
+    solution.radiosity.assign(solution.forest.size(), Rgb::Zero());
+    centre = from + 2 * u + v;
+    along = slope.dot(u) * u + slope.dot(v) * v;
+    for (const ElementId leaf : solution.forest.Leaves(0))
+      solution.radiosity[static_cast<std::size_t>(leaf)] = At(Centroid(solution.forest[leaf].Vertices()));
+    solution.radiosity[0].setConstant(1);  // sends light
+  }
+  Rgb At(const Vec3& place) const { return (5 + along.dot(place - centre)) * Rgb(1, 0.5, 0.25); }
+
+  Scene scene;
+  RadiositySolution solution;
+  Vec3 centre, along;
+};
+
+// The plane that fits radiosities which lie in one is that one, at every level and far from the origin; its
+// residual is what rounding leaves of the spread, by the root.
+TEST(SourceSet, SubtreesKnowTheSlopeOfTheirLeaves) {
+  for (const double far : {0.0, 1e4}) {
+    const Wall wall(Vec3(far, -far, 0.5 * far), {0.7, -0.4, 0.3});
+    const SourceSet set = SourceSet::FromSolution(wall.solution);
+    const double rounding = 1e-15 * std::max(1.0, far);  // of places, relative to the wall
+    int subtrees = 0;
+    for (const SourceSet::Node& node : set.Tree(0)) {
+      if (node.skip == 1) {
+        EXPECT_EQ(node.slope, Eigen::Matrix3d::Zero());
+        continue;
+      }
+      ++subtrees;
+      const Rgb channels(1, 0.5, 0.25);
+      const Eigen::Matrix3d want = channels.matrix() * wall.along.transpose();
+      EXPECT_LE((node.slope - want).norm(), 1e3 * rounding * (1 << kLevels)) << "level of " << node.skip;
+      EXPECT_LE((node.radiosity - wall.At(node.centre)).abs().maxCoeff(), 1e3 * rounding);
+      EXPECT_GT(node.spread, 0.01);
+      EXPECT_LE(node.residual, 10 * std::sqrt(1e3 * rounding));
+    }
+    EXPECT_EQ(subtrees, 1 + 4 + 16);
+  }
+}
+
+// With one leaf far off the plane the residual is what the best plane leaves, and more than nothing; the
+// spread's square is that of the slope and that of the residual.
+TEST(SourceSet, ResidualIsWhatThePlaneLeaves) {
+  Wall wall(Vec3::Zero(), {0.7, -0.4, 0.3});
+  wall.solution.radiosity[static_cast<std::size_t>(wall.solution.forest.Leaves(0)[5])] *= 2;
+  const SourceSet set = SourceSet::FromSolution(wall.solution);
+  const SourceSet::Node& root = set.Tree(0)[0];
+  double residual = 0, spread = 0, area = 0;
+  for (const SourceSet::Node& leaf : set.Tree(0)) {
+    if (leaf.skip != 1) continue;
+    const Rgb plane = root.radiosity + (root.slope * (leaf.centre - root.centre)).array();
+    residual += leaf.area * std::pow(leaf.radiosity[0] - plane[0], 2);
+    spread += leaf.area * std::pow(leaf.radiosity[0] - root.radiosity[0], 2);
+    area += leaf.area;
+  }
+  EXPECT_NEAR(root.residual, std::sqrt(residual / area) / root.radiosity[0], 1e-12);
+  EXPECT_NEAR(root.spread, std::sqrt(spread / area) / root.radiosity[0], 1e-12);
+  EXPECT_GT(root.residual, 0.05);
+  EXPECT_LT(root.residual, root.spread);
+}
+
+// Leaves in a row tell nothing of the slope across it.
+TEST(SourceSet, ANarrowWallHasASlopeAlongItAlone) {
+  Scene scene;
+  scene_test::AddMaterial(scene, 0.5, 0);
+  scene_test::Add(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1e-7, 0}, {0, 1e-7, 0}}, 0);
+  RadiositySolution solution;
+  solution.forest = ElementForest(scene);
+  solution.forest.Subdivide(0);
+  solution.radiosity.assign(5, Rgb::Constant(1));
+  for (const ElementId leaf : solution.forest.Leaves(0))
+    solution.radiosity[static_cast<std::size_t>(leaf)].setConstant(
+        1 + Centroid(solution.forest[leaf].Vertices()).x());
+  const SourceSet::Node root = SourceSet::FromSolution(solution).Tree(0)[0];
+  EXPECT_NEAR(root.slope(0, 0), 1, 1e-9);
+  EXPECT_NEAR(root.slope(0, 1), 0, 1e-6);
+}
+
+}  // namespace
+}  // namespace penumbra
