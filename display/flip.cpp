@@ -11,7 +11,7 @@
 namespace penumbra {
 namespace {
 
-constexpr std::size_t kRowsPerTask = 8;
+constexpr std::size_t kFlipRowsPerTask = 8;
 
 // Linear sRGB to XYZ (IEC 61966-2-1), a row for X, Y and Z; its rows add up to the white D65.
 using Matrix = std::array<Colour, 3>;
@@ -129,7 +129,7 @@ Seen See(const RgbImage& image, double pixels_per_degree) {
   for (auto& plane : opponent) plane.resize(count);
   std::vector<float> achromatic(count);
   const auto width = static_cast<std::size_t>(image.width);
-  ParallelFor(static_cast<std::size_t>(image.height), kRowsPerTask, [&](std::size_t row) {
+  ParallelFor(static_cast<std::size_t>(image.height), kFlipRowsPerTask, [&](std::size_t row) {
     for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
       const Colour o = OpponentFromLinear({image.channel[0][i], image.channel[1][i], image.channel[2][i]});
       for (std::size_t c = 0; c < 3; ++c) opponent[c][i] = static_cast<float>(o[c]);
@@ -142,7 +142,7 @@ Seen See(const RgbImage& image, double pixels_per_degree) {
   for (std::size_t c = 0; c < 3; ++c)
     opponent[c] =
         FilterBySensitivity(opponent[c], image.width, image.height, kSensitivity[c], pixels_per_degree);
-  ParallelFor(static_cast<std::size_t>(image.height), kRowsPerTask, [&](std::size_t row) {
+  ParallelFor(static_cast<std::size_t>(image.height), kFlipRowsPerTask, [&](std::size_t row) {
     for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
       Colour linear = LinearFromOpponent({opponent[0][i], opponent[1][i], opponent[2][i]});
       for (double& value : linear) value = std::clamp(value, 0.0, 1.0);
@@ -217,7 +217,7 @@ std::vector<float> Filter(const std::vector<float>& plane, int width, int height
   const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
   std::vector<float> middle(plane.size(), 0.0F), out(plane.size(), 0.0F);
   const int reach = across.radius();
-  ParallelFor(rows, kRowsPerTask, [&](std::size_t y) {
+  ParallelFor(rows, kFlipRowsPerTask, [&](std::size_t y) {
     // The row with its ends drawn out, so that the loop below meets no border.
     std::vector<float> row(columns + 2 * static_cast<std::size_t>(reach));
     for (std::size_t x = 0; x < row.size(); ++x)
@@ -226,7 +226,7 @@ std::vector<float> Filter(const std::vector<float>& plane, int width, int height
     for (std::size_t k = 0; k < across.weight.size(); ++k)
       for (std::size_t x = 0; x < columns; ++x) middle[y * columns + x] += across.weight[k] * row[x + k];
   });
-  ParallelFor(rows, kRowsPerTask, [&](std::size_t y) {
+  ParallelFor(rows, kFlipRowsPerTask, [&](std::size_t y) {
     for (int k = -down.radius(); k <= down.radius(); ++k) {
       const auto from = static_cast<std::size_t>(std::clamp(static_cast<int>(y) + k, 0, height - 1));
       const float weight = down.weight[static_cast<std::size_t>(k + down.radius())];

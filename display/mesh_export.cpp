@@ -56,7 +56,7 @@ std::string DataArray(const char* type, const char* name, int components, const 
 }
 
 // What a screen shows of a node, linear.
-Rgb Exposed(const Scene& scene, const MeshNodes::Node& node, double exposure) {
+Rgb ExposedAt(const Scene& scene, const MeshNodes::Node& node, double exposure) {
   if ((scene.MaterialOf(node.patch).emittance > 0).any()) return Rgb::Ones();
   return (exposure * node.radiosity).max(0.0).min(1.0);
 }
@@ -113,7 +113,7 @@ std::string PlyBytes(const Scene& scene, const IrradianceMesh& mesh, double expo
       nodes.nodes.size(), 4 * nodes.triangles.size());
   for (const MeshNodes::Node& node : nodes.nodes) {
     AppendTriple<float>(bytes, node.position);
-    const Rgb shown = Exposed(scene, node, exposure);
+    const Rgb shown = ExposedAt(scene, node, exposure);
     for (int c = 0; c < 3; ++c)
       bytes.push_back(static_cast<char>(std::lround(255 * SrgbFromLinear(shown[c]))));
     AppendTriple<float>(bytes, node.irradiance);
@@ -140,7 +140,7 @@ std::string GlbBytes(const Scene& scene, const IrradianceMesh& mesh, double expo
     least = least.min(position);
     most = most.max(position);
     AppendTriple<float>(positions, position);
-    AppendTriple<float>(colours, Exposed(scene, node, exposure));
+    AppendTriple<float>(colours, ExposedAt(scene, node, exposure));
     AppendTriple<float>(irradiance, node.irradiance);
     AppendTriple<float>(radiosity, node.radiosity);
   }

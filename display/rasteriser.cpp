@@ -37,8 +37,8 @@ struct ScreenVertex {
 constexpr std::uint8_t kBehind = 16;
 
 // The plane through the eye, b and a, as a function of picture coordinates.
-Plane EdgePlane(const ScreenVertex& a, const ScreenVertex& b) {
-  // The operands of each product commute and nothing is contracted: EdgePlane(b, a) is its exact negative.
+Plane ScreenEdge(const ScreenVertex& a, const ScreenVertex& b) {
+  // The operands of each product commute and nothing is contracted: ScreenEdge(b, a) is its exact negative.
   return {b.y * a.z - b.z * a.y, b.z * a.x - b.x * a.z, b.x * a.y - b.y * a.x};
 }
 
@@ -300,7 +300,7 @@ bool Rasteriser::Impl::SetUp(std::uint32_t id, ScreenTriangle* out) {
   }
 
   // Each edge function is positive inside; edge k is opposite vertex k.
-  const std::array<Plane, 3> edges = {EdgePlane(b, c), EdgePlane(c, a), EdgePlane(a, b)};
+  const std::array<Plane, 3> edges = {ScreenEdge(b, c), ScreenEdge(c, a), ScreenEdge(a, b)};
   // Six times the volume that the triangle spans with the eye; positive in front of it.
   const double volume = edges[0].x * a.x + edges[0].y * a.y + edges[0].c * a.z;
   if (!(volume > 0)) return false;

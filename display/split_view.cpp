@@ -23,7 +23,7 @@ void Place(const Srgb8Image& part, int left, int top, Srgb8Image* whole) {
   }
 }
 
-std::uint8_t Code(double value) {
+std::uint8_t GreyCode(double value) {
   return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0, 1.0)));
 }
 
@@ -61,8 +61,8 @@ void PaintSplit(const RenderedFrame& frame, const PixelRays& rays, const Irradia
     if (frame.triangle[i] == kNoTriangle) continue;
     const double s = static_cast<double>(frame.s[i]), t = static_cast<double>(frame.t[i]);
     SetPixel(&ids, i, ColourOfNumber(frame.triangle[i]));
-    SetPixel(&coordinates, i, {Code(s), Code(t), Code(1 - s - t)});
-    const std::uint8_t grey = Code(nearest > 0 ? inverse[i] / nearest : 0.0);
+    SetPixel(&coordinates, i, {GreyCode(s), GreyCode(t), GreyCode(1 - s - t)});
+    const std::uint8_t grey = GreyCode(nearest > 0 ? inverse[i] / nearest : 0.0);
     SetPixel(&depths, i, {grey, grey, grey});
   }
   out->Resize(width, height);

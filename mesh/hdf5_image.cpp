@@ -41,7 +41,7 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-void Demand(herr_t status, const std::string& what) {
+void Succeed(herr_t status, const std::string& what) {
   if (status < 0) throw Hdf5Error(what);
 }
 
@@ -87,15 +87,15 @@ hid_t MemoryType(ScalarType type) {
 // Files that live in memory and are never written by the library.
 Handle MemoryAccess() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "no property list");
-  Demand(H5Pset_fapl_core(access, kGrowth, 0), "no file in memory");
+  Succeed(H5Pset_fapl_core(access, kGrowth, 0), "no file in memory");
   // The oldest format: newer ones have checksums that H5Fget_file_image() spoils.
-  Demand(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18), "no such version of the format");
+  Succeed(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18), "no such version of the format");
   return access;
 }
 
 Handle WithoutTimes(hid_t kind) {
   Handle creation(H5Pcreate(kind), H5Pclose, "no property list");
-  Demand(H5Pset_obj_track_times(creation, false), "times cannot be left out");
+  Succeed(H5Pset_obj_track_times(creation, false), "times cannot be left out");
   return creation;
 }
 
@@ -119,7 +119,7 @@ struct Hdf5Writer::Impl {
     MakeGroups(path);
     const Handle set(H5Dcreate2(file, path.c_str(), file_type, space, links, creation, H5P_DEFAULT), H5Dclose,
                      path);
-    if (data) Demand(H5Dwrite(set, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), path);
+    if (data) Succeed(H5Dwrite(set, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), path);
   }
 };
 
@@ -144,24 +144,24 @@ void Hdf5Writer::Write(const std::string& path, ScalarType type, const ArrayShap
   if (row * shape[0] >= kWorthCompressing) {
     std::vector<hsize_t> chunk = extent;
     chunk[0] = std::min<hsize_t>(extent[0], std::max<std::size_t>(1, kChunk / row));
-    Demand(H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data()), path);
-    Demand(H5Pset_shuffle(creation), path);
-    Demand(H5Pset_deflate(creation, kDeflateLevel), path);
+    Succeed(H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data()), path);
+    Succeed(H5Pset_shuffle(creation), path);
+    Succeed(H5Pset_deflate(creation, kDeflateLevel), path);
   }
   impl_->Write(path, FileType(type), MemoryType(type), space, creation, row * shape[0] > 0 ? data : nullptr);
 }
 
 void Hdf5Writer::WriteText(const std::string& path, const std::string& text) {
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, path);
-  Demand(H5Tset_size(type, std::max<std::size_t>(1, text.size())), path);
-  Demand(H5Tset_strpad(type, H5T_STR_NULLPAD), path);
-  Demand(H5Tset_cset(type, H5T_CSET_UTF8), path);
+  Succeed(H5Tset_size(type, std::max<std::size_t>(1, text.size())), path);
+  Succeed(H5Tset_strpad(type, H5T_STR_NULLPAD), path);
+  Succeed(H5Tset_cset(type, H5T_CSET_UTF8), path);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, path);
   impl_->Write(path, type, type, space, WithoutTimes(H5P_DATASET_CREATE), text.c_str());
 }
 
 std::string Hdf5Writer::Finish() {
-  Demand(H5Fflush(impl_->file, H5F_SCOPE_GLOBAL), "the file in memory cannot be finished");
+  Succeed(H5Fflush(impl_->file, H5F_SCOPE_GLOBAL), "the file in memory cannot be finished");
   const ssize_t size = H5Fget_file_image(impl_->file, nullptr, 0);
   if (size < 0) throw Hdf5Error("the file in memory cannot be taken");
   std::string image(static_cast<std::size_t>(size), '\0');
@@ -183,7 +183,7 @@ Hdf5Reader::Hdf5Reader(std::string_view image) {
   Silence();
   const Handle access = MemoryAccess();
   // The library copies the image, and takes it as it is.
-  Demand(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()), "it cannot be read");
+  Succeed(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()), "it cannot be read");
   impl_.reset(new Impl{Handle(H5Fopen("solution", H5F_ACC_RDONLY, access), H5Fclose, "it is no HDF5 file")});
 }
 
@@ -206,7 +206,7 @@ void Hdf5Reader::Read(const std::string& path, ScalarType type, const ArrayShape
   const Handle stored(H5Dget_type(set), H5Tclose, path);
   if (H5Tequal(stored, FileType(type)) <= 0) throw Hdf5Error(path + " holds another type");
   if (std::count(shape.begin(), shape.end(), 0U) > 0) return;
-  Demand(H5Dread(set, MemoryType(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, data), path + " cannot be read");
+  Succeed(H5Dread(set, MemoryType(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, data), path + " cannot be read");
 }
 
 std::string Hdf5Reader::ReadText(const std::string& path) const {
@@ -215,7 +215,7 @@ std::string Hdf5Reader::ReadText(const std::string& path) const {
   if (!Shape(path).empty() || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
     throw Hdf5Error(path + " is no text");
   std::string text(H5Tget_size(type), '\0');
-  Demand(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), path + " cannot be read");
+  Succeed(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), path + " cannot be read");
   text.erase(text.find_last_not_of('\0') + 1);
   return text;
 }

@@ -27,7 +27,7 @@ struct View {
 };
 
 // A straight line in the image on the source's plane.
-struct ImageLine {
+struct SourceLine {
   Vec3 along, across;  // unit, in the source's plane
 };
 
@@ -37,7 +37,7 @@ struct Slope {
   int side;  // 0: parallel to the line
 };
 
-Slope SlopeOf(const Vec3& direction, const ImageLine& line) {
+Slope SlopeOf(const Vec3& direction, const SourceLine& line) {
   const double along = direction.dot(line.along), across = direction.dot(line.across);
   if (across == 0) return {kInfinity, 0};
   return {along / across, across > 0 ? 1 : -1};
@@ -57,7 +57,7 @@ class MovingEdge {
   }
 
   bool valid() const { return valid_; }
-  const ImageLine& line() const { return line_; }
+  const SourceLine& line() const { return line_; }
   // Of the image at the point y of it, along line().across, for a unit step of x [1].
   double SpeedAt(const Vec3& y) const {
     return view_.across.cross(edge_).dot(y - a_) / plane_.dot(line_.across);
@@ -72,7 +72,7 @@ class MovingEdge {
   const View& view_;
   Vec3 a_, edge_, plane_;
   bool valid_ = false;
-  ImageLine line_;
+  SourceLine line_;
 };
 
 // +1 if the faces at the edge cover the side of the moving line to which `across` points, else -1.
@@ -163,7 +163,7 @@ IrradianceJump EdgeVertex(const Scene& scene, const Silhouettes& silhouettes, co
   const Vec3& b = scene.patches[d.blocker].vertex[d.blocker_part];
   const Vec3& v = view.source.vertex[d.source_part];
   const Vec3 along = (view.source.vertex[(d.source_part + 1) % view.source.size] - v).normalized();
-  const ImageLine line = {along, view.source.normal.cross(along)};  // the source lies above it
+  const SourceLine line = {along, view.source.normal.cross(along)};  // the source lies above it
   const Vec3 ray = b - view.x;
   const double approach = view.source.normal.dot(ray);
   IrradianceJump jump;

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "solver/base/check.h"
+#include "solver/base/size.h"
 
 namespace penumbra {
 namespace {
@@ -29,8 +30,6 @@ struct FoundFace {
   Cdt::Face_handle face;
   int first;  // CGAL's number of vertex[0]
 };
-
-std::int32_t Size(const auto& container) { return static_cast<std::int32_t>(container.size()); }
 
 // By how much the winding number of the tag is greater on the triangle's side of its edge k than beyond it.
 std::int32_t WindingStep(const ConstrainedTriangulation& mesh, const Triangle& triangle, int k,

@@ -6,10 +6,10 @@
 #include <map>
 #include <utility>
 
+#include "solver/base/size.h"
+
 namespace penumbra {
 namespace {
-
-std::int32_t Size(const auto& container) { return static_cast<std::int32_t>(container.size()); }
 
 double SineOfTurn(const Vec2& a, const Vec2& b, const Vec2& c) {
   const double lengths = (b - a).norm() * (c - b).norm();

@@ -6,12 +6,11 @@
 #include <numeric>
 
 #include "solver/base/check.h"
+#include "solver/base/size.h"
 #include "solver/geometry/orientation.h"
 
 namespace penumbra {
 namespace {
-
-std::int32_t Size(const auto& container) { return static_cast<std::int32_t>(container.size()); }
 
 // Where the lines ab and cd meet; a coordinate that a line holds constant is kept to the bit.
 Vec2 Crossing(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {

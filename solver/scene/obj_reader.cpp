@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "solver/base/size.h"
 #include "solver/scene/face_check.h"
 #include "solver/scene/mtl_reader.h"
 #include "solver/scene/patch_builder.h"
@@ -33,8 +34,6 @@ constexpr auto kNotRead = std::to_array<std::string_view>(
 bool Contains(const auto& list, std::string_view word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
-
-std::int32_t Size(const auto& container) { return static_cast<std::int32_t>(container.size()); }
 
 std::string Plural(int count, std::string_view noun) {
   return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "solver/base/check.h"
+#include "solver/base/size.h"
 #include "solver/geometry/constrained_triangulation.h"
 #include "solver/geometry/convex_pieces.h"
 #include "solver/geometry/orientation.h"
@@ -18,8 +19,6 @@
 
 namespace penumbra {
 namespace {
-
-std::int32_t Size(const auto& container) { return static_cast<std::int32_t>(container.size()); }
 
 // A simple polygon on its way to patches: a face without its straight corners, or two triangles joined.
 struct Outline {

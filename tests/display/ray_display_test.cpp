@@ -15,7 +15,7 @@
 namespace penumbra {
 namespace {
 
-constexpr int kWidth = 160, kHeight = 120;
+constexpr int kImageWidth = 160, kImageHeight = 120;
 
 // A room whose walls are cut into triangles, some of them slivers a thousand times as long as wide.
 SyntheticScene RoomWithSlivers() {
@@ -47,17 +47,17 @@ TEST(RayDisplay, LerpShadeAgreesWithTheTwoPassDisplay) {
   int compared = 0, slivers = 0, elsewhere = 0, background = 0;
   for (int round = 0; round < 6; ++round) {
     const Camera camera = Anywhere(random);
-    const RenderedFrame& frame = display.Render(camera, kWidth, kHeight);
-    const SampledPicture& picture = rays.Render(camera, kWidth, kHeight, ExecutionContext());
-    const PixelRays eye = MakePixelRays(camera, kWidth, kHeight);
+    const RenderedFrame& frame = display.Render(camera, kImageWidth, kImageHeight);
+    const SampledPicture& picture = rays.Render(camera, kImageWidth, kImageHeight, ExecutionContext());
+    const PixelRays eye = MakePixelRays(camera, kImageWidth, kImageHeight);
     for (std::size_t i = 0; i < frame.triangle.size(); ++i) {
       const std::uint32_t id = frame.triangle[i];
       background += id == kNoTriangle;
       if (id == kNoTriangle) continue;
       const IrradianceMesh::Triangle& triangle = room.mesh.triangles[id];
       const Patch& patch = room.scene.patches[static_cast<std::size_t>(triangle.patch)];
-      const Vec3 along =
-          eye.Direction(static_cast<double>(i % kWidth) + 0.5, static_cast<double>(i / kWidth) + 0.5);
+      const Vec3 along = eye.Direction(static_cast<double>(i % kImageWidth) + 0.5,
+                                       static_cast<double>(i / kImageWidth) + 0.5);
       const Vec3 p = eye.eye + patch.normal.dot(patch.vertex[0] - eye.eye) / patch.normal.dot(along) * along;
       const auto at = locator.Find(triangle.patch, p);
       if (!at || at->triangle != id || picture.kind[i] != frame.kind[i]) {
@@ -119,14 +119,14 @@ TEST(RayDisplay, SeesThroughBacksOnAnyThreads) {
   RayDisplay rays(room.scene, LerpShade(room.scene, room.mesh), 2);
   const Camera outside{"outside", {14, -9, 7}, {3, 2.5, 1.5}, Vec3::UnitZ(), 30};
   SetThreadCount(1);
-  const SampledPicture one = rays.Render(outside, kWidth, kHeight, ExecutionContext());
+  const SampledPicture one = rays.Render(outside, kImageWidth, kImageHeight, ExecutionContext());
   SetThreadCount(2);
-  const SampledPicture& two = rays.Render(outside, kWidth, kHeight, ExecutionContext());
+  const SampledPicture& two = rays.Render(outside, kImageWidth, kImageHeight, ExecutionContext());
   EXPECT_EQ(one.linear.channel, two.linear.channel);
   EXPECT_EQ(one.kind, two.kind);
   SetThreadCount(0);
   TwoPassDisplay display(room.scene, room.mesh);
-  const RenderedFrame& frame = display.Render(outside, kWidth, kHeight);
+  const RenderedFrame& frame = display.Render(outside, kImageWidth, kImageHeight);
   int different = 0;
   for (std::size_t i = 0; i < frame.kind.size(); ++i) different += frame.kind[i] != one.kind[2 * i];
   EXPECT_LT(different, 20);
@@ -134,8 +134,9 @@ TEST(RayDisplay, SeesThroughBacksOnAnyThreads) {
 
   ExecutionContext cancelled;
   cancelled.Cancel();
-  const SampledPicture& none = rays.Render(outside, kWidth, kHeight, cancelled);
-  EXPECT_EQ(std::count(none.kind.begin(), none.kind.end(), PixelKind::kBackground), 2 * kWidth * kHeight);
+  const SampledPicture& none = rays.Render(outside, kImageWidth, kImageHeight, cancelled);
+  EXPECT_EQ(std::count(none.kind.begin(), none.kind.end(), PixelKind::kBackground),
+            2 * kImageWidth * kImageHeight);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 using Triangle = ConstrainedTriangulation::Triangle;
 
-double Area(const ConstrainedTriangulation& mesh, const Triangle& t) {
+double TriangleArea(const ConstrainedTriangulation& mesh, const Triangle& t) {
   return SignedArea(
       std::array{mesh.vertices[t.vertex[0]], mesh.vertices[t.vertex[1]], mesh.vertices[t.vertex[2]]});
 }
@@ -23,7 +23,7 @@ double Area(const ConstrainedTriangulation& mesh, const Triangle& t) {
 double InsideArea(const ConstrainedTriangulation& mesh) {
   double sum = 0;
   for (const Triangle& t : mesh.triangles)
-    if (t.Inside()) sum += Area(mesh, t);
+    if (t.Inside()) sum += TriangleArea(mesh, t);
   return sum;
 }
 

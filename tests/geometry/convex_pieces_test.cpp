@@ -10,7 +10,7 @@ namespace penumbra {
 namespace {
 
 using ::testing::ElementsAre;
-using Triangle = std::array<std::int32_t, 3>;
+using Corners = std::array<std::int32_t, 3>;
 
 TEST(ConvexPieces, QualityOfQuadrilaterals) {
   // A rectangle has quality 1, a rhombus the sine of its angle; straight, concave and clockwise ones have
@@ -36,7 +36,7 @@ TEST(ConvexPieces, StraightCornersGoWhereverTheyStand) {
 TEST(ConvexPieces, AFanOfSixIsThreeQuadrilaterals) {
   // A chain of triangles is joined from its ends, so that none is left over.
   std::vector<Vec2> vertices;
-  std::vector<Triangle> triangles;
+  std::vector<Corners> triangles;
   for (int i = 0; i < 8; ++i) {
     const double angle = 2 * std::numbers::pi * i / 8;
     vertices.push_back({std::cos(angle), std::sin(angle)});
@@ -51,9 +51,9 @@ TEST(ConvexPieces, AFanOfSixIsThreeQuadrilaterals) {
 TEST(ConvexPieces, WhatCannotBeJoinedStays) {
   // Triangles that touch in a corner, or would form a triangle, stay triangles.
   const std::vector<Vec2> vertices = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-  const std::vector<Triangle> corner = {{0, 1, 2}, {0, 3, 4}};
+  const std::vector<Corners> corner = {{0, 1, 2}, {0, 3, 4}};
   EXPECT_EQ(JoinTriangles(vertices, corner).size(), 2u);
-  const std::vector<Triangle> straight = {{0, 1, 2}, {0, 2, 3}};
+  const std::vector<Corners> straight = {{0, 1, 2}, {0, 2, 3}};
   EXPECT_EQ(JoinTriangles(vertices, straight).size(), 2u);
   EXPECT_TRUE(JoinTriangles(vertices, {}).empty());
 }

@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include "mesh/local_pass.h"
 #include "mesh/pipeline.h"
@@ -17,9 +16,6 @@
 
 namespace penumbra {
 namespace {
-
-using Place = std::tuple<double, double, double>;
-Place Bits(const Vec3& p) { return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0}; }
 
 // An edge of a triangle with no other triangle of its patch beyond it.
 struct RimEdge {
@@ -105,7 +101,9 @@ void CountCracks(const Scene& scene, std::vector<RimEdge> rim, Conformity& found
       const double t0 = std::min(along.dot(p - a), along.dot(q - a)),
                    t1 = std::max(along.dot(p - a), along.dot(q - a));
       if (t1 <= 2 * snap || t0 >= (b - a).norm() - 2 * snap) continue;
-      const auto ends = [](const RimEdge& edge) { return std::minmax({Bits(edge.a), Bits(edge.b)}); };
+      const auto ends = [](const RimEdge& edge) {
+        return std::minmax({mesh_test::PlaceOf(edge.a), mesh_test::PlaceOf(edge.b)});
+      };
       if (ends(e) == ends(f))
         ++found.shared;
       else

@@ -76,8 +76,8 @@ TEST(DiscontinuityCache, KeepsGeometricFactors) {
   }
 }
 
-struct Solved {
-  Solved() : scene(*LoadBuiltinScene("office", {})), visibility(scene) {
+struct Office {
+  Office() : scene(*LoadBuiltinScene("office", {})), visibility(scene) {
     SolverOptions options;
     options.eps = 30;
     options.min_area = 0.01;
@@ -119,7 +119,7 @@ void ExpectSame(const std::vector<PatchTriangulation>& a, const std::vector<Patc
 // Only leaves whose border or lines have changed are triangulated: none the second time, few when one leaf is
 // divided, a part when a source fades. The meshes are those that are made without a cache, to the byte.
 TEST(LocalPassCache, OnlyChangedLeavesAreTriangulated) {
-  Solved solved;
+  Office solved;
   ElementForest forest = solved.solution.forest;
   Random random(8);
   const auto count = static_cast<PatchId>(solved.scene.patches.size());

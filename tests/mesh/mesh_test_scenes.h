@@ -7,6 +7,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "mesh/dset.h"
@@ -16,6 +17,10 @@
 #include "solver/transport/element_forest.h"
 
 namespace penumbra::mesh_test {
+
+// A point as a key: zeros have one sign.
+using Place = std::tuple<double, double, double>;
+inline Place PlaceOf(const Vec3& p) { return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0}; }
 
 inline PatchId AddPatch(Scene& scene, std::initializer_list<Vec3> vertices, std::int32_t material = 0) {
   const std::vector<Vec3> list(vertices);

@@ -12,7 +12,7 @@
 namespace penumbra::scene_test {
 namespace {
 
-Scene Room() {
+Scene FurnishedRoom() {
   Scene scene;
   const std::int32_t grey = AddMaterial(scene, 0.5, 0), lamp = AddMaterial(scene, 0, 40);
   AddBox(scene, Vec3::Zero(), {4, 3, 2.5}, true, grey);
@@ -29,7 +29,7 @@ bool SameLight(const RadiositySolution& a, const RadiositySolution& b) {
 // Steps lead where Solve() leads, to the byte; counts and iterations are told after each, and a mesh can be
 // made at any time from the solution as it is then.
 TEST(Pipeline, StepByStepIsTheSame) {
-  const Scene scene = Room();
+  const Scene scene = FurnishedRoom();
   PipelineOptions options;
   options.error = 0.2;
   const ExecutionContext context;
@@ -64,7 +64,7 @@ TEST(Pipeline, StepByStepIsTheSame) {
 
 // A step that is cancelled leaves solution and report as they were, and the pipeline can go on.
 TEST(Pipeline, CancelledStepsLeaveWhatWas) {
-  const Scene scene = Room();
+  const Scene scene = FurnishedRoom();
   PipelineOptions options;
   options.error = 0.5;
   Pipeline pipeline(scene, options);

@@ -18,7 +18,7 @@ using mesh_test::AddSquare;
 using mesh_test::EmptyScene;
 using mesh_test::Tilt;
 
-constexpr PatchId kFloor = 0, kLight = 1;
+constexpr PatchId kReceiver = 0, kLight = 1;
 
 // A turned light over a floor, and two triangles between them, no edge of anything in a plane with another's.
 Scene TwoTriangles() {
@@ -37,7 +37,8 @@ std::vector<Discontinuity> Find(const Scene& scene, double tolerance, bool keep_
   options.triple_edge_tolerance = tolerance;
   options.keep_hidden = keep_hidden;
   const PatchVisibility visibility(scene);
-  std::vector<Discontinuity> found = DiscontinuityFinder(scene, visibility).Find(kFloor, strength, options);
+  std::vector<Discontinuity> found =
+      DiscontinuityFinder(scene, visibility).Find(kReceiver, strength, options);
   std::erase_if(found, [](const Discontinuity& d) { return d.kind != DiscontinuityKind::kEEE; });
   return found;
 }
@@ -66,7 +67,7 @@ TEST(TripleEdges, RuledLinesTouchAllThreeEdges) {
   for (const double degrees : {0.0, 25.0}) {
     Scene scene = TwoTriangles();
     if (degrees > 0) Tilt(scene, degrees);
-    const Frame frame = PolygonFrame(scene.patches[kFloor].Vertices());
+    const Frame frame = PolygonFrame(scene.patches[kReceiver].Vertices());
     const std::vector<Discontinuity> found = Find(scene, 1e-3);
     double worst = 0;
     for (const Discontinuity& d : found) {
@@ -100,7 +101,7 @@ TEST(TripleEdges, RuledLinesTouchAllThreeEdges) {
 // edges, every such point lies within the tolerance of a piece of that event.
 TEST(TripleEdges, PolylinesLieWithinTheTolerance) {
   const Scene scene = TwoTriangles();
-  const Frame frame = PolygonFrame(scene.patches[kFloor].Vertices());
+  const Frame frame = PolygonFrame(scene.patches[kReceiver].Vertices());
   std::size_t pieces = 10000;
   for (const double tolerance : {1e-5, 1e-4, 1e-3, 1e-2}) {
     const std::vector<Discontinuity> found = Find(scene, tolerance);

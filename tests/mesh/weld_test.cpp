@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <tuple>
 
 #include "mesh/leaf_triangulation.h"
 #include "mesh_test_scenes.h"
@@ -14,16 +13,15 @@ namespace {
 using mesh_test::AddBox;
 using mesh_test::AddPatch;
 using mesh_test::EmptyScene;
+using mesh_test::Place;
+using mesh_test::PlaceOf;
 using mesh_test::RefineAtRandom;
 using mesh_test::RoundCoordinates;
 using mesh_test::Tilt;
 
-using Point = std::tuple<double, double, double>;
-Point Bits(const Vec3& p) { return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0}; }
-
 // The positions of the mesh's vertices on the segment, to rounding.
-std::vector<Point> OnSegment(const PatchTriangulation& mesh, const Vec3& a, const Vec3& b) {
-  std::vector<Point> on;
+std::vector<Place> OnSegment(const PatchTriangulation& mesh, const Vec3& a, const Vec3& b) {
+  std::vector<Place> on;
   std::vector<bool> used(mesh.positions.size(), false);
   for (const auto& t : mesh.triangles)
     for (const std::uint32_t v : t.vertex) used[v] = true;
@@ -32,7 +30,7 @@ std::vector<Point> OnSegment(const PatchTriangulation& mesh, const Vec3& a, cons
     const Vec3 p = mesh.positions[v] - a;
     const double at = along.dot(p);
     if (used[v] && (p - at * along).norm() < 1e-9 && at > -1e-9 && at < (b - a).norm() + 1e-9)
-      on.push_back(Bits(mesh.positions[v]));
+      on.push_back(PlaceOf(mesh.positions[v]));
   }
   std::sort(on.begin(), on.end());
   return on;
@@ -91,7 +89,7 @@ TEST(WeldOutlines, SharedEdgesHaveTheSameVertices) {
             const double t0 = std::max(0.0, std::min(tc, td)), t1 = std::min(length, std::max(tc, td));
             if (t1 - t0 < 1e-6) continue;
             ++shared;
-            const std::vector<Point> first = OnSegment(meshes[p], a + t0 * along, a + t1 * along);
+            const std::vector<Place> first = OnSegment(meshes[p], a + t0 * along, a + t1 * along);
             vertices += first.size();
             EXPECT_EQ(first, OnSegment(meshes[q], a + t0 * along, a + t1 * along)) << p << ", " << q;
           }
