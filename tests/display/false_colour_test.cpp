@@ -10,7 +10,7 @@ namespace penumbra {
 namespace {
 
 // Linear luminance (ITU-R BT.709).
-double Luminance(ScreenColour c) {
+double LuminanceOf(ScreenColour c) {
   return 0.2126 * LinearFromSrgb(c.red / 255.0) + 0.7152 * LinearFromSrgb(c.green / 255.0) +
          0.0722 * LinearFromSrgb(c.blue / 255.0);
 }
@@ -24,7 +24,7 @@ ScreenColour At(const Srgb8Image& image, int x, int y) {
 // A larger value is never darker: the scale reads in grey, too.
 TEST(FalseColour, GrowsLighter) {
   for (int i = 1; i <= 256; ++i)
-    EXPECT_GE(Luminance(FalseColour(i / 256.0)), Luminance(FalseColour((i - 1) / 256.0)) - 1e-4) << i;
+    EXPECT_GE(LuminanceOf(FalseColour(i / 256.0)), LuminanceOf(FalseColour((i - 1) / 256.0)) - 1e-4) << i;
 }
 
 // A surface pixel is coloured by its mean against the top of the scale; lights are white, whatever they emit.
