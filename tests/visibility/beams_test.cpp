@@ -17,13 +17,6 @@
 namespace penumbra::scene_test {
 namespace {
 
-// Whether a patch cuts the segment, by doubles; it counts as `wider` than it is by that much [m].
-bool Cuts(const Patch& patch, const Vec3& p, const Vec3& q, double wider) {
-  const double hp = patch.normal.dot(p - patch.vertex[0]), hq = patch.normal.dot(q - patch.vertex[0]);
-  if (!(std::min(hp, hq) < -std::abs(wider) && std::max(hp, hq) > std::abs(wider))) return false;
-  return ConvexContains(patch.Vertices(), patch.normal, p + (q - p) * (hp / (hp - hq)), wider);
-}
-
 // How far rounding may move what is compared, coordinates being some metres.
 constexpr double kRounding = 1e-9;
 
