@@ -97,7 +97,7 @@ bool GoesOn(const StudyLog& log) {
   return !log.quick() && last.error_max > kExact && kDearer * last.seconds < kMostSeconds;
 }
 
-void Run(StudyLog& log) {
+void StudyContinuousRadiosity(StudyLog& log) {
   const json truth = ReadTruth();
   if (truth.is_null()) {
     log.Find("Not run: the reference values were not at hand.");
@@ -163,6 +163,6 @@ const Study kContinuousRadiosityStudy = {
     "their parts.)",
     "seconds",
     "error_rms",
-    Run};
+    StudyContinuousRadiosity};
 
 }  // namespace penumbra

@@ -165,7 +165,7 @@ void MeasureThesisMesh(StudyLog& log) {
                   kThesisLeaves, kThesisTriangles, kThesisMerged));
 }
 
-void Run(StudyLog& log) {
+void StudyDiscontinuities(StudyLog& log) {
   for (const std::string name : {"floating-cube", "office", "blind"}) {
     if (log.quick() && name != "floating-cube") break;
     Measurement measurement(log, name);
@@ -215,6 +215,6 @@ const Study kDiscontinuityStudy = {"discontinuities",
                                    "(thesis 5.2, 5.3).",
                                    "seconds",
                                    "error_rms",
-                                   Run};
+                                   StudyDiscontinuities};
 
 }  // namespace penumbra

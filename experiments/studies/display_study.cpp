@@ -21,8 +21,6 @@
 namespace penumbra {
 namespace {
 
-// Below this part of a channel's mean an error is not relative to the pixel's own radiosity any more.
-constexpr double kDark = 0.01;
 constexpr int kFrames = 15;  // of which the median counts
 
 struct Picture {
@@ -61,9 +59,9 @@ std::vector<double> Errors(const RgbImage& shown, const std::vector<PixelKind>& 
   return errors;
 }
 
-class Comparison {
+class DisplayComparison {
  public:
-  Comparison(const Setting& setting, StudyLog* log)
+  DisplayComparison(const Setting& setting, StudyLog* log)
       : setting_(setting),
         scene_(*LoadBuiltinScene(setting.scene, {})),
         pipeline_(scene_, setting.options),
@@ -167,7 +165,7 @@ class Comparison {
   std::vector<StudyRow> rows_;
 };
 
-void Run(StudyLog& log) {
+void StudyDisplay(StudyLog& log) {
   std::vector<Setting> settings;
   if (log.quick()) {
     PipelineOptions options;
@@ -177,7 +175,7 @@ void Run(StudyLog& log) {
     settings.push_back({"office", "thesis, chapter 7", ThesisSettings(), {640, 480, {}}});
     settings.push_back({"office", "--error 0.02", {}, {640, 480, {}}});
   }
-  for (const Setting& setting : settings) Comparison(setting, &log).Run();
+  for (const Setting& setting : settings) DisplayComparison(setting, &log).Run();
 }
 
 }  // namespace
@@ -191,6 +189,6 @@ const Study kDisplayStudy = {
     "shading (Hardt 1996, figure 7-4); his texture of 8-bit coordinates is precise enough for a screen.",
     "seconds",
     "error_p95",
-    Run};
+    StudyDisplay};
 
 }  // namespace penumbra

@@ -15,23 +15,23 @@ namespace {
 
 // A solution that others are measured by has this part of their error, or of the smallest asked for.
 constexpr double kFiner = 0.5;
-constexpr std::size_t kPoints = 10'000, kQuickPoints = 500;
-constexpr std::uint64_t kSeed = 77;  // of points that no solve has seen
+constexpr std::size_t kFreshPoints = 10'000, kQuickFreshPoints = 500;
+constexpr std::uint64_t kFreshSeed = 77;  // of points that no solve has seen
 
-Measured Solve(const ReferenceCase& test, double error) {
+Measured SolveFor(const ReferenceCase& test, double error) {
   PipelineOptions options;
   options.error = error;
   return MeasurePipeline(test, options, 1);
 }
 
 void Climb(StudyLog& log, const ReferenceCase& test, const std::vector<double>& ladder) {
-  const Measured finer = Solve(test, kFiner * ladder.back());
+  const Measured finer = SolveFor(test, kFiner * ladder.back());
   const IrradianceSampler truth = [&](PatchId patch, const ReceiverPoint& at) {
     return finer.pipeline->irradiance().OnPatch(patch, at);
   };
   int met = 0, met_fresh = 0, told = 0, wasteful = 0;
   for (const double error : ladder) {
-    Measured solved = Solve(test, error);
+    Measured solved = SolveFor(test, error);
     Pipeline& pipeline = *solved.pipeline;
     pipeline.Measure({});
     StudyRow& traced = solved.row;
@@ -40,9 +40,9 @@ void Climb(StudyLog& log, const ReferenceCase& test, const std::vector<double>& 
     traced.parameter = error;
     StudyRow row = traced;
     row.method = "against a finer solution";
-    const std::size_t points = log.quick() ? kQuickPoints : kPoints;
+    const std::size_t points = log.quick() ? kQuickFreshPoints : kFreshPoints;
     const RepresentationError fresh =
-        MeasureRepresentationError(test.scene, pipeline.mesh(), truth, points, kSeed);
+        MeasureRepresentationError(test.scene, pipeline.mesh(), truth, points, kFreshSeed);
     row.error_rms = fresh.rms;
     row.error_p95 = fresh.p95;
     row.error_p99 = fresh.p99;
@@ -62,7 +62,7 @@ void Climb(StudyLog& log, const ReferenceCase& test, const std::vector<double>& 
                   test.name, ladder.size(), met, test.points.size(), met_fresh, told, wasteful));
 }
 
-void Run(StudyLog& log) {
+void StudyErrorLadder(StudyLog& log) {
   if (log.quick()) return Climb(log, LoadReferenceCase("floating-cube"), {0.1});
   for (const char* name : {"floating-cube", "box", "cornell"})
     Climb(log, LoadReferenceCase(name), {0.05, 0.02, 0.01, 0.005});
@@ -80,6 +80,6 @@ const Study kErrorLadderStudy = {
     "and not much less than that.",
     "seconds",
     "error_p99",
-    Run};
+    StudyErrorLadder};
 
 }  // namespace penumbra

@@ -36,7 +36,7 @@ Scene Pair(double distance, bool occluded) {
   return scene;
 }
 
-void Run(StudyLog& log) {
+void StudyFormFactors(StudyLog& log) {
   const double at_least = log.quick() ? 0.001 : 0.1;
   struct Worst {
     std::string scene;
@@ -104,6 +104,6 @@ const Study kFormFactorStudy = {
     "can be an order of magnitude off (Hardt 1996, 4.2).",
     "seconds",
     "error_max",
-    Run};
+    StudyFormFactors};
 
 }  // namespace penumbra

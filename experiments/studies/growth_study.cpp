@@ -30,12 +30,12 @@ std::size_t PeakBytes() {
   return 0;
 }
 
-struct Measured {
+struct Growth {
   double patches, processor, links, bytes;
 };
 
 // One building; corrections and interpolants come after the links where `whole` asks for them.
-Measured Solve(StudyLog& log, int side, double error, bool whole) {
+Growth SolveBuilding(StudyLog& log, int side, double error, bool whole) {
   const Scene scene = *LoadBuiltinScene(fmt::format("building-{0}x{0}", side), {});
   PipelineOptions options;
   options.error = error;
@@ -50,9 +50,9 @@ Measured Solve(StudyLog& log, int side, double error, bool whole) {
   if (whole) pipeline.BuildMesh(MeshKind::kInterpolant, context);
   StudyRow row;
   row.seconds = stopwatch.Seconds();
-  const Measured measured = {static_cast<double>(scene.patches.size()), ProcessorSeconds() - begin,
-                             static_cast<double>(pipeline.report().counts.links),
-                             static_cast<double>(PeakBytes())};
+  const Growth measured = {static_cast<double>(scene.patches.size()), ProcessorSeconds() - begin,
+                           static_cast<double>(pipeline.report().counts.links),
+                           static_cast<double>(PeakBytes())};
   const PipelineReport::Counts& counts = pipeline.report().counts;
   row.scene = scene.name;
   row.method = whole ? "links, corrections, interpolants" : "links";
@@ -73,7 +73,7 @@ Measured Solve(StudyLog& log, int side, double error, bool whole) {
 void Grow(StudyLog& log, const std::vector<int>& sides, double error, bool whole) {
   std::vector<double> patches, processor, links, bytes;
   for (const int side : sides) {
-    const Measured measured = Solve(log, side, error, whole);
+    const Growth measured = SolveBuilding(log, side, error, whole);
     patches.push_back(measured.patches);
     processor.push_back(measured.processor);
     links.push_back(measured.links);
@@ -86,7 +86,7 @@ void Grow(StudyLog& log, const std::vector<int>& sides, double error, bool whole
       LogSlope(patches, links), LogSlope(patches, bytes)));
 }
 
-void Run(StudyLog& log) {
+void StudyGrowth(StudyLog& log) {
   if (log.quick()) return Grow(log, {1, 2}, 0.5, false);
   constexpr double kError = 0.05;
   Grow(log, {1, 2, 3, 5, 10}, kError, true);
@@ -103,6 +103,6 @@ const Study kGrowthStudy = {
     "below 1.5, 25 rooms take a minute and 100 rooms less than 4 GB.",
     "parameter",
     "seconds",
-    Run};
+    StudyGrowth};
 
 }  // namespace penumbra

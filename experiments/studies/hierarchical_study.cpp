@@ -24,18 +24,18 @@ struct Curve {
   std::vector<double> error, seconds, size;  // size: links, or the elements of dense systems
 };
 
-struct Method {
+struct OracleMethod {
   const char* name;
   OracleKind oracle;
   bool multigrid;
 };
-constexpr Method kMethods[] = {
+constexpr OracleMethod kOracleMethods[] = {
     {"transport", OracleKind::kTransport, false},   {"transport, multigrid", OracleKind::kTransport, true},
     {"visibility", OracleKind::kVisibility, false}, {"gradient", OracleKind::kGradient, false},
     {"thesis", OracleKind::kThesis, false},         {"thesis, multigrid", OracleKind::kThesis, true},
 };
 
-StudyRow Solve(const ReferenceCase& test, const PipelineOptions& options, int repeats) {
+StudyRow SolveLinks(const ReferenceCase& test, const PipelineOptions& options, int repeats) {
   StudyRow row;
   row.scene = test.name;
   std::unique_ptr<Pipeline> pipeline;
@@ -63,7 +63,7 @@ std::optional<double> At(const std::vector<double>& error, const std::vector<dou
   return std::nullopt;
 }
 
-Curve Run(StudyLog& log, const ReferenceCase& test, const Method& method) {
+Curve RunOracle(StudyLog& log, const ReferenceCase& test, const OracleMethod& method) {
   Curve curve;
   for (const double error :
        log.quick() ? std::vector<double>{0.2, 0.1} : std::vector<double>{0.4, 0.2, 0.1, 0.05, 0.02, 0.01}) {
@@ -73,7 +73,7 @@ Curve Run(StudyLog& log, const ReferenceCase& test, const Method& method) {
     options.max_corrections = 0;
     options.oracle = method.oracle;
     options.multigrid = method.multigrid;
-    StudyRow row = Solve(test, options, log.quick() ? 1 : 3);
+    StudyRow row = SolveLinks(test, options, log.quick() ? 1 : 3);
     row.method = method.name;
     row.setting = fmt::format("error {:g}", error);
     row.parameter = error;
@@ -92,7 +92,7 @@ Curve RunDense(StudyLog& log, const ReferenceCase& test, BasisDegree degree, con
     options.dense = DenseOptions{.degree = degree};
     options.divisions = divisions;
     options.refine = RefineBy::kTransport;
-    StudyRow row = Solve(test, options, 1);
+    StudyRow row = SolveLinks(test, options, 1);
     row.links.reset();
     row.method = name;
     row.setting = fmt::format("divisions {}", divisions);
@@ -117,18 +117,19 @@ std::string Compared(const std::string& scene, const char* method, const Curve& 
   else
     sentence +=
         fmt::format("; {:g} takes {:.0f} and {:.2g} s", kCompareAt, *size, *seconds) +
-        (others ? fmt::format(", {:.2f} times that of {}.", *seconds / *others, kMethods[0].name) : ".");
+        (others ? fmt::format(", {:.2f} times that of {}.", *seconds / *others, kOracleMethods[0].name)
+                : ".");
   return sentence;
 }
 
-void RunAll(StudyLog& log) {
+void StudyHierarchical(StudyLog& log) {
   std::vector<std::string> names = {"floating-cube", "cornell", "box_grey"};
   if (log.quick()) names.resize(1);
   for (const std::string& name : names) {
     const ReferenceCase test = LoadReferenceCase(name);
     Curve first;
-    for (const Method& method : kMethods) {
-      const Curve curve = Run(log, test, method);
+    for (const OracleMethod& method : kOracleMethods) {
+      const Curve curve = RunOracle(log, test, method);
       if (first.error.empty()) first = curve;
       if (!log.quick()) log.Find(Compared(name, method.name, curve, first));
     }
@@ -151,6 +152,6 @@ const Study kHierarchicalStudy = {
     "multigridding saves iterations.",
     "links",
     "error_rms",
-    RunAll};
+    StudyHierarchical};
 
 }  // namespace penumbra

@@ -29,8 +29,8 @@ namespace penumbra {
 namespace {
 
 constexpr std::array kOrders = {"constant", "linear", "quadratic", "cubic"};
-constexpr std::size_t kPoints = 2000, kQuickPoints = 100;
-constexpr std::uint64_t kSeed = 5;
+constexpr std::size_t kSpreadPoints = 2000, kQuickSpreadPoints = 100;
+constexpr std::uint64_t kSpreadSeed = 5;
 constexpr double kFinest = 0.02, kQuickFinest = 0.2;  // of the solution that gives the light
 
 // The nodes that triangles ask for, with those that neighbours share counted once.
@@ -55,15 +55,15 @@ std::size_t CountNodes(const IrradianceMesh& mesh, int degree) {
   }
 }
 
-class Comparison {
+class OrderComparison {
  public:
-  Comparison(StudyLog& log, const std::string& name)
+  OrderComparison(StudyLog& log, const std::string& name)
       : log_(log),
         name_(name),
         scene_(*LoadBuiltinScene(name, {})),
         light_(scene_, Options(log.quick() ? kQuickFinest : kFinest)) {
     light_.Solve({});
-    points_ = SpreadPoints(scene_, log.quick() ? kQuickPoints : kPoints, kSeed);
+    points_ = SpreadPoints(scene_, log.quick() ? kQuickSpreadPoints : kSpreadPoints, kSpreadSeed);
     truth_.resize(points_.size());
     const Stopwatch stopwatch;
     for (std::size_t i = 0; i < points_.size(); ++i) truth_[i] = Exact(points_[i].patch, At(i, Vec3::Zero()));
@@ -196,10 +196,10 @@ class Comparison {
   double seconds_ = 0;  // of one evaluation
 };
 
-void Run(StudyLog& log) {
-  if (log.quick()) return Comparison(log, "floating-cube").Run({0.2, 0.05});
+void StudyInterpolantOrder(StudyLog& log) {
+  if (log.quick()) return OrderComparison(log, "floating-cube").Run({0.2, 0.05});
   for (const char* name : {"floating-cube", "cornell", "office"})
-    Comparison(log, name).Run({0.4, 0.2, 0.1, 0.05, 0.02});
+    OrderComparison(log, name).Run({0.4, 0.2, 0.1, 0.05, 0.02});
 }
 
 }  // namespace
@@ -214,6 +214,6 @@ const Study kInterpolantOrderStudy = {
     "little, if the discontinuities are meshed (Hardt 1996, 3.2).",
     "evaluations",
     "error_rms",
-    Run};
+    StudyInterpolantOrder};
 
 }  // namespace penumbra

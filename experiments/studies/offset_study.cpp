@@ -49,7 +49,7 @@ StudyRow Measure(const Scene& scene, const Offsets& offsets, double error, std::
   return row;
 }
 
-void Run(StudyLog& log) {
+void StudyOffsets(StudyLog& log) {
   const Scene scene = *LoadBuiltinScene(log.quick() ? "floating-cube" : "cornell", {});
   const double error = log.quick() ? 0.1 : 0.05;
   const std::size_t points = log.quick() ? 200 : 4000;
@@ -90,6 +90,6 @@ const Study kOffsetStudy = {"offsets",
                             "are right at every scale.",
                             "parameter",
                             "error_p99",
-                            Run};
+                            StudyOffsets};
 
 }  // namespace penumbra

@@ -13,7 +13,7 @@
 namespace penumbra {
 namespace {
 
-constexpr int kPoints = 16;  // around the origin, so that no single arrangement counts
+constexpr int kReceivers = 16;  // around the origin, so that no single arrangement counts
 
 struct Boards {
   Scene scene;
@@ -26,7 +26,7 @@ struct Boards {
 Boards MakeBoards(int n) {
   Boards b{LightAndBoards(n), {}, {}, {}, {}};
   for (int i = 1; i <= n; ++i) b.boards.push_back(i);
-  for (int i = 0; i < kPoints; ++i)
+  for (int i = 0; i < kReceivers; ++i)
     b.points.push_back({Vec3(0.02 * i, 0.013 * i, 0), Vec3::UnitZ(), Vec3::Zero(), 0});
   const Backprojection reference;
   for (const ReceiverPoint& at : b.points) {
@@ -47,7 +47,7 @@ StudyRow Measure(const Boards& b, const std::string& method_name, const Occlusio
                                  for (const ReceiverPoint& at : b.points)
                                    VisibleFactor(b.scene, b.boards, at, method);
                                }) /
-                kPoints;
+                kReceivers;
   std::vector<double> errors;
   for (std::size_t i = 0; i < b.points.size(); ++i)
     errors.push_back(std::abs(VisibleFactor(b.scene, b.boards, b.points[i], method) - b.truth[i]) /
@@ -56,7 +56,7 @@ StudyRow Measure(const Boards& b, const std::string& method_name, const Occlusio
   return row;
 }
 
-void Run(StudyLog& log) {
+void StudyPointIrradiance(StudyLog& log) {
   const double seconds = log.quick() ? 0.01 : 0.3;
   double clipping = 0, backprojection = 0;
   for (const int n : log.quick() ? std::vector<int>{5} : std::vector<int>{1, 5, 20, 100}) {
@@ -102,6 +102,6 @@ const Study kPointIrradianceStudy = {
     "1996, chapter 6). Cutting convex shadows out of the source is as exact and faster.",
     "seconds",
     "error_max",
-    Run};
+    StudyPointIrradiance};
 
 }  // namespace penumbra

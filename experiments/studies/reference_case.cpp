@@ -9,8 +9,6 @@
 namespace penumbra {
 namespace {
 
-// The floor below which an error is no longer relative to the point's own irradiance: of the channel's mean.
-constexpr double kDark = 0.01;
 // A reference is taken for what it is within this many of its standard errors.
 constexpr double kNoise = 2;
 // Points lie on a patch within this share of the scene's diagonal, and normals within this cosine (1 degree).

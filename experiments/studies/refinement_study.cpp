@@ -12,13 +12,13 @@
 namespace penumbra {
 namespace {
 
-struct Method {
+struct Refined {
   const char* name;
   RefineBy refine;
 };
-constexpr Method kMethods[] = {{"transport", RefineBy::kTransport},
-                               {"representation", RefineBy::kRepresentation},
-                               {"both", RefineBy::kBoth}};
+constexpr Refined kRefined[] = {{"transport", RefineBy::kTransport},
+                                {"representation", RefineBy::kRepresentation},
+                                {"both", RefineBy::kBoth}};
 
 // Of the rows whose 99th percentile is at most `wanted`, the one with the fewest seconds.
 const StudyRow* Cheapest(const std::vector<StudyRow>& rows, const std::string& scene, const char* method,
@@ -33,7 +33,7 @@ const StudyRow* Cheapest(const std::vector<StudyRow>& rows, const std::string& s
 
 void Conclude(StudyLog& log, const std::string& scene) {
   for (const double wanted : {0.05, 0.02, 0.01})
-    for (const Method& method : kMethods) {
+    for (const Refined& method : kRefined) {
       const StudyRow* row = Cheapest(log.rows(), scene, method.name, wanted);
       log.Find(row ? fmt::format("{}: {} reaches {:g} with {} ({:.2g} s, {} triangles, {} evaluations).",
                                  scene, method.name, wanted, row->setting, row->seconds, *row->triangles,
@@ -42,12 +42,12 @@ void Conclude(StudyLog& log, const std::string& scene) {
     }
 }
 
-void Run(StudyLog& log) {
+void StudyRefinement(StudyLog& log) {
   std::vector<std::string> names = {"floating-cube", "cornell", "box_grey", "office"};
   if (log.quick()) names.resize(1);
   for (const std::string& name : names) {
     const ReferenceCase test = LoadReferenceCase(name);
-    for (const Method& method : kMethods)
+    for (const Refined& method : kRefined)
       for (const double error :
            log.quick() ? std::vector<double>{0.1} : std::vector<double>{0.1, 0.05, 0.02, 0.01, 0.005}) {
         if (name == "office" && error < 0.02) continue;
@@ -75,6 +75,6 @@ const Study kRefinementStudy = {
     "practical (Hardt 1996, 4.4.2).",
     "seconds",
     "error_p99",
-    Run};
+    StudyRefinement};
 
 }  // namespace penumbra

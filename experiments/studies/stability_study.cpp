@@ -224,7 +224,7 @@ void StudyScales(StudyLog& log) {
       worst_scaled, worst_shifted));
 }
 
-void Run(StudyLog& log) {
+void StudyStability(StudyLog& log) {
   StudyFormulas(log);
   StudyScales(log);
 }
@@ -240,6 +240,6 @@ const Study kStabilityStudy = {"stability",
                                "of them.",
                                "parameter",
                                "error_max",
-                               Run};
+                               StudyStability};
 
 }  // namespace penumbra

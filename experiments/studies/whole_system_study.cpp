@@ -66,7 +66,7 @@ void AddPeers(StudyLog& log) {
   }
 }
 
-void Run(StudyLog& log) {
+void StudyWholeSystem(StudyLog& log) {
   if (!log.quick()) AddPeers(log);
   std::vector<std::string> names = {"floating-cube", "cornell", "office", "building-1x1", "box", "box_grey"};
   if (log.quick()) names.resize(1);
@@ -108,6 +108,6 @@ const Study kWholeSystemStudy = {
     "faster than other programs reach it.",
     "seconds",
     "error_p95",
-    Run};
+    StudyWholeSystem};
 
 }  // namespace penumbra
