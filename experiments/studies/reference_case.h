@@ -17,7 +17,7 @@
 namespace penumbra {
 
 // The floor below which an error is no longer relative to a place's own light: of the channel's mean.
-constexpr double kDark = 0.01;
+inline constexpr double kDark = 0.01;
 
 struct ReferenceCase {
   std::string name;

@@ -197,14 +197,14 @@ void PatchBuilder::RankOutlines() {
 
 // Sweeps along x for outlines whose boxes meet.
 void PatchBuilder::FindOverlaps() {
-  struct Box {
+  struct OutlineBox {
     Vec3 low, high;
     std::int32_t outline;
   };
-  std::vector<Box> boxes;
+  std::vector<OutlineBox> boxes;
   for (std::int32_t i = 0; i < Size(outlines_); ++i) {
     const Outline& outline = outlines_[i];
-    Box box{outline.vertices[0], outline.vertices[0], i};
+    OutlineBox box{outline.vertices[0], outline.vertices[0], i};
     for (const Vec3& p : outline.vertices) {
       box.low = box.low.cwiseMin(p);
       box.high = box.high.cwiseMax(p);
@@ -214,10 +214,10 @@ void PatchBuilder::FindOverlaps() {
     boxes.push_back(box);
   }
   std::stable_sort(boxes.begin(), boxes.end(),
-                   [](const Box& a, const Box& b) { return a.low.x() < b.low.x(); });
+                   [](const OutlineBox& a, const OutlineBox& b) { return a.low.x() < b.low.x(); });
   for (std::size_t i = 0; i < boxes.size(); ++i)
     for (std::size_t j = i + 1; j < boxes.size() && boxes[j].low.x() <= boxes[i].high.x(); ++j) {
-      const Box &p = boxes[i], &q = boxes[j];
+      const OutlineBox &p = boxes[i], &q = boxes[j];
       if (p.low.y() > q.high.y() || q.low.y() > p.high.y()) continue;
       if (p.low.z() > q.high.z() || q.low.z() > p.high.z()) continue;
       const bool p_wins = rank_[p.outline] < rank_[q.outline];

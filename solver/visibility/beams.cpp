@@ -12,10 +12,9 @@
 namespace penumbra {
 namespace {
 
-// Of the largest coordinate. Polygons that lie within kCoplanar of a plane lie in it: what rounding of
-// vertices and normals can make of zero. Openings narrower than kCrack are closed: that is how far the place
-// where a segment crosses a wall may be off, for segments that rise from it by more than one in kMostSlope.
-constexpr double kCoplanar = 1e-12, kMostSlope = 64, kCrack = 4 * kMostSlope * kCoplanar;
+// Openings narrower than kCrack of the largest coordinate are closed: that is how far the place where a
+// segment crosses a wall may be off, for segments that rise from it by more than one in kMostSlope.
+constexpr double kMostSlope = 64, kCrack = 4 * kMostSlope * kCoplanar;
 
 // A wall that leaves more than this share of what reaches it is not worth its beams: they overlap.
 constexpr double kMostOpen = 0.6;
@@ -31,9 +30,6 @@ constexpr double kNearlyConvex = 1.01;
 
 // Walls that are looked at before the beams at hand are taken as they are.
 constexpr int kMostSections = 48;
-
-// Two edges whose cross product is this small beside their lengths span no plane.
-constexpr double kParallel = 1e-12;
 
 double Height(const Vec3& normal, const Vec3& on, const Vec3& p) { return normal.dot(p - on); }
 

@@ -19,10 +19,10 @@ constexpr std::size_t kMostEdges = kMostSides + kMostCorners - 2;
 constexpr std::size_t kMostSegments = 2 * kMostEdges + kMostSides;
 
 // The heights of corners above the plane that the solid is seen before; zero for those in it.
-struct Heights {
+struct CornerHeights {
   std::array<double, kMostCorners> of_corner;
 
-  Heights(const ConvexSolid& solid, const Patch* before) {
+  CornerHeights(const ConvexSolid& solid, const Patch* before) {
     of_corner.fill(1);
     if (!before) return;
     const double rounding = HeightRounding(std::max(solid.extent, before->extent));
@@ -55,7 +55,7 @@ bool FindFronts(const ReceiverPoint& at, const ConvexSolid& solid, std::array<bo
 // The borders of the fronts before the plane; where two of them meet there is none.
 class Outline {
  public:
-  Outline(const ConvexSolid& solid, const Heights& height) : solid_(solid), height_(height) {}
+  Outline(const ConvexSolid& solid, const CornerHeights& height) : solid_(solid), height_(height) {}
 
   void AddSide(const ConvexSolid::Side& side) {
     std::array<Place, 2 * kMostCorners> places;
@@ -117,7 +117,7 @@ class Outline {
   }
 
   const ConvexSolid& solid_;
-  const Heights& height_;
+  const CornerHeights& height_;
   std::array<Segment, kMostSegments> segments_;
   std::array<Vec3, kMostEdges> crossing_;
   std::size_t count_ = 0;
@@ -126,7 +126,7 @@ class Outline {
 }  // namespace
 
 SolidOutline SeenOutline(const ReceiverPoint& at, const ConvexSolid& solid, const Patch* before) {
-  const Heights height(solid, before);
+  const CornerHeights height(solid, before);
   std::array<bool, kMostSides> front;
   SolidOutline seen;
   if (!FindFronts(at, solid, front, seen.entered)) return seen;

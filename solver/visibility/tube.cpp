@@ -5,14 +5,6 @@
 #include "solver/visibility/direction_polygon.h"
 
 namespace penumbra {
-namespace {
-
-// Two edges whose cross product is this small beside their lengths are parallel but for rounding: they span
-// no plane.
-constexpr double kParallel = 1e-12;
-
-}  // namespace
-
 Tube::Tube(std::span<const Vec3> a, std::span<const Vec3> b) : a_(a), b_(b), low_(a[0]), high_(a[0]) {
   for (const std::span<const Vec3> polygon : {a, b})
     for (const Vec3& v : polygon) {

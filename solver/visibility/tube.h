@@ -13,6 +13,14 @@
 
 namespace penumbra {
 
+// Of a height above a plane, relative to the coordinates: what rounding of vertices and normal can make of
+// zero. Polygons that see each other only by less than this lie in one plane.
+inline constexpr double kCoplanar = 1e-12;
+
+// Two edges whose cross product is this small beside their lengths are parallel but for rounding: they span
+// no plane.
+inline constexpr double kParallel = 1e-12;
+
 class Tube {
  public:
   // REQUIRES: a and b are convex and planar, and each lies on or before the other's plane.

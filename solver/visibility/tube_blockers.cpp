@@ -8,10 +8,6 @@
 namespace penumbra {
 namespace {
 
-// Of a height above a plane, relative to the coordinates: what rounding of vertices and normal can make of
-// zero. Polygons that see each other only by less than this lie in one plane.
-constexpr double kCoplanar = 1e-12;
-
 // One blocker hides all or is no wall.
 constexpr std::size_t kFewestOfWalls = 2;
 

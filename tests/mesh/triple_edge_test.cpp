@@ -18,7 +18,7 @@ using mesh_test::AddSquare;
 using mesh_test::EmptyScene;
 using mesh_test::Tilt;
 
-constexpr PatchId kReceiver = 0, kLight = 1;
+constexpr PatchId kReceiver = 0, kSource = 1;
 
 // A turned light over a floor, and two triangles between them, no edge of anything in a plane with another's.
 Scene TwoTriangles() {
@@ -32,7 +32,7 @@ Scene TwoTriangles() {
 
 std::vector<Discontinuity> Find(const Scene& scene, double tolerance, bool keep_hidden = false) {
   std::vector<double> strength(scene.patches.size(), 0.0);
-  strength[kLight] = 1;
+  strength[kSource] = 1;
   DiscontinuityOptions options;
   options.triple_edge_tolerance = tolerance;
   options.keep_hidden = keep_hidden;
@@ -72,7 +72,7 @@ TEST(TripleEdges, RuledLinesTouchAllThreeEdges) {
     double worst = 0;
     for (const Discontinuity& d : found) {
       EXPECT_EQ(d.degree, DiscontinuityDegree::kD2);
-      EXPECT_EQ(d.source, kLight);
+      EXPECT_EQ(d.source, kSource);
       EXPECT_NE(d.blocker, d.second_blocker_edge.patch);
       EXPECT_GT(d.geometric_weight, 0);
       EXPECT_LT(d.geometric_weight, 1);
@@ -82,7 +82,7 @@ TEST(TripleEdges, RuledLinesTouchAllThreeEdges) {
         const Vec3 x = frame.FromPlane(end);
         const Vec3 direction =
             (first.a - x).cross(first.b - x).cross((second.a - x).cross(second.b - x)).normalized();
-        for (const Edge& edge : {first, second, EdgeOf(scene, kLight, d.source_part)}) {
+        for (const Edge& edge : {first, second, EdgeOf(scene, kSource, d.source_part)}) {
           const Nearness nearness = ToEdge(x, direction, edge);
           worst = std::max(worst, nearness.distance);
           EXPECT_LE(nearness.distance, 1e-12);
@@ -113,7 +113,7 @@ TEST(TripleEdges, PolylinesLieWithinTheTolerance) {
       for (std::int32_t i = 0; i < 3; ++i)
         for (std::int32_t j = 0; j < 3; ++j)
           for (int step = 0; step < 400; ++step) {
-            const Edge light = EdgeOf(scene, kLight, k), first = EdgeOf(scene, 2, i),
+            const Edge light = EdgeOf(scene, kSource, k), first = EdgeOf(scene, 2, i),
                        second = EdgeOf(scene, 3, j);
             const Vec3 p = light.a + (step + 0.5) / 400 * (light.b - light.a);
             const Vec3 direction =
