@@ -33,12 +33,15 @@ if(PENUMBRA_SANITIZE)
   endif()
 endif()
 
-# Where several files are compiled as one, all of them are as headers to the compiler: it would warn of classes there
-# whose members have types of an anonymous namespace.
 add_library(penumbra_warnings INTERFACE)
 target_compile_options(penumbra_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
-  -Woverloaded-virtual -Wold-style-cast $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-subobject-linkage> $<$<BOOL:${PENUMBRA_WERROR}>:-Werror>)
+  -Woverloaded-virtual -Wold-style-cast $<$<BOOL:${PENUMBRA_WERROR}>:-Werror>)
+if(CMAKE_UNITY_BUILD)
+  # Files that are compiled as one are headers to the compiler, which warns of classes there whose members have types of
+  # an anonymous namespace.
+  target_compile_options(penumbra_warnings INTERFACE -Wno-subobject-linkage)
+endif()
 
 # penumbra_library(NAME [LIBS...]): the static library penumbra_NAME from this folder's sources.
 function(penumbra_library name)

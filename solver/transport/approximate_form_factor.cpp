@@ -69,13 +69,13 @@ bool Free(const Scene& scene, std::span<const PatchId> blockers, const Vec3& fro
   });
 }
 
-struct Quarter {
+struct PlacedArea {
   Vec3 centre;
   double area;
 };
 
-double Disk(const Scene& scene, std::span<const PatchId> blockers, const Quarter& from,
-            const Vec3& from_normal, const Quarter& to, const Vec3& to_normal) {
+double Disk(const Scene& scene, std::span<const PatchId> blockers, const PlacedArea& from,
+            const Vec3& from_normal, const PlacedArea& to, const Vec3& to_normal) {
   const Vec3 way = to.centre - from.centre;
   const double square = way.squaredNorm();
   const double cosines = std::max(0.0, from_normal.dot(way)) * std::max(0.0, -to_normal.dot(way));
@@ -84,9 +84,9 @@ double Disk(const Scene& scene, std::span<const PatchId> blockers, const Quarter
 }
 
 // Four parts of a convex polygon: about its centroid, from the middle of one edge to that of another.
-std::vector<Quarter> Quarters(const Polygon3& polygon, const Vec3& normal) {
+std::vector<PlacedArea> Quarters(const Polygon3& polygon, const Vec3& normal) {
   const Vec3 centre = Centroid(polygon), across = polygon[1] - polygon[0], along = normal.cross(across);
-  std::vector<Quarter> pieces;
+  std::vector<PlacedArea> pieces;
   for (const double a : {-1.0, 1.0})
     for (const double b : {-1.0, 1.0}) {
       const Polygon3 half = ClipToHalfSpace(polygon, a * across, centre);
@@ -130,9 +130,9 @@ FormFactorEstimate DiskFormFactor(const Scene& scene, std::span<const AreaPart> 
     Pair pair;
     pair.coarse = Disk(scene, *blockers, {Centroid(sender.polygon), Area(sender)}, n,
                        {Centroid(target.polygon), Area(target)}, m);
-    const std::vector<Quarter> targets = Quarters(target.polygon, m);
-    for (const Quarter& a : Quarters(sender.polygon, n))
-      for (const Quarter& b : targets)
+    const std::vector<PlacedArea> targets = Quarters(target.polygon, m);
+    for (const PlacedArea& a : Quarters(sender.polygon, n))
+      for (const PlacedArea& b : targets)
         pair.fine += a.area / Area(sender) * Disk(scene, *blockers, a, n, b, m);
     return pair;
   };
