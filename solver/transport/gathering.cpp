@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "solver/base/kept.h"
 #include "solver/visibility/form_factor.h"
 #include "solver/visibility/form_factor_batch.h"
 
@@ -42,6 +43,12 @@ struct Listed {
 Listed& ThreadListed() {
   thread_local Listed listed;
   return listed;
+}
+
+// Where the corners of the source at hand are in the image at hand.
+Kept<Vec2>& ThreadCornerImages() {
+  thread_local Kept<Vec2> images;
+  return images;
 }
 
 }  // namespace
@@ -87,10 +94,11 @@ bool Gathering::HiddenBy(std::span<const Screen> screens, const DirectionPolygon
   const Vec3 axis = ImageAxis(seen);
   if (axis.isZero(0)) return false;
   const ImageFrame frame(seen, axis);
-  const Clipper::Candidates all = clipper_.Begin(frame, seen, occluders_);
+  const ImagePolygon image = frame.Image(seen);
+  const Clipper::Candidates all = clipper_.Begin(frame, image, occluders_);
   Clipper::Candidates own;
-  const Overlap overlap = clipper_.Narrow(seen, all, &own);
-  if (overlap == Overlap::kPart) clipper_.CutOut(seen, own, 0);
+  const Overlap overlap = clipper_.Narrow(image, all, &own);
+  if (overlap == Overlap::kPart) clipper_.CutOut(image, own, 0);
   return overlap == Overlap::kAll || (overlap == Overlap::kPart && clipper_.Visible().Pieces() == 0);
 }
 
@@ -153,34 +161,49 @@ void Gathering::GatherShadowed(Tree tree, std::size_t i) {
   }
   const ImageFrame frame(seen, axis);
   const double factor_before = factor_;
-  const Clipper::Candidates all = clipper_.Begin(frame, seen, occluders_);
-  GatherNode(tree, i, seen, all);
+  const Clipper::Candidates all = clipper_.Begin(frame, frame.Image(seen), occluders_);
+  ThreadCornerImages().Begin(sources_.Corners().size());
+  GatherNode(tree, i, frame, all);
   AddVisiblePieces(frame, factor_before);
 }
 
+// What the image shows of a node.
+ImagePolygon Gathering::ImageOf(const Node& node, const ImageFrame& frame) const {
+  if (!view_.SourceIsPlain()) return frame.Image(view_.SeeSource(Vertices(node)));
+  Kept<Vec2>& images = ThreadCornerImages();
+  ImagePolygon polygon;
+  for (int k = node.size; k-- > 0;) {  // counter-clockwise about a normal that points to the point
+    const std::int32_t corner = node.corner[static_cast<std::size_t>(k)];
+    const auto [image, is_new] = images[corner];
+    if (is_new) image = frame.Image(sources_.Corners()[static_cast<std::size_t>(corner)] - view_.SourceEye());
+    polygon.Add(image.x(), image.y());
+  }
+  return polygon;
+}
+
 // The same in the image at hand, past the candidates.
-void Gathering::GatherNode(Tree tree, std::size_t i, const DirectionPolygon& seen,
+void Gathering::GatherNode(Tree tree, std::size_t i, const ImageFrame& frame,
                            const Clipper::Candidates& candidates) {
   const Node& node = tree[i];
   const auto skip = static_cast<std::size_t>(node.skip);
+  const ImagePolygon image = ImageOf(node, frame);
+  if (image.size == 0) return;
   Clipper::Candidates own;
-  const Overlap overlap = clipper_.Narrow(seen, candidates, &own);
+  const Overlap overlap = clipper_.Narrow(image, candidates, &own);
   if (overlap == Overlap::kNone) {
     GatherVisible(tree.subspan(i, skip));
   } else if (overlap == Overlap::kPart && skip > 1 && tolerance_ > 0 && IsOne(node, false)) {
-    clipper_.CutOut(seen, own, -1 - static_cast<std::int32_t>(sources_.IndexOf(node)));
+    clipper_.CutOut(image, own, -1 - static_cast<std::int32_t>(sources_.IndexOf(node)));
   } else if (overlap == Overlap::kPart && skip == 1) {
-    if (!method_ || parts_) clipper_.CutOut(seen, own, node.first_leaf);
+    if (!method_ || parts_) clipper_.CutOut(image, own, node.first_leaf);
     if (method_) {
       thread_local std::vector<Occluder> listed;
       clipper_.List(own, listed);
-      Add(node.first_leaf, method_->VisibleFormFactor(seen, listed, at_.normal));
+      Add(node.first_leaf, method_->VisibleFormFactor(view_.SeeSource(Vertices(node)), listed, at_.normal));
     }
   } else if (overlap == Overlap::kPart) {
-    for (std::size_t child = i + 1; child < i + skip; child += static_cast<std::size_t>(tree[child].skip)) {
-      const DirectionPolygon child_seen = view_.SeeSource(Vertices(tree[child]));
-      if (!child_seen.empty()) GatherNode(tree, child, child_seen, own);
-    }
+    for (std::size_t child = i + 1; child < i + skip; child += static_cast<std::size_t>(tree[child].skip))
+      GatherNode(tree, child, frame, own);
   }
   clipper_.Restore(candidates);
 }
@@ -300,10 +323,11 @@ void Gathering::GatherUnfit(const Node& leaf, const DirectionPolygon& seen) {
   for (const ImagePart& part : parts) {
     const ImageFrame frame(part.polygon, part.axis);
     const double factor_before = factor_;
-    const Clipper::Candidates all = clipper_.Begin(frame, part.polygon, occluders_);
+    const ImagePolygon image = frame.Image(part.polygon);
+    const Clipper::Candidates all = clipper_.Begin(frame, image, occluders_);
     Clipper::Candidates own;
-    if (clipper_.Narrow(part.polygon, all, &own) == Overlap::kAll) continue;
-    clipper_.CutOut(part.polygon, own, leaf.first_leaf, {part.label.data(), part.label.size()});
+    if (clipper_.Narrow(image, all, &own) == Overlap::kAll) continue;
+    clipper_.CutOut(image, own, leaf.first_leaf, {part.label.data(), part.label.size()});
     AddVisiblePieces(frame, factor_before);
   }
 }

@@ -79,8 +79,8 @@ class Gathering {
   bool HiddenBy(std::span<const Screen> screens, const DirectionPolygon& seen);
   void Gather(PatchId source, const DirectionPolygon& seen, std::span<const PatchId> candidates, PatchId own);
   void GatherShadowed(Tree tree, std::size_t i);
-  void GatherNode(Tree tree, std::size_t i, const DirectionPolygon& seen,
-                  const Clipper::Candidates& candidates);
+  ImagePolygon ImageOf(const SourceSet::Node& node, const ImageFrame& frame) const;
+  void GatherNode(Tree tree, std::size_t i, const ImageFrame& frame, const Clipper::Candidates& candidates);
   void GatherVisible(Tree nodes);
   void GatherAsOne(Tree nodes);
   double Outshone(const Rgb& light) const;

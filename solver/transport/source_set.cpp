@@ -134,6 +134,7 @@ SourceSet SourceSet::FromSolution(const RadiositySolution& solution, std::span<c
   }
   set.first_.push_back(set.nodes_.size());
   set.NumberLeaves();
+  set.NumberCorners();
   set.MeasurePolygons();
   set.MeasureSubtrees();
   return set;
@@ -149,6 +150,7 @@ SourceSet SourceSet::Emitters(const Scene& scene) {
   }
   set.first_.push_back(set.nodes_.size());
   set.NumberLeaves();
+  set.NumberCorners();
   set.MeasurePolygons();
   set.MeasureSubtrees();
   return set;
@@ -167,6 +169,30 @@ void SourceSet::NumberLeaves() {
   }
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     nodes_[i].leaf_count = before[i + static_cast<std::size_t>(nodes_[i].skip)] - before[i];
+}
+
+// Nodes share corners to the bit, parents with children and neighbours with each other.
+void SourceSet::NumberCorners() {
+  struct Corner {
+    const Vec3* place;
+    std::int32_t* number;
+  };
+  const auto before = [](const Corner& a, const Corner& b) {
+    return std::lexicographical_compare(a.place->data(), a.place->data() + 3, b.place->data(),
+                                        b.place->data() + 3);
+  };
+  std::vector<Corner> corners;
+  for (std::size_t p = 0; p + 1 < first_.size(); ++p) {
+    corners.clear();
+    for (std::size_t i = first_[p]; i < first_[p + 1]; ++i)
+      for (std::size_t k = 0; k < static_cast<std::size_t>(nodes_[i].size); ++k)
+        corners.push_back({&nodes_[i].vertex[k], &nodes_[i].corner[k]});
+    std::sort(corners.begin(), corners.end(), before);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (i == 0 || before(corners[i - 1], corners[i])) corners_.push_back(*corners[i].place);
+      *corners[i].number = static_cast<std::int32_t>(corners_.size() - 1);
+    }
+  }
 }
 
 // Where the nodes' polygons are, and how large.

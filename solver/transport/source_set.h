@@ -25,20 +25,22 @@ class SourceSet {
   // A node of a source's quadtree, in depth-first order. Subtrees of one radiosity are a single leaf: the
   // polygon's integral is exact whatever its size.
   struct Node {
-    std::array<Vec3, 4> vertex;                   // [m]
+    // What a walk asks every node for comes first: it shares cache lines.
     std::int32_t size = 0;                        // corners: 3 or 4
     std::int32_t skip = 1;                        // nodes in this subtree, this one counted: a leaf has 1
     std::int32_t first_leaf = 0, leaf_count = 1;  // the subtree's leaves, among all of the set
-    Rgb radiosity = Rgb::Zero();                  // [W/m^2]; of a subtree, the mean by area
+    std::array<std::int32_t, 4> corner = {};      // the places of its vertices, among all of the set
     std::int32_t fragment = -1;                   // that the node is a part of; -1: of none
     // Of a subtree: how far its leaves' radiosities are from their mean, relative to that or, where it is
     // darker, to the reflected light around; root mean square, the worst channel [1].
     double spread = 0;
-    double residual = 0;         // the same, but from the plane that fits them best
-    Vec3 centre = Vec3::Zero();  // of the polygon [m]
-    double radius = 0;           // about it [m]
-    double area = 0;             // [m^2]
+    double residual = 0;          // the same, but from the plane that fits them best
+    Vec3 centre = Vec3::Zero();   // of the polygon [m]
+    double radius = 0;            // about it [m]
+    double area = 0;              // [m^2]
+    Rgb radiosity = Rgb::Zero();  // [W/m^2]; of a subtree, the mean by area
 
+    std::array<Vec3, 4> vertex;  // [m]
     // One row a channel: its leaves' radiosities less their mean, times areas and places, summed [W m].
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
     // One row a channel: how that plane rises along the polygon [W/m^3].
@@ -60,6 +62,9 @@ class SourceSet {
     return {nodes_.data() + first_[patch], nodes_.data() + first_[patch + 1]};
   }
 
+  // The places that the corners of nodes have, each once a patch [m].
+  std::span<const Vec3> Corners() const { return corners_; }
+
   // All leaves, tree after tree: their polygons and radiosities.
   const PolygonBatch& LeafPolygons() const { return leaf_polygons_; }
   std::span<const Rgb> LeafRadiosities() const { return leaf_radiosity_; }
@@ -78,12 +83,14 @@ class SourceSet {
 
  private:
   void NumberLeaves();
+  void NumberCorners();
   void MeasurePolygons();
   Rgb MeanReflected() const;
   void MeasureSubtrees();
 
   std::vector<std::size_t> first_;  // per patch, into nodes_
   std::vector<Node> nodes_;
+  std::vector<Vec3> corners_;
   PolygonBatch leaf_polygons_;
   std::vector<Rgb> leaf_radiosity_;
   std::vector<std::int32_t> leaf_node_;  // into nodes_

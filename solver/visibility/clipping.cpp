@@ -42,31 +42,25 @@ using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
   std::memcpy(lanes, from, sizeof *lanes);
 }
 
-// A convex polygon of the image, counter-clockwise.
-struct Piece {
-  static constexpr int kCapacity = 36;
-
-  int size = 0;
-  std::array<double, kCapacity> x, y;
+// A part of a source in the image.
+struct Piece : ImagePolygon {
   std::array<std::int32_t, kCapacity> label;  // of the edge from vertex i to the next
 
-  Piece() {}  // NOLINT: the arrays stay as they are
-  Piece(const Piece& other) { *this = other; }
+  Piece() {}  // NOLINT: the array stays as it is
+  Piece(const Piece& other) : ImagePolygon() { *this = other; }
   Piece& operator=(const Piece& other) {
-    size = other.size;
-    for (int i = 0; i < size; ++i) {
-      x[i] = other.x[i];
-      y[i] = other.y[i];
-      label[i] = other.label[i];
-    }
+    ImagePolygon::operator=(other);
+    std::copy_n(other.label.begin(), size, label.begin());
     return *this;
+  }
+  // With these labels; from 0 if none are given.
+  Piece(const ImagePolygon& polygon, std::span<const std::int32_t> labels) : ImagePolygon(polygon) {
+    for (int i = 0; i < size; ++i) label[i] = labels.empty() ? i : labels[i];
   }
 
   void Add(double px, double py, std::int32_t label_to_next) {
-    x[size] = px;
-    y[size] = py;
     label[size] = label_to_next;
-    ++size;
+    ImagePolygon::Add(px, py);
   }
 };
 
@@ -74,7 +68,7 @@ struct Bounds {
   double low_x, high_x, low_y, high_y;
 };
 
-Bounds BoundsOf(const Piece& piece) {
+Bounds BoundsOf(const ImagePolygon& piece) {
   Bounds b{piece.x[0], piece.x[0], piece.y[0], piece.y[0]};
   for (int i = 1; i < piece.size; ++i) {
     b.low_x = std::min(b.low_x, piece.x[i]);
@@ -163,17 +157,15 @@ struct Clipper::Impl {
   std::size_t depth = 0;  // of the stack; what lies above keeps its memory
   Piece inside, outside;
   ImageEdges visible;
-  const ImageFrame* frame = nullptr;
   std::span<const Occluder> occluders;
   std::int32_t owner = 0;  // of the pieces that are found
   double snap = 0, dust = 0;
 
-  bool Beside(const ImageCone& cone, const Piece& piece) const;
-  Overlap Classify(Candidate& candidate, const Piece& piece, const Bounds& bounds) const;
+  bool Beside(const ImageCone& cone, const ImagePolygon& piece) const;
+  Overlap Classify(Candidate& candidate, const ImagePolygon& piece, const Bounds& bounds) const;
   void Split(const Piece& piece, const ImageLine& line, std::int32_t label);
-  Overlap Narrow(const Piece& piece, std::size_t first, std::size_t last);
+  Overlap Narrow(const ImagePolygon& piece, std::size_t first, std::size_t last);
   void Sort(const Piece& piece, std::size_t first, std::size_t last, int halvings);
-  Piece Image(const DirectionPolygon& polygon, std::span<const std::int32_t> label) const;
   void Halve(const Work& work, int halvings);
   void CutOut(Work& work);
   void Run();
@@ -183,7 +175,8 @@ Clipper::Clipper() : impl_(std::make_unique<Impl>()) {}
 Clipper::~Clipper() = default;
 
 // Whether some edge of the piece has the whole cone on its outer side.
-[[gnu::always_inline]] inline bool Clipper::Impl::Beside(const ImageCone& cone, const Piece& piece) const {
+[[gnu::always_inline]] inline bool Clipper::Impl::Beside(const ImageCone& cone,
+                                                         const ImagePolygon& piece) const {
   for (int i = 0; i < piece.size; ++i) {
     const int j = i + 1 == piece.size ? 0 : i + 1;
     const double dx = piece.x[j] - piece.x[i], dy = piece.y[j] - piece.y[i];
@@ -205,7 +198,7 @@ Clipper::~Clipper() = default;
 }
 
 // How the candidate covers the piece; for kPart its lines are those that cut the piece.
-[[gnu::always_inline]] inline Overlap Clipper::Impl::Classify(Candidate& candidate, const Piece& piece,
+[[gnu::always_inline]] inline Overlap Clipper::Impl::Classify(Candidate& candidate, const ImagePolygon& piece,
                                                               const Bounds& bounds) const {
   const ImageCone& cone = cones[candidate.cone];
   if (cone.bounds.low_x >= bounds.high_x - snap || cone.bounds.high_x <= bounds.low_x + snap ||
@@ -266,7 +259,7 @@ void Clipper::Impl::Split(const Piece& piece, const ImageLine& line, std::int32_
 
 // How the candidates [first, last) cover the piece; those that cover a part are pushed.
 PENUMBRA_VECTOR_CLONES
-Overlap Clipper::Impl::Narrow(const Piece& piece, std::size_t first, std::size_t last) {
+Overlap Clipper::Impl::Narrow(const ImagePolygon& piece, std::size_t first, std::size_t last) {
   const Bounds bounds = BoundsOf(piece);
   if (piece.size < 3 || (bounds.high_x - bounds.low_x <= dust && bounds.high_y - bounds.low_y <= dust))
     return Overlap::kAll;
@@ -352,23 +345,12 @@ void Clipper::Impl::Run() {
   }
 }
 
-Piece Clipper::Impl::Image(const DirectionPolygon& polygon, std::span<const std::int32_t> label) const {
-  Piece piece;
-  for (int i = 0; i < polygon.size(); ++i) {
-    const Vec2 p = frame->Image(polygon[i]);
-    piece.Add(p.x(), p.y(), label.empty() ? i : label[i]);
-  }
-  return piece;
-}
-
-Clipper::Candidates Clipper::Begin(const ImageFrame& frame, const DirectionPolygon& whole,
+Clipper::Candidates Clipper::Begin(const ImageFrame& frame, const ImagePolygon& whole,
                                    std::span<const Occluder> occluders) {
   Impl& impl = *impl_;
-  impl.frame = &frame;
   impl.occluders = occluders;
-  const Piece image = impl.Image(whole, {});
   double reach = 0;
-  for (int i = 0; i < image.size; ++i) reach = std::max({reach, std::abs(image.x[i]), std::abs(image.y[i])});
+  for (int i = 0; i < whole.size; ++i) reach = std::max({reach, std::abs(whole.x[i]), std::abs(whole.y[i])});
   impl.snap = kSnap * reach;
   impl.dust = kDust * reach;
   impl.visible.Clear();
@@ -384,27 +366,27 @@ Clipper::Candidates Clipper::Begin(const ImageFrame& frame, const DirectionPolyg
   return {0, occluders.size()};
 }
 
-Overlap Clipper::Narrow(const DirectionPolygon& polygon, const Candidates& candidates, Candidates* own) {
+Overlap Clipper::Narrow(const ImagePolygon& polygon, const Candidates& candidates, Candidates* own) {
   own->first = impl_->candidates.size();
-  const Overlap overlap = impl_->Narrow(impl_->Image(polygon, {}), candidates.first, candidates.last);
+  const Overlap overlap = impl_->Narrow(polygon, candidates.first, candidates.last);
   own->last = impl_->candidates.size();
   return overlap;
 }
 
 void Clipper::Restore(const Candidates& candidates) { impl_->candidates.resize(candidates.last); }
 
-void Clipper::CutOut(const DirectionPolygon& polygon, const Candidates& candidates, std::int32_t owner,
+void Clipper::CutOut(const ImagePolygon& polygon, const Candidates& candidates, std::int32_t owner,
                      std::span<const std::int32_t> label) {
   Impl& impl = *impl_;
   impl.owner = owner;
   if (candidates.empty()) {
-    const Piece piece = impl.Image(polygon, label);
+    const Piece piece(polygon, label);
     impl.visible.AddPiece(piece.x.data(), piece.y.data(), piece.label.data(), piece.size, owner);
     return;
   }
   impl.stack.resize(std::max<std::size_t>(impl.stack.size(), 1));
   Work& work = impl.stack[0];
-  work.piece = impl.Image(polygon, label);
+  work.piece = Piece(polygon, label);
   work.first = candidates.first;
   work.last = candidates.last;
   // As many halvings as leave some candidates a piece, were they spread evenly.
@@ -432,10 +414,11 @@ void ForEachImage(Clipper& clipper, const DirectionPolygon& source, std::span<co
   SplitForImages(source, normal, parts);
   for (const ImagePart& part : parts) {
     const ImageFrame frame(part.polygon, part.axis);
-    const Clipper::Candidates all = clipper.Begin(frame, part.polygon, occluders);
+    const ImagePolygon image = frame.Image(part.polygon);
+    const Clipper::Candidates all = clipper.Begin(frame, image, occluders);
     Clipper::Candidates own;
-    if (clipper.Narrow(part.polygon, all, &own) == Overlap::kAll) continue;
-    clipper.CutOut(part.polygon, own, 0, part.label);
+    if (clipper.Narrow(image, all, &own) == Overlap::kAll) continue;
+    clipper.CutOut(image, own, 0, part.label);
     use(frame);
   }
 }
@@ -487,11 +470,12 @@ void VisibleFormFactors(const DirectionPolygon& whole, std::span<const Direction
   std::fill(factors.begin(), factors.end(), 0.0);
   Clipper& clipper = ThreadClipper();
   const ImageFrame frame(whole, axis);
-  const Clipper::Candidates all = clipper.Begin(frame, whole, occluders);
+  const Clipper::Candidates all = clipper.Begin(frame, frame.Image(whole), occluders);
   for (std::size_t i = 0; i < parts.size(); ++i) {
+    const ImagePolygon image = frame.Image(parts[i]);
     Clipper::Candidates own;
-    if (!parts[i].empty() && clipper.Narrow(parts[i], all, &own) != Overlap::kAll)
-      clipper.CutOut(parts[i], own, static_cast<std::int32_t>(i));
+    if (clipper.Narrow(image, all, &own) != Overlap::kAll)
+      clipper.CutOut(image, own, static_cast<std::int32_t>(i));
     clipper.Restore(all);
   }
   AddVisible(clipper.Visible(), frame, normal, factors);

@@ -33,20 +33,19 @@ class Clipper {
   Clipper& operator=(const Clipper&) = delete;
 
   // Turns to the image `frame` of `whole`, which holds all polygons to come. Returns all occluders as
-  // candidates. Both arguments' data must stay.
-  Candidates Begin(const ImageFrame& frame, const DirectionPolygon& whole,
-                   std::span<const Occluder> occluders);
+  // candidates. The occluders must stay.
+  Candidates Begin(const ImageFrame& frame, const ImagePolygon& whole, std::span<const Occluder> occluders);
 
   // How the candidates, which are on top of the stack, cover the polygon. kAll: one of them does alone.
   // kPart: those that may cover a part are pushed as `own`.
-  Overlap Narrow(const DirectionPolygon& polygon, const Candidates& candidates, Candidates* own);
+  Overlap Narrow(const ImagePolygon& polygon, const Candidates& candidates, Candidates* own);
   // Drops everything above.
   void Restore(const Candidates& candidates);
 
   // Cuts the candidates, which Narrow() found for this very polygon, out of it. What remains goes to
   // Visible(), with its owner and labels: those of the polygon's edges, from 0 if none are given, and
   // OccluderEdge() of the cuts.
-  void CutOut(const DirectionPolygon& polygon, const Candidates& candidates, std::int32_t owner,
+  void CutOut(const ImagePolygon& polygon, const Candidates& candidates, std::int32_t owner,
               std::span<const std::int32_t> label = {});
 
   // The candidates as they came.

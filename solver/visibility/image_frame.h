@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -21,6 +22,30 @@ struct ImageLine {
 
 enum class Digits { kDouble, kExtended, kQuadruple };
 
+// A convex polygon of the image, counter-clockwise.
+struct ImagePolygon {
+  static constexpr int kCapacity = 36;
+
+  int size = 0;
+  std::array<double, kCapacity> x, y;
+
+  ImagePolygon() {}  // NOLINT: the arrays stay as they are
+  ImagePolygon(const ImagePolygon& other) { *this = other; }
+  // Copies what is in use.
+  ImagePolygon& operator=(const ImagePolygon& other) {
+    size = other.size;
+    std::copy_n(other.x.begin(), size, x.begin());
+    std::copy_n(other.y.begin(), size, y.begin());
+    return *this;
+  }
+
+  void Add(double px, double py) {
+    x[static_cast<std::size_t>(size)] = px;
+    y[static_cast<std::size_t>(size)] = py;
+    ++size;
+  }
+};
+
 // The central projection of directions onto a plane one unit from the point, with its origin at the first
 // vertex of a polygon: what is small and far keeps its digits, since coordinates are differences.
 class ImageFrame {
@@ -37,6 +62,14 @@ class ImageFrame {
     if (offset.squaredNorm() > 0.01 * direction.squaredNorm())
       return Vec2(e1_.dot(direction), e2_.dot(direction)) / w - shift_;
     return (Vec2(e1_.dot(offset), e2_.dot(offset)) - axis_.dot(offset) * shift_) / w;
+  }
+  ImagePolygon Image(const DirectionPolygon& polygon) const {
+    ImagePolygon image;
+    for (int i = 0; i < polygon.size(); ++i) {
+      const Vec2 p = Image(polygon[i]);
+      image.Add(p.x(), p.y());
+    }
+    return image;
   }
   // The direction of an image point.
   Vec3 Direction(const Vec2& p) const { return origin_ + p.x() * e1_ + p.y() * e2_; }

@@ -3,38 +3,13 @@
 #include <algorithm>
 #include <deque>
 
+#include "solver/base/kept.h"
 #include "solver/visibility/form_factor.h"
 #include "solver/visibility/solid_outline.h"
 
 namespace penumbra {
 
 struct PointView::Buffers {
-  // What is computed once and kept while a number stays the same.
-  template <class T>
-  struct Kept {
-    std::vector<std::uint32_t> stamp;
-    std::vector<T> entry;
-    std::uint32_t now = 0;
-
-    void Begin(std::size_t count) {
-      if (stamp.size() < count) {
-        stamp.resize(count, 0);
-        entry.resize(count);
-      }
-      if (++now == 0) {
-        std::fill(stamp.begin(), stamp.end(), 0U);
-        now = 1;
-      }
-    }
-    // The entry, and whether it must be made anew.
-    std::pair<T&, bool> operator[](std::int32_t id) {
-      const auto i = static_cast<std::size_t>(id);
-      const bool is_new = stamp[i] != now;
-      stamp[i] = now;
-      return {entry[i], is_new};
-    }
-  };
-
   Kept<BlockerView> patches, solids;  // whole, a point
   Kept<char> as_one;                  // solids that stand for their patches, a search for blockers
   std::deque<BlockerView> cut;        // blockers cut at the plane of the source at hand; addresses stay

@@ -63,6 +63,18 @@ TEST(SourceSet, SubtreesKnowTheSlopeOfTheirLeaves) {
   }
 }
 
+// Corners that nodes share have one number, at every level and far from the origin.
+TEST(SourceSet, NumbersEachCornerOnce) {
+  for (const double far : {0.0, 1e4}) {
+    const Wall wall(Vec3(far, -far, 0.5 * far), {0.7, -0.4, 0.3});
+    const SourceSet set = SourceSet::FromSolution(wall.solution);
+    EXPECT_EQ(set.Corners().size(), ((1 << kLevels) + 1) * ((1 << kLevels) + 1));
+    for (const SourceSet::Node& node : set.Tree(0))
+      for (std::size_t k = 0; k < 4; ++k)
+        EXPECT_EQ(set.Corners()[static_cast<std::size_t>(node.corner[k])], node.vertex[k]);
+  }
+}
+
 // With one leaf far off the plane the residual is what the best plane leaves, and more than nothing; the
 // spread's square is that of the slope and that of the residual.
 TEST(SourceSet, ResidualIsWhatThePlaneLeaves) {
