@@ -1,10 +1,10 @@
 // What discontinuities are worth (thesis 5.2, 5.3, 8.2): ways to choose them and to weigh them, against the
 // error of the interpolants.
 //
-// All ways start from the same solution and the same leaves, and see the same discontinuities; leaves are
-// divided neither for crowding nor for errors. A random choice weighs none of them. Seconds are processor
-// time of finding, triangulating and interpolating, so that they can be compared on a machine that does other
-// things too; of passes that take milliseconds, the least of several.
+// All ways start from the same solution and the same leaves, and see the same discontinuities; no leaf is
+// divided for errors, and for crowding only where the way says so. A random choice weighs none of them.
+// Seconds are processor time of finding, triangulating and interpolating, so that they can be compared on a
+// machine that does other things too; of passes that take milliseconds, the least of several.
 
 #include <algorithm>
 #include <array>
@@ -26,15 +26,19 @@ struct Way {
   const char* name;
   DiscontinuityChoice choice;
   DiscontinuityWeight weight;
+  bool split_crowded = false;
 };
 constexpr Way kNone = {"none", DiscontinuityChoice::kNone, DiscontinuityWeight::kIrradiance};
 constexpr Way kAll = {"all", DiscontinuityChoice::kAll, DiscontinuityWeight::kIrradiance};
+// A random choice comes before those that are compared with it.
 constexpr std::array kBudgeted = {
+    Way{"random", DiscontinuityChoice::kRandom, DiscontinuityWeight::kIrradiance},
     Way{"ranked, irradiance", DiscontinuityChoice::kRanked, DiscontinuityWeight::kIrradiance},
     Way{"ranked, thesis", DiscontinuityChoice::kRanked, DiscontinuityWeight::kThesis},
-    Way{"random", DiscontinuityChoice::kRandom, DiscontinuityWeight::kIrradiance},
-    Way{"adaptive", DiscontinuityChoice::kAdaptive, DiscontinuityWeight::kIrradiance}};
-constexpr std::size_t kRandom = 2;  // its place
+    Way{"adaptive", DiscontinuityChoice::kAdaptive, DiscontinuityWeight::kIrradiance},
+    Way{"random, crowded leaves split", DiscontinuityChoice::kRandom, DiscontinuityWeight::kIrradiance, true},
+    Way{"ranked, irradiance, crowded leaves split", DiscontinuityChoice::kRanked,
+        DiscontinuityWeight::kIrradiance, true}};
 constexpr std::array kBudgets = {5, 10, 20};
 constexpr std::uint64_t kSeeds = 3;  // of random choices
 
@@ -61,6 +65,11 @@ class Measurement {
     options.discontinuities.min_weight = way.weight == DiscontinuityWeight::kThesis ? thesis_ : irradiance_;
     options.discontinuities.max_leaf_dsets = budget;
     options.discontinuities.seed = seed;
+    if (way.split_crowded) {
+      const DiscontinuityOptions& resolved = pipeline_.resolved().discontinuities;
+      options.discontinuities.crowded_splits = resolved.crowded_splits;
+      options.discontinuities.min_split_area = resolved.min_split_area;
+    }
     const auto sampler = [this](PatchId patch, const ReceiverPoint& at) {
       return pipeline_.irradiance().OnPatch(patch, at);
     };
@@ -170,23 +179,25 @@ void StudyDiscontinuities(StudyLog& log) {
     if (log.quick() && name != "floating-cube") break;
     Measurement measurement(log, name);
     const StudyRow none = measurement.Measure(kNone, 0), all = measurement.Measure(kAll, 0);
-    std::array<std::vector<StudyRow>, kBudgeted.size()> rows;
-    for (std::size_t i = 0; i < kBudgeted.size(); ++i)
+    std::vector<StudyRow> random;
+    for (const Way& way : kBudgeted) {
+      const bool is_random = way.choice == DiscontinuityChoice::kRandom;
+      std::vector<StudyRow> rows;
       for (const int budget : kBudgets) {
         if (log.quick() && budget != kBudgets.front()) continue;
         std::vector<StudyRow> measured;
-        for (std::uint64_t seed = 1; seed <= (i == kRandom ? kSeeds : 1); ++seed)
-          measured.push_back(measurement.Measure(kBudgeted[i], budget, seed));
-        rows[i].push_back(MeanOf(measured));
+        for (std::uint64_t seed = 1; seed <= (is_random ? kSeeds : 1); ++seed)
+          measured.push_back(measurement.Measure(way, budget, seed));
+        rows.push_back(MeanOf(measured));
       }
-    // Both begin with no discontinuities.
-    std::vector<StudyRow> random = rows[kRandom];
-    random.push_back(none);
-    for (std::size_t i = 0; i < kBudgeted.size(); ++i) {
-      if (i == kRandom) continue;
+      if (is_random) {
+        random = rows;
+        random.push_back(none);  // it begins with no discontinuities, as all do
+        continue;
+      }
       int beats_random = 0, beats_all = 0;
       std::string ratios;
-      for (const StudyRow& row : rows[i]) {
+      for (const StudyRow& row : rows) {
         const double to_random = row.error_rms / ErrorAt(random, row.seconds);
         const double to_all = row.error_rms / AllOrNothingAt(none, all, row.seconds);
         beats_random += to_random < 1 ? 1 : 0;
@@ -197,7 +208,7 @@ void StudyDiscontinuities(StudyLog& log) {
           fmt::format("{}, {}: of {} budgets {} err less (rms) than random choice in equal time, {} less "
                       "than all or nothing; the "
                       "ratios are {}.",
-                      name, kBudgeted[i].name, rows[i].size(), beats_random, beats_all, ratios));
+                      name, way.name, rows.size(), beats_random, beats_all, ratios));
     }
   }
   if (!log.quick()) MeasureThesisMesh(log);
