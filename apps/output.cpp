@@ -1,41 +1,19 @@
 #include "apps/output.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "solver/base/check.h"
+#include "solver/base/whole_file.h"
 
 namespace penumbra {
-namespace {
-
-namespace fs = std::filesystem;
-
-[[noreturn]] void FailToWrite(const std::string& path, const std::string& why) {
-  throw InputError(fmt::format("{}: error: cannot write: {}; name a place that can be written", path, why));
-}
-
-// Devices and pipes are written to as they stand; only files are replaced.
-bool IsDevice(const std::string& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored) && !fs::is_regular_file(path, ignored);
-}
-
-bool WriteBytes(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  if (file) file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  file.close();
-  return static_cast<bool>(file);
-}
-
-}  // namespace
 
 void CheckWritable(const std::string& path) {
+  namespace fs = std::filesystem;
   std::error_code ignored;
   if (path.empty()) throw InputError("error: cannot write: the name of the file is empty; give one");
   if (fs::is_directory(path, ignored)) FailToWrite(path, "it is a directory");
@@ -52,16 +30,7 @@ void WriteResult(const std::optional<std::string>& path, const std::string& text
     if (std::fflush(stdout) != 0 || !written) FailToWrite("standard output", std::strerror(errno));
     return;
   }
-  if (IsDevice(*path)) {
-    if (!WriteBytes(*path, text)) FailToWrite(*path, std::strerror(errno));
-    return;
-  }
-  const std::string temporary = *path + ".tmp";
-  std::error_code ignored;
-  if (WriteBytes(temporary, text) && std::rename(temporary.c_str(), path->c_str()) == 0) return;
-  const int error = errno;
-  fs::remove(temporary, ignored);
-  FailToWrite(*path, std::strerror(error));
+  WriteWholeFile(*path, text);
 }
 
 }  // namespace penumbra

@@ -10,13 +10,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <exception>
-#include <filesystem>
-#include <fstream>
-#include <functional>
 #include <vector>
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -28,34 +24,12 @@
 #pragma GCC diagnostic pop
 
 #include "solver/base/check.h"
+#include "solver/base/whole_file.h"
 
 namespace penumbra {
 namespace {
 
 constexpr const char* kChannelNames[3] = {"R", "G", "B"};
-
-// Calls write(temporary path) and moves what it wrote to `path`. Whatever goes wrong becomes one InputError.
-void WriteWhole(const std::string& path, const std::function<void(const std::string&)>& write) {
-  const std::string temporary = path + ".tmp";
-  try {
-    if (std::filesystem::is_directory(path)) throw std::runtime_error("it is a directory");
-    write(temporary);
-    std::filesystem::rename(temporary, path);
-  } catch (const std::exception& error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw InputError(fmt::format("{}: error: cannot write the image: {}; name a place that can be written",
-                                 path, error.what()));
-  }
-}
-
-void WriteBytes(const std::string& path, const std::vector<char>& bytes) {
-  errno = 0;
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  if (file) file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) throw std::runtime_error(std::strerror(errno != 0 ? errno : EIO));
-}
 
 // A file in memory: OpenEXR's own does not tell when a disk is full.
 class MemoryStream : public Imf::OStream {
@@ -90,43 +64,41 @@ Imf::Slice PlaneSlice(const float* plane, int x_min, int y_min, int width) {
 
 void WritePng(const std::string& path, const Srgb8Image& image) {
   PENUMBRA_CHECK(image.width > 0 && image.height > 0);
-  WriteWhole(path, [&](const std::string& temporary) {
-    std::vector<char> bytes;
-    const auto append = [](void* context, void* data, int size) {
-      auto* to = static_cast<std::vector<char>*>(context);
-      const char* from = static_cast<const char*>(data);
-      to->insert(to->end(), from, from + size);
-    };
-    if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.pixels.data(),
-                                3 * image.width))
-      throw std::runtime_error("it could not be encoded");
-    WriteBytes(temporary, bytes);
-  });
+  std::string bytes;
+  const auto append = [](void* context, void* data, int size) {
+    static_cast<std::string*>(context)->append(static_cast<const char*>(data),
+                                               static_cast<std::size_t>(size));
+  };
+  if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.pixels.data(),
+                              3 * image.width))
+    FailToWrite(path, "the image could not be encoded");
+  WriteWholeFile(path, bytes);
 }
 
 void WriteExr(const std::string& path, const RgbImage& image) {
   PENUMBRA_CHECK(image.width > 0 && image.height > 0);
-  WriteWhole(path, [&](const std::string& temporary) {
-    Imf::Header header(image.width, image.height);
-    header.compression() = Imf::ZIP_COMPRESSION;
-    Imf::FrameBuffer frame;
-    for (std::size_t c = 0; c < 3; ++c) {
-      header.channels().insert(kChannelNames[c], Imf::Channel(Imf::FLOAT));
-      frame.insert(kChannelNames[c], PlaneSlice(image.channel[c].data(), 0, 0, image.width));
-    }
-    MemoryStream memory;
-    {
-      Imf::OutputFile file(memory, header);
-      file.setFrameBuffer(frame);
-      file.writePixels(image.height);
-    }  // the table of lines is written at the end
-    WriteBytes(temporary, memory.bytes());
-  });
+  Imf::Header header(image.width, image.height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  Imf::FrameBuffer frame;
+  for (std::size_t c = 0; c < 3; ++c) {
+    header.channels().insert(kChannelNames[c], Imf::Channel(Imf::FLOAT));
+    frame.insert(kChannelNames[c], PlaneSlice(image.channel[c].data(), 0, 0, image.width));
+  }
+  MemoryStream memory;
+  {
+    Imf::OutputFile file(memory, header);
+    file.setFrameBuffer(frame);
+    file.writePixels(image.height);
+  }  // the table of lines is written at the end
+  WriteWholeFile(path, {memory.bytes().data(), memory.bytes().size()});
 }
 
 RgbImage ReadExr(const std::string& path) {
   try {
     Imf::InputFile file(path.c_str());
+    for (const char* name : kChannelNames)
+      if (!file.header().channels().findChannel(name))
+        throw std::runtime_error(fmt::format("it has no channel {}", name));
     const auto window = file.header().dataWindow();
     RgbImage image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
     Imf::FrameBuffer frame;
@@ -138,7 +110,8 @@ RgbImage ReadExr(const std::string& path) {
     return image;
   } catch (const std::exception& error) {
     throw InputError(
-        fmt::format("{}: error: cannot read the image: {}; give an EXR file", path, error.what()));
+        fmt::format("{}:0: error: cannot read the image: {}; give an EXR file with the channels R, G and B",
+                    path, error.what()));
   }
 }
 

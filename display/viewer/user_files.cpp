@@ -12,6 +12,7 @@
 #include "display/camera.h"
 #include "display/viewer/settings.h"
 #include "solver/base/check.h"
+#include "solver/base/whole_file.h"
 
 namespace penumbra::viewer {
 namespace {
@@ -96,14 +97,11 @@ std::string UserFiles::Read(const std::string& name) const {
 
 void UserFiles::Write(const std::string& name, const std::string& text) const {
   if (!folder_) return;
-  const fs::path path = fs::path(*folder_) / name, beside = fs::path(*folder_) / (name + ".new");
-  {
-    std::ofstream file(beside, std::ios::binary);
-    file << text;
-    if (!file) return;
+  try {
+    WriteWholeFile((fs::path(*folder_) / name).string(), text);
+  } catch (const InputError&) {
+    // What is remembered from one start to the next can be gone without.
   }
-  std::error_code error;
-  fs::rename(beside, path, error);
 }
 
 std::vector<std::string> UserFiles::Recent() const {

@@ -179,12 +179,16 @@ TEST_F(ImageIo, RefusesWhatIsNoExr) {
   Put(Path("cut.exr"), whole.substr(0, whole.size() / 2));
   Put(Path("empty.exr"), "");
   Put(Path("text.exr"), "not a picture");
-  for (const char* name : {"missing.exr", "cut.exr", "empty.exr", "text.exr"}) {
+  std::string other = whole;  // with a channel of another name: "R", and its type
+  other[other.find(std::string("R\0\2\0\0\0", 6))] = 'Z';
+  Put(Path("channels.exr"), other);
+  for (const char* name : {"missing.exr", "cut.exr", "empty.exr", "text.exr", "channels.exr"}) {
     try {
       ReadExr(Path(name));
       ADD_FAILURE() << name;
     } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(Path(name) + ": error: "), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(Path(name) + ":0: error: "), std::string::npos)
+          << error.what();
     }
   }
 }
