@@ -25,10 +25,11 @@ CLI::Option* AddMaterialChange(CLI::App& app, const std::string& name, std::vect
       ->take_all();
 }
 
-void ChangeMaterials(const std::vector<MaterialChange>& changes, Rgb Material::*member, Scene& scene) {
+void ChangeMaterials(const std::vector<MaterialChange>& changes, Rgb Material::*member,
+                     std::vector<Material>& materials) {
   for (const MaterialChange& change : changes) {
     bool found = false;
-    for (Material& material : scene.materials) {
+    for (Material& material : materials) {
       if (material.name != change.material) continue;
       material.*member = change.value;
       found = true;

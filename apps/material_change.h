@@ -25,6 +25,7 @@ CLI::Option* AddMaterialChange(CLI::App& app, const std::string& name, std::vect
 
 // Gives materials other values; of several changes of one material the last holds. Throws UsageError for one
 // that the scene does not have.
-void ChangeMaterials(const std::vector<MaterialChange>& changes, Rgb Material::*member, Scene& scene);
+void ChangeMaterials(const std::vector<MaterialChange>& changes, Rgb Material::*member,
+                     std::vector<Material>& materials);
 
 }  // namespace penumbra

@@ -7,6 +7,8 @@
 #include <functional>
 #include <system_error>
 
+#include "solver/scene/text_reader.h"
+
 namespace penumbra {
 namespace {
 
@@ -42,11 +44,8 @@ bool ReadNumber(const std::string& text, const NumberRule& rule, Target* target)
 }  // namespace
 
 std::optional<double> ParseNumber(std::string_view text) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+  const std::optional<double> value = ToNumber(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::optional<Vec3> ParseVector(std::string_view text) {

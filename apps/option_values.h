@@ -19,6 +19,7 @@
 
 #include "solver/base/check.h"
 #include "solver/geometry/vec.h"
+#include "solver/scene/scene.h"
 
 namespace penumbra {
 
@@ -35,6 +36,8 @@ struct NumberRule {
 };
 inline constexpr NumberRule kAnyNumber{[](double) { return true; }, "a number"};
 inline constexpr NumberRule kPositive{[](double x) { return x > 0; }, "a number above 0"};
+inline constexpr NumberRule kEmittance{[](double x) { return x >= 0 && x <= kLargestEmittance; },
+                                       "a number, 0 or more, up to 1e100"};
 inline constexpr NumberRule kNonNegative{[](double x) { return x >= 0; }, "a number, 0 or more"};
 
 // `NAME X`, a number; the default in the help is the target's value. A target that is optional has its

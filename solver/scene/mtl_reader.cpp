@@ -8,9 +8,6 @@
 namespace penumbra {
 namespace {
 
-// Products with areas and sums over faces must not overflow [W/m^2].
-constexpr double kLargestEmittance = 1e100;
-
 // One value for all channels, or three.
 Rgb ReadColour(const StatementReader& reader) {
   const std::vector<std::string_view> words = reader.Words();

@@ -23,10 +23,9 @@ constexpr double kLargestCoordinate = 1e50;
 
 // Statements of the format that add no polygon, or only say how one is shown.
 constexpr auto kPassedOver = std::to_array<std::string_view>(
-    {"vt",        "vn",       "vp",       "s",    "l",      "p",      "mg",
-     "bevel",     "c_interp", "d_interp", "lod",  "usemap", "maplib", "shadow_obj",
-     "trace_obj", "cstype",   "deg",      "bmat", "step",   "parm",   "trim",
-     "hole",      "scrv",     "sp",       "end",  "con",    "ctech",  "stech"});
+    {"vp",     "s",      "l",          "p",         "mg",     "bevel", "c_interp", "d_interp", "lod",
+     "usemap", "maplib", "shadow_obj", "trace_obj", "cstype", "deg",   "bmat",     "step",     "parm",
+     "trim",   "hole",   "scrv",       "sp",        "end",    "con",   "ctech",    "stech"});
 // Statements that add surfaces in ways that we do not read.
 constexpr auto kNotRead = std::to_array<std::string_view>(
     {"curv", "curv2", "surf", "call", "csh", "bsp", "bzp", "cdc", "cdp", "res", "fo"});
@@ -61,6 +60,8 @@ class ObjParser {
   void ReadVertex();
   void ReadFace();
   std::int64_t ReadVertexIndex(std::string_view word) const;
+  std::int64_t Resolve(std::int64_t index, std::int64_t count, std::string_view what,
+                       std::string_view many) const;
   void ReadLibraries();
   void ReadLibrary(std::string_view name, const std::string& text);
   void UseMaterial();
@@ -77,6 +78,7 @@ class ObjParser {
   const SceneOptions& options_;
   Scene scene_;
   std::vector<Vec3> vertices_;
+  std::int64_t texture_vertices_ = 0, normals_ = 0;  // that there are; nothing else of them is read
   std::vector<int> face_lines_;
   std::map<std::string, std::int32_t, std::less<>> material_index_, object_index_;
   std::set<std::string, std::less<>> libraries_;
@@ -100,6 +102,8 @@ Scene ObjParser::Parse() {
 void ObjParser::ReadStatement() {
   const std::string_view keyword = reader_.Keyword();
   if (keyword == "v") return ReadVertex();
+  if (keyword == "vt") return void(++texture_vertices_);
+  if (keyword == "vn") return void(++normals_);
   if (keyword == "f") return ReadFace();
   if (keyword == "o") return EnterObject();
   if (keyword == "g") return EnterGroups();
@@ -148,12 +152,20 @@ std::int64_t ObjParser::ReadVertexIndex(std::string_view word) const {
   if (!fine)
     throw reader_.Error(Quoted(word) +
                         " is no vertex of a face; write v, v/vt, v//vn or v/vt/vn with integers");
-  const auto count = static_cast<std::int64_t>(vertices_.size());
-  const std::int64_t vertex = index[0] > 0 ? index[0] - 1 : count + index[0];
-  if (index[0] == 0 || vertex < 0 || vertex >= count)
-    throw reader_.Error("the vertex index " + std::to_string(index[0]) + " is out of range; use 1 to " +
-                        std::to_string(count) + " for the vertices above, or count back from -1");
-  return vertex;
+  if (index[1] != 0) Resolve(index[1], texture_vertices_, "texture vertex", "texture vertices");
+  if (index[2] != 0) Resolve(index[2], normals_, "normal", "normals");
+  return Resolve(index[0], Size(vertices_), "vertex", "vertices");
+}
+
+// The 0-based place that an index means, of so many above it.
+std::int64_t ObjParser::Resolve(std::int64_t index, std::int64_t count, std::string_view what,
+                                std::string_view many) const {
+  const std::int64_t place = index > 0 ? index - 1 : count + index;
+  if (index == 0 || place < 0 || place >= count)
+    throw reader_.Error("the " + std::string(what) + " index " + std::to_string(index) +
+                        " is out of range; use 1 to " + std::to_string(count) + " for the " +
+                        std::string(many) + " above, or count back from -1");
+  return place;
 }
 
 void ObjParser::ReadFace() {
@@ -261,6 +273,7 @@ void ObjParser::AddBacks() {
 }
 
 void ObjParser::BuildScenePatches() {
+  if (options_.change_materials) options_.change_materials(scene_.materials);
   Tally overlaps;
   std::set<std::int32_t> faces;  // a face and its back count once
   for (const std::int32_t face : BuildPatches(scene_).cut_faces) faces.insert(face % Size(face_lines_));

@@ -26,6 +26,9 @@ inline constexpr PatchId kNoPatch = -1;
 using SolidId = std::int32_t;
 inline constexpr SolidId kNoSolid = -1;
 
+// Products with areas and sums over faces must not overflow [W/m^2].
+inline constexpr double kLargestEmittance = 1e100;
+
 struct Material {
   std::string name;
   Rgb reflectance = Rgb::Constant(0.5);

@@ -2,9 +2,13 @@
 
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <vector>
 
 namespace penumbra {
+
+struct Material;
 
 // How a scene file is understood.
 struct SceneOptions {
@@ -12,6 +16,9 @@ struct SceneOptions {
   bool two_sided = false;  // every face is repeated, reversed, after the last: face i's back is n + i
   std::optional<double> max_reflectance =
       std::nullopt;  // in [0, 1): larger reflectances are clamped instead of refused
+  // May give the materials that were read other values, before patches are built: of faces in one plane the
+  // one that emits is seen.
+  std::function<void(std::vector<Material>&)> change_materials = nullptr;
 };
 
 }  // namespace penumbra

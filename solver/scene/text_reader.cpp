@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace penumbra {
 namespace {
@@ -108,19 +109,24 @@ std::vector<std::string_view> StatementReader::Words() const {
   return words;
 }
 
-double StatementReader::Number(std::string_view word) const {
+std::optional<double> ToNumber(std::string_view word) {
   std::string_view digits = word;
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-' && digits[1] != '+') digits.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error == std::errc::invalid_argument || end != digits.data() + digits.size())
-    throw Error(Quoted(word) + " is not a number; write it like 1.5 or 2e-3");
-  if (error == std::errc::result_out_of_range) {
-    if (IsTiny(digits)) return digits[0] == '-' ? -0.0 : 0.0;
-    throw Error(Quoted(word) + " is too large for a double; give a finite number");
-  }
-  if (!std::isfinite(value)) throw Error(Quoted(word) + " is not finite; give a finite number");
+  if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) return std::nullopt;
+  if (error == std::errc::result_out_of_range)
+    value = std::copysign(IsTiny(digits) ? 0 : std::numeric_limits<double>::infinity(),
+                          digits[0] == '-' ? -1 : 1);
   return value;
+}
+
+double StatementReader::Number(std::string_view word) const {
+  const std::optional<double> value = ToNumber(word);
+  if (!value) throw Error(Quoted(word) + " is not a number; write it like 1.5 or 2e-3");
+  if (!std::isfinite(*value))
+    throw Error(Quoted(word) + " is not finite, or too large for a double; give a finite number");
+  return *value;
 }
 
 }  // namespace penumbra

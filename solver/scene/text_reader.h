@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,10 @@ std::string WarningAt(std::string_view file, int line, std::string_view message)
 
 // The text in quotation marks, fit for a message of one line: shortened, without control characters.
 std::string Quoted(std::string_view text);
+
+// The binary64 number nearest to the word, 0 for one that is closer to it than any; nothing if the word is no
+// number. One that is not finite, or beyond all finite ones, gives infinity or NaN.
+std::optional<double> ToNumber(std::string_view word);
 
 // Cuts a text into statements: lines, joined where they end in a backslash, without comments (from a # that
 // no word holds to the end of the line) and surrounding blanks; blank ones are left out. Line ends are LF or
