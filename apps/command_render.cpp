@@ -154,7 +154,10 @@ void Render(const RenderArguments& arguments) {
   SolveRun run(arguments.scene, loaded, RenderOptionsUsed(arguments));
   // A report tells the interpolants' error even where the picture does without them.
   const bool measure = WantsReport(arguments.scene);
-  run.Run(measure && !arguments.mode.mesh ? MeshKind::kInterpolant : arguments.mode.mesh, measure);
+  if (arguments.mode.shading == ShadingMode::kReflectance && !measure)
+    run.RunUnlit();
+  else
+    run.Run(measure && !arguments.mode.mesh ? MeshKind::kInterpolant : arguments.mode.mesh, measure);
   if (arguments.ByRays())
     RenderByRays(arguments, camera, run);
   else

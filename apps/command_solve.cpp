@@ -28,8 +28,9 @@ void Solve(SceneArguments arguments, const std::optional<std::string>& output,
   SolveRun run(arguments, loaded, command_options);
   run.Run(MeshKind::kInterpolant, true);
   if (output) WriteResult(output, run.SolutionFile());
-  run.Tell();
-  if (!output && !WantsReport(arguments)) WriteResult(std::nullopt, ReportTable(run.report()));
+  const bool table = !output && !WantsReport(arguments);
+  run.Tell(table);
+  if (table) WriteResult(std::nullopt, ReportTable(run.report()));
 }
 
 }  // namespace

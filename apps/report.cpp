@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "solver/base/check.h"
 #include "solver/base/parallel.h"
 
 namespace penumbra {
@@ -21,10 +23,19 @@ std::uint64_t PeakMemoryBytes() {
 }
 
 Json PhasesJson(const RunReport& report) {
-  Json phases = Json::array({{{"name", "load"}, {"seconds", report.load_seconds}}});
-  for (const Phase& phase : report.pipeline.phases)
-    phases.push_back({{"name", phase.name}, {"seconds", phase.seconds}});
-  return phases;
+  std::vector<Phase> phases = {{"load", report.load_seconds}};
+  // Those that had nothing to do are told, too.
+  for (const char* name : {"link", "iterate", "discontinuities", "triangulate", "interpolate"})
+    phases.push_back({name, 0});
+  for (const Phase& phase : report.pipeline.phases) {
+    const auto same =
+        std::find_if(phases.begin(), phases.end(), [&](const Phase& p) { return p.name == phase.name; });
+    PENUMBRA_CHECK(same != phases.end());
+    same->seconds += phase.seconds;
+  }
+  Json json = Json::array();
+  for (const Phase& phase : phases) json.push_back({{"name", phase.name}, {"seconds", phase.seconds}});
+  return json;
 }
 
 using Counts = PipelineReport::Counts;

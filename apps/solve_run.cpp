@@ -51,8 +51,10 @@ nlohmann::ordered_json StoredOptions(const nlohmann::ordered_json& stored, const
 }
 
 std::string SolutionFileOf(const Pipeline& pipeline, const nlohmann::ordered_json& options) {
-  return EncodeSolution(pipeline, LastingOptions(options).dump(), LastingReportJson(pipeline.report()),
-                        PENUMBRA_VERSION);
+  return EncodeSolution(
+      pipeline,
+      LastingOptions(options).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace),
+      LastingReportJson(pipeline.report()), PENUMBRA_VERSION);
 }
 
 SolveRun::SolveRun(const SceneArguments& arguments, LoadedScene& loaded,
@@ -74,17 +76,34 @@ void SolveRun::Run(std::optional<MeshKind> kind, bool measure) {
     else if (!stored_)
       pipeline_.Solve(context);
     // What interpolants show refines the sources, which are the same whatever is made of them.
-    const bool refines = !arguments_.solving.dense && arguments_.solving.refine != RefineBy::kTransport;
-    if (!stored_ && refines && !context.Cancelled()) pipeline_.BuildMesh(MeshKind::kInterpolant, context);
-    if (!context.Cancelled() && kind) pipeline_.BuildMesh(*kind, context);
-    if (!stored_ && !context.Cancelled() && kind && measure) pipeline_.Measure(context);
+    const bool refines =
+        !stored_ && !arguments_.solving.dense && arguments_.solving.refine != RefineBy::kTransport;
+    if (refines && !context.Cancelled()) pipeline_.BuildMesh(MeshKind::kInterpolant, context);
+    // Where a limit has ended that, asking for the same once more would change nothing.
+    const bool is_made = refines && kind == MeshKind::kInterpolant;
+    if (!context.Cancelled() && kind && !is_made) pipeline_.BuildMesh(*kind, context);
+    if (context.Cancelled() || !kind || !measure) return;
+    if (stored_)
+      pipeline_.Diagnose();  // its error was measured when it was solved
+    else
+      pipeline_.Measure(context);
+  });
+}
+
+void SolveRun::RunUnlit() {
+  RunInterruptible([&](const ExecutionContext& context) {
+    if (!stored_ && !restarts_) pipeline_.Link(context);
+    if (!context.Cancelled()) pipeline_.BuildMesh(MeshKind::kFlat, context);
   });
 }
 
 std::string SolveRun::SolutionFile() const { return SolutionFileOf(pipeline_, options_); }
 
-void SolveRun::Tell() const {
+void SolveRun::Tell(bool table_follows) const {
   for (const std::string& warning : pipeline_.report().warnings) fmt::print(stderr, "{}\n", warning);
+  if (!stored_ && !table_follows && !WantsReport(arguments_))
+    for (const std::string& line : pipeline_.report().unmet)
+      fmt::print(stderr, "{}: warning: {}\n", arguments_.scene, line);
   if (arguments_.report) WriteResult(arguments_.report, ReportJson(report()));
   if (arguments_.verbose) fmt::print(stderr, "{}", ReportTable(report()));
 }

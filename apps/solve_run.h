@@ -35,8 +35,13 @@ class SolveRun {
   // Throws Interrupted.
   void Run(std::optional<MeshKind> kind, bool measure);
 
-  // Writes the report to its file, if it was asked for, and the table to standard error, with -v.
-  void Tell() const;
+  // Builds a flat mesh of the leaves there are, for what needs no light: nothing is solved. Throws
+  // Interrupted.
+  void RunUnlit();
+
+  // Writes the report to its file, if it was asked for, and the table to standard error, with -v. Without
+  // either warns of what missed the target, unless the caller is about to print the table.
+  void Tell(bool table_follows = false) const;
 
   const Pipeline& pipeline() const { return pipeline_; }
   RunReport report() const;

@@ -369,9 +369,11 @@ bool Pipeline::Converged() const { return impl_->solver && impl_->solver->Conver
 
 bool Pipeline::Correct(const ExecutionContext& context) {
   Link(context);
-  return impl_->Run(context, [this](HierarchicalSolver& solver, const ExecutionContext& running) {
+  const bool done = impl_->Run(context, [this](HierarchicalSolver& solver, const ExecutionContext& running) {
     return solver.CorrectAll(running, /*but_the_last=*/impl_->RefinesShown());
   });
+  if (!done) impl_->Forget();  // some passes may have been made
+  return done;
 }
 
 bool Pipeline::SubdivideLeaves(std::span<const ElementId> leaves, const ExecutionContext& context) {
@@ -405,7 +407,7 @@ void Pipeline::SolveOverLinks(const ExecutionContext& context) {
                                               relit->sweeps, relit->residual));
   const bool corrected = relit && Correct(running);
   if (const std::optional<std::string> limit = limits.Exceeded(); limit && !corrected)
-    impl_->report.unmet.push_back(fmt::format("iterate: ended by {}, {} and not corrected", *limit,
+    impl_->report.unmet.push_back(fmt::format("iterate: ended by {}, {} and not corrected to the end", *limit,
                                               relit ? "lit anew" : "with the light of before"));
 }
 
@@ -435,7 +437,7 @@ void Pipeline::Solve(const ExecutionContext& context) {
   if (const std::optional<std::string> limit = limits.Exceeded(); limit && (!Converged() || !corrected))
     impl_->report.unmet.push_back(fmt::format("iterate: ended by {} after {} iterations, {} and {}", *limit,
                                               iterations.size(), Converged() ? "converged" : "not converged",
-                                              corrected ? "corrected" : "not corrected"));
+                                              corrected ? "corrected" : "not corrected to the end"));
 }
 
 void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context) {
@@ -474,10 +476,8 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context) {
                     report.counts.refused_contacts, impl_->resolved.discontinuities.max_leaf_dsets));
 }
 
-void Pipeline::Measure(const ExecutionContext& context) {
+void Pipeline::Diagnose() {
   PENUMBRA_CHECK(impl_->locator != nullptr);
-  PENUMBRA_CHECK(impl_->triangulations.size() == impl_->scene.patches.size());  // the mesh was made here
-  context.Report("measure", 0);
   PipelineReport& report = impl_->report;
   report.energy = MeasureEnergy(solution());
   report.links = DiagnoseLinks(solution());
@@ -490,6 +490,13 @@ void Pipeline::Measure(const ExecutionContext& context) {
         "{}: warning: the fronts of {} faces see nothing but backs, the first is face {} (counted "
         "from 0); if it is reversed, give its vertices in the other order",
         impl_->scene.name, report.views.reversed_faces.size(), report.views.reversed_faces[0]));
+}
+
+void Pipeline::Measure(const ExecutionContext& context) {
+  PENUMBRA_CHECK(impl_->triangulations.size() == impl_->scene.patches.size());
+  context.Report("measure", 0);
+  Diagnose();
+  PipelineReport& report = impl_->report;
   const RunLimits limits = impl_->LimitsSinceSolve(context);
   if (impl_->solver && !impl_->solver->SeenFromLeaves(limits.context())) {
     report.error_met = false;

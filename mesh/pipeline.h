@@ -160,7 +160,7 @@ class Pipeline {
   void Solve(const ExecutionContext& context);
 
   // The same step by step, for who wants to look at what each one made. A step that is cancelled leaves
-  // solution and report as they were before it.
+  // solution and report as they were before it, unless it says otherwise.
   //
   // What sees what, and the links between the roots: dark but for what surfaces emit. The other steps begin
   // with this one where it was left out, or was cancelled, which leaves that darkness without links.
@@ -169,7 +169,8 @@ class Pipeline {
   std::optional<IterationReport> Iterate(const ExecutionContext& context);
   // The last iteration refined nothing and left a residual below the cut-off.
   bool Converged() const;
-  // The passes of exact irradiance over the leaves, as many as the options say. False if it was cancelled.
+  // The passes of exact irradiance over the leaves, as many as the options say. False if it was cancelled,
+  // which keeps the passes that were made.
   bool Correct(const ExecutionContext& context);
   // Splits the leaves, keeps all others, links the new ones, and lights them from the present light
   // (HierarchicalSolver::SubdivideLeaves). Takes corrections back. False if it was cancelled.
@@ -186,8 +187,10 @@ class Pipeline {
   // the mesh (RefineMesh), until the error asked for is met. Nothing is done where it is there already.
   // REQUIRES: Link() or what begins with it.
   void BuildMesh(MeshKind kind, const ExecutionContext& context);
-  // Measures the energy balance, the soundness of scene and links, and the error at random points. REQUIRES:
-  // BuildMesh() after the last step.
+  // Measures the energy balance, and the soundness of scene, links and triangles. REQUIRES: BuildMesh() after
+  // the last step.
+  void Diagnose();
+  // That, and the error at random points. REQUIRES: the same; the mesh was made here.
   void Measure(const ExecutionContext& context);
 
   const RadiositySolution& solution() const;  // REQUIRES: Link()

@@ -16,6 +16,7 @@
 
 #include "mesh/discontinuity.h"
 #include "mesh/hdf5_image.h"
+#include "mesh/pipeline.h"
 #include "mesh/quadratic_interpolant.h"
 #include "solver/geometry/vec.h"
 #include "solver/transport/element_forest.h"
@@ -54,6 +55,8 @@ template <>
 struct Packed<DiscontinuityKind> : PackedByte<DiscontinuityKind, 5> {};
 template <>
 struct Packed<DiscontinuityDegree> : PackedByte<DiscontinuityDegree, 3> {};
+template <>
+struct Packed<MeshKind> : PackedByte<MeshKind, 4> {};
 template <>
 struct Packed<char> : PackedByte<char, 255> {
   static void Unpack(const Scalar* in, char& value) { std::memcpy(&value, in, 1); }

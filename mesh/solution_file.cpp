@@ -117,8 +117,11 @@ StoredSolution Read(const Envelope& envelope) {
   DescribeLight(archive, stored.state.solution);
   CheckLight(stored.state.solution);
 
-  stored.state.mesh_kind = MeshKind::kInterpolant;
-  DescribeMesh(archive, stored.state.mesh);
+  std::vector<MeshKind> kind;
+  DescribeMesh(archive, stored.state.mesh, kind);
+  if (kind.size() != 1 || (kind[0] != MeshKind::kInterpolant && kind[0] != MeshKind::kFlat))
+    throw Hdf5Error("its mesh is of no kind that a solution has");
+  stored.state.mesh_kind = kind[0];
   CheckMesh(*scene, stored.state.mesh);
   stored.scene = std::move(scene);
   return stored;
@@ -133,7 +136,8 @@ bool LooksLikeSolution(std::string_view beginning) {
 
 std::string EncodeSolution(const Pipeline& pipeline, const std::string& options, const std::string& report,
                            const std::string& version) {
-  PENUMBRA_CHECK(pipeline.mesh_kind() == MeshKind::kInterpolant);
+  const std::vector<MeshKind> kind = {pipeline.mesh_kind().value()};
+  PENUMBRA_CHECK(kind[0] == MeshKind::kInterpolant || kind[0] == MeshKind::kFlat);
   Hdf5Writer file;
   ArchiveWriter archive(&file);
   archive.Text("options", options);
@@ -144,7 +148,7 @@ std::string EncodeSolution(const Pipeline& pipeline, const std::string& options,
   const std::vector<Element> copy(elements.begin(), elements.end());
   DescribeElements(archive, copy);
   DescribeLight(archive, pipeline.solution());
-  DescribeMesh(archive, pipeline.mesh());
+  DescribeMesh(archive, pipeline.mesh(), kind);
   DescribeDiscontinuities(archive, ListDiscontinuities(pipeline.solution(), pipeline.visibility(),
                                                        pipeline.resolved().discontinuities, {}));
 
@@ -159,7 +163,7 @@ StoredSolution DecodeSolution(std::string_view bytes, const std::string& file) {
   try {
     return Read(Open(bytes));
   } catch (const Hdf5Error& error) {
-    throw InputError(fmt::format("{}: error: {}", file, error.what()));
+    throw InputError(fmt::format("{}:0: error: {}", file, error.what()));
   }
 }
 

@@ -18,7 +18,7 @@
 namespace penumbra {
 
 // Counted up whenever what lies where changes; files of another schema are refused.
-inline constexpr int kSolutionSchema = 2;
+inline constexpr int kSolutionSchema = 3;
 
 // What was read from a file.
 struct StoredSolution {
@@ -36,11 +36,12 @@ inline constexpr std::size_t kSolutionHeaderSize =
 // or of something else that is no text: then DecodeSolution() says what is wrong with it.
 bool LooksLikeSolution(std::string_view beginning);
 
-// The bytes of a solution file. REQUIRES: the pipeline is solved and has a mesh.
+// The bytes of a solution file. REQUIRES: the pipeline is solved and has a mesh of interpolants, or a flat
+// one where a limit ended it before there were any.
 std::string EncodeSolution(const Pipeline& pipeline, const std::string& options, const std::string& report,
                            const std::string& version);
 
-// The solution that the bytes hold. Throws InputError, "FILE: error: …", unless they are whole, of this
+// The solution that the bytes hold. Throws InputError, "FILE:0: error: …", unless they are whole, of this
 // schema, and make sense.
 StoredSolution DecodeSolution(std::string_view bytes, const std::string& file);
 

@@ -93,8 +93,10 @@ void DescribeLight(Archive& archive, Solution& solution) {
       .Lists("polygon", &Fragment::polygon);
 }
 
-template <class Archive, class Mesh>
-void DescribeMesh(Archive& archive, Mesh& mesh) {
+// `kind` has one row.
+template <class Archive, class Mesh, class Kind>
+void DescribeMesh(Archive& archive, Mesh& mesh, Kind& kind) {
+  Table(archive, "mesh", kind).Column("kind", std::identity());
   Table(archive, "mesh", mesh.positions).Column("positions", std::identity());
   Table(archive, "mesh/triangles", mesh.triangles)
       .Column("vertices", &IrradianceMesh::Triangle::vertex)

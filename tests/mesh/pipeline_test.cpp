@@ -84,5 +84,32 @@ TEST(Pipeline, CancelledStepsLeaveWhatWas) {
   EXPECT_TRUE(pipeline.Converged());
 }
 
+// Corrections that are cancelled on their way keep the passes that were made, and nothing that was made of
+// the light before them.
+TEST(Pipeline, CancelledCorrectionsKeepWholePasses) {
+  const Scene scene = FurnishedRoom();
+  PipelineOptions options;
+  options.error = 0.5;
+  options.refine = RefineBy::kTransport;
+  Pipeline pipeline(scene, options);
+  ASSERT_TRUE(pipeline.Iterate(ExecutionContext()));
+  const RadiositySolution before = pipeline.solution();
+  pipeline.BuildMesh(MeshKind::kFlat, {});
+  ReceiverPoint at;
+  at.position = Vec3(3, 2, 0.5);  // in the free part of the room
+  at.normal = Vec3::UnitZ();
+  pipeline.irradiance();
+  ExecutionContext* running = nullptr;
+  ExecutionContext stops([&](std::string_view phase, double fraction) {
+    if (phase == "correct" && fraction > 0) running->Cancel();
+  });
+  running = &stops;
+  EXPECT_FALSE(pipeline.Correct(stops));
+  EXPECT_FALSE(SameLight(before, pipeline.solution()));
+  EXPECT_FALSE(pipeline.mesh_kind());
+  const PointIrradiance fresh(pipeline.solution(), pipeline.visibility(), {});
+  EXPECT_TRUE((pipeline.irradiance().Anywhere(at).irradiance == fresh.Anywhere(at).irradiance).all());
+}
+
 }  // namespace
 }  // namespace penumbra::scene_test

@@ -12,7 +12,6 @@
 #include "solver/base/parallel.h"
 #include "solver/scene/surface_points.h"
 #include "solver/transport/energy.h"
-#include "solver/transport/solution_error.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra::scene_test {
@@ -193,7 +192,6 @@ TEST(HierarchicalSolver, Furnaces) {
                 worst);
     EXPECT_LE(std::abs(sum / points), 5e-3);
     EXPECT_LE(worst, 0.1);
-    EXPECT_LE(EstimateSolutionError(solution, irradiance, 200, 3), 0.02);
   }
 }
 
