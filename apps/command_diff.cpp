@@ -40,7 +40,7 @@ RgbImage ReadPicture(const std::string& path) {
       for (const float value : image.At(x, y))
         if (!std::isfinite(value))
           throw InputError(fmt::format(
-              "{}: error: the pixel in column {}, row {} is no number; give a picture without such pixels",
+              "{}:0: error: the pixel in column {}, row {} is no number; give a picture without such pixels",
               path, x, y));
   return image;
 }
@@ -76,7 +76,7 @@ void Diff(const DiffArguments& arguments) {
   const RgbImage reference = ReadPicture(arguments.reference), test = ReadPicture(arguments.test);
   if (reference.width != test.width || reference.height != test.height)
     throw InputError(fmt::format(
-        "{}: error: it has {}x{} pixels, but {} has {}x{}; give pictures of one size", arguments.test,
+        "{}:0: error: it has {}x{} pixels, but {} has {}x{}; give pictures of one size", arguments.test,
         test.width, test.height, arguments.reference, reference.width, reference.height));
   const std::array<ChannelError, 3> errors = RelativeErrors(reference, test);
   const VisibleDifference visible = FindVisibleDifference(reference, test, arguments.pixels_per_degree);

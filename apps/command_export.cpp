@@ -1,5 +1,7 @@
 // penumbra export: meshes with their light, and scenes, for other programs.
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +29,9 @@ void Export(const ExportArguments& arguments) {
   if (arguments.scene.report) CheckWritable(*arguments.scene.report);
   LoadedScene loaded = LoadScene(arguments.scene);
   if (!ExportsMesh(arguments.output)) {
+    if (arguments.scene.report)
+      throw UsageError(fmt::format("--report tells of a solve, and nothing is solved for '{}'; leave it out",
+                                   arguments.output));
     if (arguments.scene.verbose) PrintOptionsUsed(OptionsUsed(arguments.scene, nullptr));
     ExportScene(arguments.output, loaded.scene, ChooseCamera(loaded.scene, arguments.camera));
     return;

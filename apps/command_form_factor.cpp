@@ -21,7 +21,7 @@
 namespace penumbra {
 namespace {
 
-constexpr const char* kExact = "exact";
+constexpr const char *kAuto = "auto", *kExact = "exact";
 constexpr const char* kDisk = "disk";
 constexpr const char* kCubature = "cubature";
 constexpr const char* kMonteCarlo = "monte-carlo";
@@ -89,7 +89,7 @@ void PrintFormFactor(const FormFactorArguments& arguments) {
     options["from"] = arguments.from;
     options["to"] = arguments.to;
     options["method"] = arguments.method;
-    if (arguments.method == kExact) options["tolerance"] = arguments.tolerance;
+    if (arguments.method == kExact || arguments.method == kAuto) options["tolerance"] = arguments.tolerance;
     if (arguments.method == kMonteCarlo) options["rays"] = arguments.rays;
     PrintOptionsUsed(options);
   }
@@ -126,10 +126,10 @@ Command AddFormFactorCommand(CLI::App& program) {
       ->type_name("OBJECT");
   app->add_option(
          "--method", arguments->method,
-         "exact: exact point factors past all blockers, integrated to the tolerance; cubature: their "
+         "auto, exact: exact point factors past all blockers, integrated to the tolerance; cubature: their "
          "mean over a fixed set of points (thesis 4.2); disk: a disk seen from a point, whole or not at "
          "all (Wallace et al. 1989, Hanrahan et al. 1991); monte-carlo: random rays")
-      ->check(CLI::IsMember(std::vector<std::string>{kExact, kDisk, kCubature, kMonteCarlo}))
+      ->check(CLI::IsMember(std::vector<std::string>{kAuto, kExact, kDisk, kCubature, kMonteCarlo}))
       ->type_name("METHOD")
       ->capture_default_str();
   AddNumber(*app, "--tolerance", &arguments->tolerance, kPositive,

@@ -26,6 +26,7 @@ namespace {
 constexpr int kMaxThreads = 1024;
 constexpr std::uint64_t kMaxErrorPoints = 100'000'000;
 constexpr const char *kSceneGroup = "Scene", *kSolvingGroup = "Solving";
+constexpr const char* kAcceleration = "acceleration";  // among the options used; the flag turns it off
 constexpr int kMaxErrorSamples = 100;
 constexpr NumberRule kBelowOne{[](double x) { return x >= 0 && x < 1; }, "a number in [0, 1)"};
 constexpr Choice<IterationScheme> kSchemes[] = {{"jacobi", IterationScheme::kJacobi},
@@ -63,7 +64,9 @@ std::string ReadBytes(const std::string& path, std::size_t count) {
 // Whether the file is, or was meant to be, a solution: its content tells. Nothing tells what an empty file
 // is; one that is named as a scene is a scene without faces.
 bool IsSolution(const std::string& path) {
-  if (!IsFile(path)) return false;
+  // What a pipe brings can be read once only: it is taken for a scene.
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
   const std::string beginning = ReadBytes(path, kSolutionHeaderSize);
   return beginning.empty() ? std::filesystem::path(path).extension() != ".obj" : LooksLikeSolution(beginning);
 }
@@ -80,17 +83,19 @@ void RefuseSceneOptions(const SceneArguments& arguments) {
 
 // The scene that was named, with the materials that were changed.
 Scene ReadChangedScene(const SceneArguments& arguments) {
-  Scene scene = ReadNamedScene(arguments.scene, arguments.reading);
-  ChangeMaterials(arguments.emittance, &Material::emittance, scene);
-  ChangeMaterials(arguments.reflectance, &Material::reflectance, scene);
-  return scene;
+  SceneOptions options = arguments.reading;
+  options.change_materials = [&](std::vector<Material>& materials) {
+    ChangeMaterials(arguments.emittance, &Material::emittance, materials);
+    ChangeMaterials(arguments.reflectance, &Material::reflectance, materials);
+  };
+  return ReadNamedScene(arguments.scene, options);
 }
 
 }  // namespace
 
 LoadedScene LoadSolution(const std::string& path) {
   if (!IsSolution(path))
-    throw InputError(fmt::format("{}: error: {}; give a solution that `penumbra solve -o` wrote", path,
+    throw InputError(fmt::format("{}:0: error: {}; give a solution that `penumbra solve -o` wrote", path,
                                  IsFile(path) ? "it is no solution" : "there is no such file"));
   std::error_code ignored;
   const std::string bytes = ReadBytes(path, std::filesystem::file_size(path, ignored));
@@ -106,7 +111,7 @@ LoadedScene LoadSolution(const std::string& path) {
     stored.state.report.quality = MeasureQuality(stored.state.mesh);
   } catch (const std::exception& error) {
     throw InputError(
-        fmt::format("{}: error: its options or its report cannot be read: {}", path, error.what()));
+        fmt::format("{}:0: error: its options or its report cannot be read: {}", path, error.what()));
   }
   return loaded;
 }
@@ -127,7 +132,7 @@ void AddSceneArguments(CLI::App& app, SceneArguments* arguments) {
   AddNumber(app, "--max-reflectance", &arguments->reading.max_reflectance, kBelowOne,
             "Clamp larger reflectances to X, in [0, 1), instead of refusing those of 1 or more")
       ->group(kSceneGroup);
-  AddMaterialChange(app, "--emittance", &arguments->emittance, kNonNegative,
+  AddMaterialChange(app, "--emittance", &arguments->emittance, kEmittance,
                     "Another emittance for a material [W/m^2]; may be repeated")
       ->group(kSceneGroup);
   AddMaterialChange(app, "--reflectance", &arguments->reflectance, kBelowOne,
@@ -271,24 +276,32 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
       ->check(CLI::IsMember(std::vector<std::string>{"hierarchical", "dense"}))
       ->default_str("hierarchical")
       ->group(group);
+  // --solver, which comes before, has been read.
+  const auto need_dense = [solving](const char* option) {
+    if (!solving->dense)
+      throw CLI::ValidationError(option, "it is of the dense solver; give --solver dense, or leave it out");
+  };
   app.add_option_function<std::string>(
          "--basis",
-         [solving, degrees](const std::string& name) {
-           if (!solving->dense) solving->dense.emplace();
+         [solving, degrees, need_dense](const std::string& name) {
+           need_dense("--basis");
            solving->dense->degree = degrees.at(name);
          },
          "Of the dense solver's elements: `constant` (Galerkin), `linear` or `quadratic` (collocation; their "
          "means are shown)")
       ->check(CLI::IsMember(std::vector<std::string>{"constant", "linear", "quadratic"}))
       ->default_str("constant")
-      ->needs("--solver")
       ->group(group);
-  app.add_option("--divisions", solving->divisions,
-                 "The dense solver cuts every patch into N x N elements, N a power of two")
+  app.add_option_function<int>(
+         "--divisions",
+         [solving, need_dense](const int& divisions) {
+           need_dense("--divisions");
+           solving->divisions = divisions;
+         },
+         "The dense solver cuts every patch into N x N elements, N a power of two")
       ->type_name("N")
       ->check(CLI::IsMember(std::vector<int>{1, 2, 4, 8, 16, 32, 64}))
-      ->capture_default_str()
-      ->needs("--solver")
+      ->default_str(std::to_string(solving->divisions))
       ->group(group);
   AddInteger(app, "--error-points", &solving->error_points, std::uint64_t{0}, kMaxErrorPoints,
              "Random points at which a report measures the error of the interpolants; 0 leaves that out")
@@ -330,7 +343,7 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["refine"] = ChoiceName(kRefinements, arguments.solving.refine);
     options["corrections"] = resolved->solver.max_corrections;
     if (arguments.solving.source_error) options["source_error"] = *arguments.solving.source_error;
-    options["acceleration"] = resolved->solver.acceleration == Acceleration::kAnderson;
+    options[kAcceleration] = resolved->solver.acceleration == Acceleration::kAnderson;
     options["scheme"] = ChoiceName(kSchemes, resolved->solver.scheme);
     options["oracle"] = ChoiceName(kOracles, resolved->solver.oracle);
     options["multigrid"] = resolved->solver.multigrid;
@@ -355,13 +368,31 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
   return options;
 }
 
+namespace {
+
+// The option as it would be given; nothing for a flag that was not.
+std::string OptionText(const std::string& key, const nlohmann::ordered_json& value) {
+  std::string name = key;
+  std::replace(name.begin(), name.end(), '_', '-');
+  if (value.is_boolean()) {
+    if (key == kAcceleration) return value.get<bool>() ? "" : fmt::format("   --no-{}\n", name);
+    return value.get<bool>() ? fmt::format("   --{}\n", name) : "";
+  }
+  if (value.is_object()) {  // of materials
+    std::string text;
+    for (const auto& [material, rgb] : value.items())
+      text += fmt::format("   --{} {}={},{},{}\n", name, material, rgb[0].get<double>(), rgb[1].get<double>(),
+                          rgb[2].get<double>());
+    return text;
+  }
+  return fmt::format("   --{} {}\n", name, value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+}  // namespace
+
 void PrintOptionsUsed(const nlohmann::ordered_json& options) {
   std::string block = "Options used:\n";
-  for (const auto& [key, value] : options.items()) {
-    std::string name = key;
-    std::replace(name.begin(), name.end(), '_', '-');
-    block += fmt::format("   --{} {}\n", name, value.is_string() ? value.get<std::string>() : value.dump());
-  }
+  for (const auto& [key, value] : options.items()) block += OptionText(key, value);
   fmt::print(stderr, "{}", block);
 }
 
@@ -383,7 +414,7 @@ PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   options.at("corrections").get_to(solving.max_corrections);
   if (options.contains("source_error")) solving.source_error = options["source_error"].get<double>();
   solving.acceleration =
-      options.at("acceleration").get<bool>() ? Acceleration::kAnderson : Acceleration::kNone;
+      options.at(kAcceleration).get<bool>() ? Acceleration::kAnderson : Acceleration::kNone;
   solving.relative_cutoff = options.at("relative_cutoff").get<double>();
   options.at("iterations").get_to(solving.max_iterations);
   solving.scheme = ChoiceValue(kSchemes, options.at("scheme").get<std::string>());

@@ -269,7 +269,9 @@ Script ParseScript(const std::string& name, const std::string& text) {
 Script ReadScript(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw InputError(fmt::format("{}: error: the script cannot be read", path));
+  if (!file)
+    throw InputError(fmt::format(
+        "{}:0: error: the script cannot be read; check its name and the permission to read it", path));
   return ParseScript(path, text);
 }
 

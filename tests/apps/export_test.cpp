@@ -91,7 +91,7 @@ TEST(Diff, TellsHowFarPicturesAre) {
 
   const Outcome sizes = sandbox.Run({"diff", "a.exr", "c.exr"});
   EXPECT_EQ(sizes.status, 1);
-  EXPECT_THAT(sizes.err, HasSubstr("c.exr: error: it has 20x11 pixels, but a.exr has 20x10"));
+  EXPECT_THAT(sizes.err, HasSubstr("c.exr:0: error: it has 20x11 pixels, but a.exr has 20x10"));
   b.Set(3, 4, {NAN, 0, 0});
   WriteExr(sandbox.Path("b.exr"), b);
   EXPECT_EQ(sandbox.Run({"diff", "a.exr", "b.exr"}).status, 1);

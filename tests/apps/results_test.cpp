@@ -614,5 +614,27 @@ TEST(Solve, ChangedMaterials) {
   EXPECT_GT(red({"--reflectance", "light=0.9,0,0"}), 1.01 * light);
 }
 
+// A lamp that lies in a ceiling is seen if it emits, wherever that is said.
+TEST(Solve, ChangedMaterialsDecideWhatIsSeen) {
+  const Sandbox sandbox;
+  sandbox.Write("lamp.obj",
+                "mtllib lamp.mtl\n"
+                "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nv .2 .2 1\nv .8 .2 1\nv .8 .8 1\nv .2 .8 1\n"
+                "usemtl grey\nf 4 3 2 1\nusemtl lamp\nf 8 7 6 5\n");
+  sandbox.Write("points.csv", "x,y,z,nx,ny,nz\n0.5,0.5,0,0,0,1\n");
+  const auto probe = [&](const std::string& emittance, std::vector<std::string> more) {
+    sandbox.Write("lamp.mtl", "newmtl grey\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0 0 0\nKe " + emittance + "\n");
+    std::vector<std::string> arguments = {"probe", "lamp.obj", "--points", "points.csv"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = sandbox.Run(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  };
+  const std::string lit = probe("10 10 10", {});
+  EXPECT_GT(Numbers(Lines(lit).at(1))[7], 1);
+  EXPECT_EQ(probe("0 0 0", {"--emittance", "lamp=10,10,10"}), lit);
+  EXPECT_EQ(Numbers(Lines(probe("10 10 10", {"--emittance", "lamp=0,0,0"})).at(1))[7], 0);
+}
+
 }  // namespace
 }  // namespace penumbra

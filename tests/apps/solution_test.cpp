@@ -5,6 +5,7 @@
 #include <signal.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "tests/apps/run_program.h"
@@ -93,7 +94,50 @@ TEST(Solution, ServesLikeItsScene) {
   ASSERT_EQ(sandbox.Run({"render", "a.h5", "-o", "a.png", "--size", "8x6", "--report", "r.json"}).status, 0);
   const json again = json::parse(ReadBytes(sandbox.Path("r.json")));
   EXPECT_EQ(again["error"], report["error"]);
-  EXPECT_EQ(again["diagnostics"]["triangles"], report["diagnostics"]["triangles"]);
+  EXPECT_EQ(again["diagnostics"], report["diagnostics"]);
+}
+
+// A limit that ends a solve before there are interpolants is told, once; what is left can be kept, opened,
+// and shown by interpolants that are made then.
+TEST(Solution, IsKeptWhenALimitEndsTheSolve) {
+  const Sandbox sandbox;
+  sandbox.Write("points.csv", kPoints);
+  for (const auto& [option, value] : {std::pair("--time-limit", "1e-9"), {"--memory-limit", "1"}}) {
+    const Outcome solve =
+        sandbox.Run({"solve", "floating-cube", "--error", "0.3", option, value, "-o", "a.h5"});
+    ASSERT_EQ(solve.status, 0) << solve.err;
+    EXPECT_THAT(solve.err, HasSubstr("floating-cube: warning: mesh: ended by the"));
+    ASSERT_EQ(sandbox.Run({"solve", "floating-cube", option, value, "--report", "r.json"}).status, 0);
+    const json report = json::parse(ReadBytes(sandbox.Path("r.json")));
+    std::set<std::string> lines;
+    for (const json& line : report["unmet"])
+      EXPECT_TRUE(lines.insert(line.get<std::string>()).second) << line;
+    EXPECT_EQ(report["phases"].size(), 6U);
+
+    const Outcome info = sandbox.Run({"info", "a.h5"});
+    EXPECT_EQ(info.status, 0) << info.err;
+    for (const char* mode : {"interpolant", "flat", "exact"}) {
+      const Outcome render = sandbox.Run({"render", "a.h5", "--mode", mode, "-o", "a.png", "--size", "8x6"});
+      EXPECT_EQ(render.status, 0) << render.err;
+    }
+    const Outcome probe = sandbox.Run({"probe", "a.h5", "--points", "points.csv"});
+    ASSERT_EQ(probe.status, 0) << probe.err;
+  }
+}
+
+// Reflectances need no light: nothing is solved for them, and the picture is the same.
+TEST(Solution, IsNotMadeForReflectances) {
+  const Sandbox sandbox;
+  const Outcome alone = sandbox.Run(
+      {"render", "floating-cube", "--mode", "rho", "-o", "a.png", "--size", "48x36", "--time-limit", "1e-9"});
+  ASSERT_EQ(alone.status, 0) << alone.err;
+  EXPECT_EQ(alone.err, "");  // there is nothing that a limit could end
+  ASSERT_EQ(sandbox
+                .Run({"render", "floating-cube", "--mode", "rho", "-o", "b.png", "--size", "48x36", "--error",
+                      "0.3", "--report", "r.json"})
+                .status,
+            0);
+  EXPECT_EQ(ReadBytes(sandbox.Path("a.png")), ReadBytes(sandbox.Path("b.png")));
 }
 
 // What is no whole solution is refused in one line, with status 1, and nothing is written.
@@ -118,7 +162,7 @@ TEST(Solution, IsRefusedWhenDamaged) {
              {"info", name}, {"render", name, "-o", "x.png"}, {"solve", name, "-o", "x.h5"}}) {
       const Outcome outcome = sandbox.Run(command);
       EXPECT_EQ(outcome.status, 1) << name;
-      EXPECT_THAT(outcome.err, testing::StartsWith(std::string(name) + ": error: "));
+      EXPECT_THAT(outcome.err, testing::StartsWith(std::string(name) + ":0: error: "));
       EXPECT_THAT(Lines(outcome.err), testing::SizeIs(1));
       EXPECT_EQ(outcome.out, "");
     }

@@ -3,6 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <thread>
 
 #include "tests/apps/run_program.h"
 
@@ -96,6 +101,11 @@ TEST(Usage, BadUsageEndsWithTwo) {
       {"solve", "furnace", "--iterations", "0"},
       {"solve", "furnace", "--error-points", "-1"},
       {"solve", "furnace", "--max-reflectance", "1"},
+      {"solve", "furnace", "--emittance", "glow=1e101,0,0"},
+      {"solve", "furnace", "--basis", "linear"},
+      {"solve", "furnace", "--solver", "hierarchical", "--basis", "linear"},
+      {"solve", "furnace", "--divisions", "2"},
+      {"export", "furnace", "-o", "furnace2.obj", "--report", "r.json"},
       {"render", "furnace"},
       {"render", "furnace", "-o", "image.jpg"},
       {"render", "furnace", "-o", "image"},
@@ -251,6 +261,61 @@ TEST(Input, BadPointsAreNamed) {
     EXPECT_EQ(outcome.status, 1);
     EXPECT_THAT(Lines(outcome.err), ElementsAre(testing::StartsWith(unreadable + ":0: error: ")));
   }
+}
+
+// A coordinate below all numbers is 0, as in scenes.
+TEST(Input, TinyNumbersAreZero) {
+  const Sandbox sandbox;
+  sandbox.Write("scene.obj", kSquare);
+  sandbox.Write("points.csv", "x,y,z,nx,ny,nz\n0.5,0.5,1e-400,0,0,1\n");
+  const Outcome outcome = sandbox.Run({"probe", "scene.obj", "--points", "points.csv", "--direct"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
+// A pipe can be read once only, and that is enough.
+TEST(Input, ScenesComeThroughPipes) {
+  const Sandbox sandbox;
+  ASSERT_EQ(mkfifo(sandbox.Path("pipe").c_str(), 0600), 0);
+  std::thread writer([&] { std::ofstream(sandbox.Path("pipe")) << kSquare; });
+  const Outcome outcome = sandbox.Run({"info", "pipe", "--json"});
+  writer.join();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("\"faces\": 1"));
+}
+
+// What is written takes the place of its own name alone, and of what a link points to.
+TEST(Output, TouchesNoOtherFile) {
+  const Sandbox sandbox;
+  sandbox.Write("scene.obj", kSquare);
+  sandbox.Write("points.csv", "x,y,z,nx,ny,nz\n0.5,0.5,0,0,0,1\n");
+  sandbox.Write("out.csv.tmp", "mine");
+  sandbox.Write("kept.csv", "old");
+  std::filesystem::create_symlink("kept.csv", sandbox.Path("link.csv"));
+  for (const char* name : {"out.csv", "link.csv"}) {
+    const Outcome outcome =
+        sandbox.Run({"probe", "scene.obj", "--points", "points.csv", "--direct", "-o", name});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+  }
+  EXPECT_EQ(ReadBytes(sandbox.Path("out.csv.tmp")), "mine");
+  EXPECT_TRUE(std::filesystem::is_symlink(sandbox.Path("link.csv")));
+  EXPECT_EQ(ReadBytes(sandbox.Path("kept.csv")), ReadBytes(sandbox.Path("out.csv")));
+  EXPECT_THAT(sandbox.Files(), SizeIs(6));
+}
+
+// The options used are told as they would be given: flags where they are set, under their own names.
+TEST(Usage, OptionsUsedCanBeGivenAgain) {
+  const Sandbox sandbox;
+  const auto told = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"solve", "furnace", "--error", "0.5", "--error-points", "10", "-v"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return sandbox.Run(arguments).err;
+  };
+  const std::string plain = told({});
+  for (const char* flag : {"--two-sided", "acceleration", "--multigrid", "true", "false"})
+    EXPECT_THAT(plain, testing::Not(HasSubstr(flag)));
+  const std::string set = told({"--two-sided", "--no-acceleration", "--emittance", "glow=1,2,0.5"});
+  for (const char* line : {"   --two-sided\n", "   --no-acceleration\n", "   --emittance glow=1"})
+    EXPECT_THAT(set, HasSubstr(line));
 }
 
 // An output that cannot be written is told in one line, before the solve.
