@@ -36,6 +36,9 @@ constexpr Choice<OracleKind> kOracles[] = {{"transport", OracleKind::kTransport}
                                            {"gradient", OracleKind::kGradient},
                                            {"thesis", OracleKind::kThesis}};
 
+constexpr Choice<LinkFormFactors> kLinkFormFactors[] = {{"cubature", LinkFormFactors::kCubature},
+                                                        {"exact", LinkFormFactors::kExact},
+                                                        {"disk", LinkFormFactors::kDisk}};
 constexpr Choice<RefineBy> kRefinements[] = {{"transport", RefineBy::kTransport},
                                              {"representation", RefineBy::kRepresentation},
                                              {"both", RefineBy::kBoth}};
@@ -251,16 +254,12 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
             "than this, "
             "relative to the source's diameter as seen, as the thesis does; 0: the fastest exact way")
       ->group(group);
-  app.add_option_function<std::string>(
-         "--form-factors",
-         [solving](const std::string& name) {
-           solving->form_factors = name == "exact" ? LinkFormFactors::kExact : LinkFormFactors::kCubature;
-         },
-         "Of links: `cubature`, the mean of exact point factors over a few points of the receiver, or "
-         "`exact`, "
-         "between areas to 1e-7: slower, and closed rooms then close")
-      ->check(CLI::IsMember(std::vector<std::string>{"cubature", "exact"}))
-      ->default_str("cubature")
+  AddChoice(
+      app, "--form-factors", &solving->form_factors, kLinkFormFactors,
+      "Of links: the mean of exact point factors over a few points of the receiver (cubature); between areas "
+      "to "
+      "1e-7, slower, and closed rooms then close (exact); or the source as a disk seen from the receiver's "
+      "centre, to compare (disk, Hanrahan et al. 1991)")
       ->group(group);
   const std::map<std::string, BasisDegree> degrees = {{"constant", BasisDegree::kConstant},
                                                       {"linear", BasisDegree::kLinear},
@@ -355,8 +354,7 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["nudge"] = arguments.solving.point.nudge;
     options["source_push_off"] = arguments.solving.point.source_push_off;
     options["min_backprojection_segment"] = arguments.solving.point.min_backprojection_segment;
-    options["form_factors"] =
-        arguments.solving.form_factors == LinkFormFactors::kExact ? "exact" : "cubature";
+    options["form_factors"] = ChoiceName(kLinkFormFactors, arguments.solving.form_factors);
     options["solver"] = arguments.solving.dense ? "dense" : "hierarchical";
     if (arguments.solving.dense) {
       constexpr std::array<const char*, 3> kDegrees = {"constant", "linear", "quadratic"};
@@ -423,7 +421,7 @@ PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   if (options.contains("time_limit")) solving.time_limit = options["time_limit"].get<double>();
   if (options.contains("memory_limit")) solving.memory_limit = options["memory_limit"].get<double>();
   options.at("bounces").get_to(solving.bounces);
-  if (options.at("form_factors") == "exact") solving.form_factors = LinkFormFactors::kExact;
+  solving.form_factors = ChoiceValue(kLinkFormFactors, options.at("form_factors").get<std::string>());
   if (options.at("solver") == "dense") {
     const std::string basis = options.at("basis").get<std::string>();
     solving.dense.emplace();

@@ -76,11 +76,8 @@ struct PlacedArea {
 
 double Disk(const Scene& scene, std::span<const PatchId> blockers, const PlacedArea& from,
             const Vec3& from_normal, const PlacedArea& to, const Vec3& to_normal) {
-  const Vec3 way = to.centre - from.centre;
-  const double square = way.squaredNorm();
-  const double cosines = std::max(0.0, from_normal.dot(way)) * std::max(0.0, -to_normal.dot(way));
-  if (cosines == 0 || !Free(scene, blockers, from.centre, to.centre)) return 0;
-  return cosines / square * to.area / (std::numbers::pi * square + to.area);
+  const double factor = DiskFactor(from.centre, from_normal, to.centre, to_normal, to.area);
+  return factor > 0 && Free(scene, blockers, from.centre, to.centre) ? factor : 0;
 }
 
 // Four parts of a convex polygon: about its centroid, from the middle of one edge to that of another.
@@ -118,6 +115,14 @@ std::optional<std::vector<PatchId>> Blockers(const Scene& scene, std::span<const
 }
 
 }  // namespace
+
+double DiskFactor(const Vec3& at, const Vec3& at_normal, const Vec3& centre, const Vec3& normal,
+                  double area) {
+  const Vec3 way = centre - at;
+  const double square = way.squaredNorm();
+  const double cosines = std::max(0.0, at_normal.dot(way)) * std::max(0.0, -normal.dot(way));
+  return cosines == 0 ? 0 : cosines / square * area / (std::numbers::pi * square + area);
+}
 
 FormFactorEstimate DiskFormFactor(const Scene& scene, std::span<const AreaPart> from,
                                   std::span<const AreaPart> to, const ExecutionContext& context) {

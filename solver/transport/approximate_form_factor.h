@@ -12,6 +12,10 @@
 
 namespace penumbra {
 
+// The form factor of a point to a disk of this area about `centre`, unhindered: A cos cos / (pi r^2 + A)
+// (Wallace, Elmquist and Haines 1989); 0 where one does not face the other.
+double DiskFactor(const Vec3& at, const Vec3& at_normal, const Vec3& centre, const Vec3& normal, double area);
+
 // Each part that sends is a point at its centroid, each that receives a disk of its area: A cos cos / (pi r^2
 // + A) (Wallace, Elmquist and Haines 1989; Hanrahan, Salzman and Aupperle 1991), and all of it or nothing is
 // seen, as centroids see each other. The error is the difference from the same with each pair cut into 4 x 4:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "solver/transport/approximate_form_factor.h"
 #include "solver/transport/cubature.h"
 #include "solver/visibility/area_form_factor.h"
 #include "solver/visibility/clipping.h"
@@ -144,6 +145,7 @@ class Former {
     link.variation = std::sqrt(
         std::max(0.0, pending.lit_fraction * pending.mean_square - link.form_factor * link.form_factor));
     if (form_factors_ == LinkFormFactors::kExact) link.form_factor = ExactFactor(link);
+    if (form_factors_ == LinkFormFactors::kDisk) link.form_factor = DiskFactorOf(link, pending);
     if (pending.uniform || total <= 0) return;
     const double area = forest_[link.source].area;
     for (std::size_t q = 0; q < 4; ++q) {
@@ -154,6 +156,23 @@ class Former {
       unevenness += fraction * (share / fraction - 1) * (share / fraction - 1);
     }
     link.source_variation = static_cast<float>(std::sqrt(unevenness));
+  }
+
+  double DiskFactorOf(const Link& link, const Pending& pending) const {
+    const Element& source = forest_[link.source];
+    ReceiverPoint at;
+    at.position = pending.lit.empty() ? centre_ : Centroid(pending.lit);
+    at.normal = patch_.normal;
+    PointView view(forest_.scene(), at);
+    if (!view.FaceSource(source.patch)) return 0;
+    const DirectionPolygon seen = view.SeeSource(source.Vertices());
+    std::vector<Occluder>& occluders = view.occluder_stack();
+    if (seen.empty() || !view.FindBlockers(set_.Blockers(link), receiver_.patch, seen, occluders)) return 0;
+    const double whole = FormFactor(seen, at.normal);
+    if (whole <= 0) return 0;
+    const double disk = DiskFactor(at.position, at.normal, Centroid(source.Vertices()),
+                                   forest_.scene().patches[source.patch].normal, source.area);
+    return pending.lit_fraction * disk * view.VisibleFormFactor(seen, occluders) / whole;
   }
 
   double ExactFactor(const Link& link) const {

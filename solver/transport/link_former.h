@@ -17,6 +17,9 @@ namespace penumbra {
 enum class LinkFormFactors {
   kCubature,  // the mean over a few points of the receiver
   kExact,     // between areas (AreaFormFactor), to kExactLinkTolerance: sums and reciprocity hold to that
+  // The source as a disk, seen from the centre of the receiver's part before it, times the share of it that
+  // blockers leave there, exactly (Hanrahan, Salzman and Aupperle 1991, who cast rays for that): to compare.
+  kDisk,
 };
 inline constexpr double kExactLinkTolerance = 1e-7;  // of the factor, where something stands between
 // Points that an exact link past blockers may cost.

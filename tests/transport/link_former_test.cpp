@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <numbers>
 
 #include "tests/transport/transport_test_tools.h"
 
@@ -17,11 +19,11 @@ struct Roots {
 
   explicit Roots(const Scene& scene) : forest(scene), visibility(scene) {}
 
-  LinkSet Form(PatchId receiver) const {
+  LinkSet Form(PatchId receiver, LinkFormFactors form_factors = LinkFormFactors::kCubature) const {
     std::vector<LinkCandidate> candidates;
     for (const PatchPair& pair : visibility.SourcesOf(receiver))
       candidates.push_back({ElementForest::Root(pair.source), visibility.Blockers(pair)});
-    return FormLinks(forest, ElementForest::Root(receiver), candidates);
+    return FormLinks(forest, ElementForest::Root(receiver), candidates, form_factors);
   }
 };
 
@@ -41,6 +43,29 @@ TEST(FormLinks, UnitCube) {
       EXPECT_EQ(link.visibility, Visibility::kVisible);
     }
   }
+}
+
+// A far square is a disk but for the square of its size over the distance, and a board that hides half of it
+// from the receiver's centre leaves half the factor.
+TEST(FormLinks, Disks) {
+  constexpr double kDistance = 10;
+  Scene scene;
+  AddMaterial(scene, 0.5, 1);
+  Add(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, 0);
+  Add(scene, {{0, 0, kDistance}, {0, 1, kDistance}, {1, 1, kDistance}, {1, 0, kDistance}}, 0);
+  const double disk = 1 / (std::numbers::pi * kDistance * kDistance + 1);
+  const LinkSet clear = Roots(scene).Form(0, LinkFormFactors::kDisk);
+  ASSERT_EQ(clear.links.size(), 1U);
+  EXPECT_NEAR(clear.links[0].form_factor, disk, 1e-15);
+  EXPECT_NEAR(clear.links[0].form_factor, Roots(scene).Form(0).links[0].form_factor,
+              disk / kDistance / kDistance);
+
+  Add(scene, {{0.5, -2, 5}, {3, -2, 5}, {3, 3, 5}, {0.5, 3, 5}}, 0);
+  const LinkSet half = Roots(scene).Form(0, LinkFormFactors::kDisk);
+  for (const Link& link : half.links)
+    if (link.source == ElementForest::Root(1)) EXPECT_NEAR(link.form_factor, 0.5 * disk, 1e-15);
+  EXPECT_TRUE(std::any_of(half.links.begin(), half.links.end(),
+                          [](const Link& link) { return link.source == ElementForest::Root(1); }));
 }
 
 // In closed rooms the factors of a patch's links add up to 1, and those of a pair are reciprocal: A F = A'
