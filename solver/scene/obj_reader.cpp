@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -132,14 +133,14 @@ void ObjParser::ReadVertex() {
 
 // The 0-based vertex that v, v/vt, v//vn or v/vt/vn refers to.
 std::int64_t ObjParser::ReadVertexIndex(std::string_view word) const {
-  std::array<std::int64_t, 3> index = {0, 0, 0};
+  std::array<std::optional<std::int64_t>, 3> index;
   std::string_view rest = word;
   bool fine = true;
   for (int part = 0; part < 3; ++part) {
     const std::size_t end = std::min(rest.find('/'), rest.size());
     const char* const stop = rest.data() + end;
     if (end > 0) {
-      const auto [last, error] = std::from_chars(rest.data(), stop, index[part]);
+      const auto [last, error] = std::from_chars(rest.data(), stop, index[part].emplace());
       fine = fine && error == std::errc() && last == stop;
     } else {
       fine = fine && part > 0;
@@ -152,20 +153,22 @@ std::int64_t ObjParser::ReadVertexIndex(std::string_view word) const {
   if (!fine)
     throw reader_.Error(Quoted(word) +
                         " is no vertex of a face; write v, v/vt, v//vn or v/vt/vn with integers");
-  if (index[1] != 0) Resolve(index[1], texture_vertices_, "texture vertex", "texture vertices");
-  if (index[2] != 0) Resolve(index[2], normals_, "normal", "normals");
-  return Resolve(index[0], Size(vertices_), "vertex", "vertices");
+  if (index[1]) Resolve(*index[1], texture_vertices_, "texture vertex", "texture vertices");
+  if (index[2]) Resolve(*index[2], normals_, "normal", "normals");
+  return Resolve(*index[0], Size(vertices_), "vertex", "vertices");
 }
 
 // The 0-based place that an index means, of so many above it.
 std::int64_t ObjParser::Resolve(std::int64_t index, std::int64_t count, std::string_view what,
                                 std::string_view many) const {
   const std::int64_t place = index > 0 ? index - 1 : count + index;
-  if (index == 0 || place < 0 || place >= count)
-    throw reader_.Error("the " + std::string(what) + " index " + std::to_string(index) +
-                        " is out of range; use 1 to " + std::to_string(count) + " for the " +
-                        std::string(many) + " above, or count back from -1");
-  return place;
+  if (index != 0 && place >= 0 && place < count) return place;
+  const std::string wrong =
+      "the " + std::string(what) + " index " + std::to_string(index) + " is out of range; ";
+  if (count == 0)
+    throw reader_.Error(wrong + "there are no " + std::string(many) + " above; define them before the face");
+  throw reader_.Error(wrong + "use 1 to " + std::to_string(count) + " for the " + std::string(many) +
+                      " above, or count back from -1");
 }
 
 void ObjParser::ReadFace() {
