@@ -5,12 +5,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "apps/camera_arguments.h"
 #include "apps/commands.h"
 #include "apps/export_file.h"
 #include "apps/option_values.h"
 #include "apps/output.h"
+#include "apps/restart.h"
 #include "apps/scene_arguments.h"
 #include "apps/solve_run.h"
 
@@ -24,14 +26,21 @@ struct ExportArguments {
   std::optional<double> exposure;  // [m^2/W]; metered if not given
 };
 
-void Export(const ExportArguments& arguments) {
+// Where the scene alone is written, nothing can be said of a solve.
+void RefuseSolve(const ExportArguments& arguments) {
+  for (const auto& [name, value] :
+       {std::pair("--report", &arguments.scene.report), std::pair("--restart", &arguments.scene.restart)})
+    if (*value)
+      throw UsageError(fmt::format("{} is of a solve, and nothing is solved for '{}'; leave it out", name,
+                                   arguments.output));
+}
+
+void Export(ExportArguments arguments) {
+  if (!ExportsMesh(arguments.output)) RefuseSolve(arguments);
   CheckWritable(arguments.output);
   if (arguments.scene.report) CheckWritable(*arguments.scene.report);
-  LoadedScene loaded = LoadScene(arguments.scene);
+  LoadedScene loaded = LoadToSolve(arguments.scene);
   if (!ExportsMesh(arguments.output)) {
-    if (arguments.scene.report)
-      throw UsageError(fmt::format("--report tells of a solve, and nothing is solved for '{}'; leave it out",
-                                   arguments.output));
     if (arguments.scene.verbose) PrintOptionsUsed(OptionsUsed(arguments.scene, nullptr));
     ExportScene(arguments.output, loaded.scene, ChooseCamera(loaded.scene, arguments.camera));
     return;
@@ -63,6 +72,7 @@ Command AddExportCommand(CLI::App& program) {
             "Brightness of the colours in .ply and .glb, 0 to 1, per W/m^2 (default: metered from the mesh)");
   AddCameraOptions(*app, &arguments->camera);
   AddSolveOptions(*app, &arguments->scene);
+  AddRestartOption(*app, &arguments->scene);
   AddReportOption(*app, &arguments->scene);
   app->footer(
       "With the light, which is solved for first:\n"

@@ -10,7 +10,9 @@
 #include "apps/commands.h"
 #include "apps/output.h"
 #include "apps/report.h"
+#include "apps/restart.h"
 #include "apps/scene_arguments.h"
+#include "apps/solve_run.h"
 #include "mesh/solution_file.h"
 
 namespace penumbra {
@@ -124,12 +126,19 @@ std::string InfoText(const LoadedScene& loaded, const SceneSummary& summary) {
   return text;
 }
 
-void Info(const SceneArguments& arguments, bool as_json) {
-  const LoadedScene loaded = LoadScene(arguments);
-  if (arguments.verbose)
-    PrintOptionsUsed(loaded.stored ? loaded.stored->options : OptionsUsed(arguments, nullptr));
+void Info(SceneArguments arguments, bool as_json) {
+  if (arguments.report) CheckWritable(*arguments.report);
+  LoadedScene loaded = LoadToSolve(arguments);
   const SceneSummary summary = Summarise(loaded.scene);
-  WriteResult(std::nullopt, as_json ? InfoJson(loaded, summary) : InfoText(loaded, summary));
+  const std::string info = as_json ? InfoJson(loaded, summary) : InfoText(loaded, summary);
+  if (arguments.report) {
+    SolveRun run(arguments, loaded);
+    run.Run(MeshKind::kInterpolant, true);
+    run.Tell();
+  } else if (arguments.verbose) {
+    PrintOptionsUsed(loaded.stored ? loaded.stored->options : OptionsUsed(arguments, nullptr));
+  }
+  WriteResult(std::nullopt, info);
 }
 
 }  // namespace
@@ -142,7 +151,11 @@ Command AddInfoCommand(CLI::App& program) {
   AddSceneArguments(*app, arguments.get());
   app->add_flag("--json", *as_json, "Print JSON");
   AddSolveOptions(*app, arguments.get());
-  app->footer("Nothing is solved: the options of solving are taken, and change nothing.");
+  AddRestartOption(*app, arguments.get());
+  AddReportOption(*app, arguments.get());
+  app->footer(
+      "Nothing is solved, and the options of solving change nothing, unless --report asks what a solve of\n"
+      "the scene takes and reaches. The report of a solution is that of the solve that made it.");
   return {app, [arguments, as_json] { Info(*arguments, *as_json); }};
 }
 

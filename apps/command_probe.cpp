@@ -13,6 +13,7 @@
 #include "apps/output.h"
 #include "apps/points_csv.h"
 #include "apps/probe.h"
+#include "apps/restart.h"
 #include "apps/scene_arguments.h"
 #include "apps/solve_run.h"
 #include "solver/transport/source_set.h"
@@ -59,10 +60,10 @@ std::vector<Measurement> MeasureDirect(const ProbeArguments& arguments, const Sc
   return Measure(Prober(scene, irradiance, nullptr, arguments.parts), points);
 }
 
-void Probe(const ProbeArguments& arguments) {
+void Probe(ProbeArguments arguments) {
   if (arguments.output) CheckWritable(*arguments.output);
   if (arguments.scene.report) CheckWritable(*arguments.scene.report);
-  LoadedScene loaded = LoadScene(arguments.scene);
+  LoadedScene loaded = LoadToSolve(arguments.scene);
   const std::vector<ProbePoint> points = ReadPointsCsv(arguments.points);
 
   PointIrradianceOptions how = loaded.stored ? loaded.stored->solving.point : arguments.scene.solving.point;
@@ -120,6 +121,7 @@ Command AddProbeCommand(CLI::App& program) {
       ->type_name("METHOD")
       ->capture_default_str();
   AddSolveOptions(*app, &arguments->scene);
+  AddRestartOption(*app, &arguments->scene)->excludes(direct);
   AddReportOption(*app, &arguments->scene)->excludes(direct);
   app->footer(
       "Prints x,y,z,nx,ny,nz,patch,exact_r,exact_g,exact_b,interp_r,interp_g,interp_b, a row a point, in "

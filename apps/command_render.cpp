@@ -10,6 +10,7 @@
 #include "apps/interruptible.h"
 #include "apps/output.h"
 #include "apps/render_arguments.h"
+#include "apps/restart.h"
 #include "apps/solve_run.h"
 #include "display/false_colour.h"
 #include "display/image_io.h"
@@ -145,11 +146,11 @@ void RenderByRays(const RenderArguments& arguments, const Camera& camera, SolveR
                 }));
 }
 
-void Render(const RenderArguments& arguments) {
+void Render(RenderArguments arguments) {
   CheckRenderArguments(arguments);
   // Whether there is OpenGL is told before the work.
   if (arguments.backend == Backend::kOpenGl) OpenGlPasses({}, arguments.coordinates);
-  LoadedScene loaded = LoadScene(arguments.scene);
+  LoadedScene loaded = LoadToSolve(arguments.scene);
   const Camera camera = ChooseCamera(loaded.scene, arguments.camera);
   SolveRun run(arguments.scene, loaded, RenderOptionsUsed(arguments));
   // A report tells the interpolants' error even where the picture does without them.
@@ -173,6 +174,7 @@ Command AddRenderCommand(CLI::App& program) {
   AddPictureOptions(*app, arguments.get());
   AddCameraOptions(*app, &arguments->camera);
   AddSolveOptions(*app, &arguments->scene);
+  AddRestartOption(*app, &arguments->scene);
   AddReportOption(*app, &arguments->scene);
   return {app, [arguments] { Render(*arguments); }};
 }

@@ -15,17 +15,14 @@
 namespace penumbra {
 namespace {
 
-void Solve(SceneArguments arguments, const std::optional<std::string>& output,
-           const std::optional<std::string>& restart) {
+void Solve(SceneArguments arguments, const std::optional<std::string>& output) {
   if (output) CheckWritable(*output);
   if (arguments.report) CheckWritable(*arguments.report);
-  LoadedScene loaded = restart ? LoadRestart(arguments, *restart) : LoadScene(arguments);
+  LoadedScene loaded = LoadToSolve(arguments);
   if (loaded.stored)
     throw UsageError(
         fmt::format("'{}' is a solution already; give the scene to solve it anew", arguments.scene));
-  nlohmann::ordered_json command_options = nlohmann::ordered_json::object();
-  if (restart) command_options["restart"] = *restart;
-  SolveRun run(arguments, loaded, command_options);
+  SolveRun run(arguments, loaded);
   run.Run(MeshKind::kInterpolant, true);
   if (output) WriteResult(output, run.SolutionFile());
   const bool table = !output && !WantsReport(arguments);
@@ -40,24 +37,17 @@ Command AddSolveCommand(CLI::App& program) {
       program.add_subcommand("solve", "Solve for the light in a scene, keep it, and report on it");
   const auto arguments = std::make_shared<SceneArguments>();
   const auto output = std::make_shared<std::optional<std::string>>();
-  const auto restart = std::make_shared<std::optional<std::string>>();
   AddSceneArguments(*app, arguments.get());
   app->add_option(
          "-o,--output", *output,
          "Keep the solution here, as HDF5: the commands that take a SCENE take it instead, and need not "
          "solve again")
       ->type_name("SOLUTION");
-  app->add_option(
-         "--restart", *restart,
-         "Light the scene over the links of this solution instead of linking and refining anew. It has to be "
-         "one of the same geometry; emittances and reflectances may be others, in the file or by --emittance "
-         "and --reflectance. No form factor is computed; corrections and the mesh are made as usual, by the "
-         "options of this command. Options that say how links are made are refused")
-      ->type_name("SOLUTION");
   AddSolveOptions(*app, arguments.get());
+  AddRestartOption(*app, arguments.get());
   AddReportOption(*app, arguments.get());
   app->footer("Without -o, --report or -v the report goes to standard output, as a table.");
-  return {app, [arguments, output, restart] { Solve(*arguments, *output, *restart); }};
+  return {app, [arguments, output] { Solve(*arguments, *output); }};
 }
 
 }  // namespace penumbra

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/commands.h"
 #include "mesh/solution_check.h"
+#include "solver/base/check.h"
 #include "solver/scene/geometry_difference.h"
 
 namespace penumbra {
@@ -25,8 +27,6 @@ void TakeLinkOptions(const PipelineOptions& from, PipelineOptions& to) {
   to.form_factors = from.form_factors;
 }
 
-}  // namespace
-
 LoadedScene LoadRestart(SceneArguments& arguments, const std::string& from) {
   for (const char* name : kLinkOptions)
     if (arguments.app && arguments.app->get_option(name)->count() > 0)
@@ -34,7 +34,7 @@ LoadedScene LoadRestart(SceneArguments& arguments, const std::string& from) {
           "{} says how links are made, but --restart keeps those of '{}'; leave one of the two out", name,
           from));
   LoadedScene loaded = LoadScene(arguments);
-  if (loaded.stored) return loaded;
+  PENUMBRA_CHECK(!loaded.stored);  // such options are refused beside a solution
   LoadedScene solved = LoadSolution(from);
   StoredRun run = std::move(*solved.stored);
   if (run.solving.dense)
@@ -53,6 +53,12 @@ LoadedScene LoadRestart(SceneArguments& arguments, const std::string& from) {
   TakeLinkOptions(run.solving, arguments.solving);
   loaded.restart = std::move(run);
   return loaded;
+}
+
+}  // namespace
+
+LoadedScene LoadToSolve(SceneArguments& arguments) {
+  return arguments.restart ? LoadRestart(arguments, *arguments.restart) : LoadScene(arguments);
 }
 
 }  // namespace penumbra

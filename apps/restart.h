@@ -1,20 +1,18 @@
 // apps/restart.h
 //
 // The light of a scene over the links of a solution of the same geometry, after emittances or reflectances
-// have changed: `solve --restart`.
+// have changed: `--restart`.
 
 #pragma once
-
-#include <string>
 
 #include "apps/scene_arguments.h"
 
 namespace penumbra {
 
-// Reads the scene that the arguments name, and the solution in the file `from`, whose links become those of
-// the scene: LoadedScene::restart. The options that say how links are made become those of the file. Throws
-// InputError if the file is no solution, has no links, or is of another geometry, and UsageError if the
-// arguments name a solution for a scene or say how to make links.
-LoadedScene LoadRestart(SceneArguments& arguments, const std::string& from);
+// LoadScene(), for who is going to solve. With --restart it reads that solution, too, whose links become
+// those of the scene: LoadedScene::restart. The options that say how links are made become those of the file.
+// Throws InputError if the file is no solution, has no links, or is of another geometry, and UsageError if
+// the arguments name a solution for a scene or say how to make links.
+LoadedScene LoadToSolve(SceneArguments& arguments);
 
 }  // namespace penumbra

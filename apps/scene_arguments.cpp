@@ -315,6 +315,18 @@ CLI::Option* AddReportOption(CLI::App& app, SceneArguments* arguments) {
       ->group("Running");
 }
 
+CLI::Option* AddRestartOption(CLI::App& app, SceneArguments* arguments) {
+  return app
+      .add_option(
+          "--restart", arguments->restart,
+          "Light the scene over the links of this solution instead of linking and refining anew. It has to "
+          "be one of the same geometry; emittances and reflectances may be others, in the file or by "
+          "--emittance and --reflectance. No form factor is computed; corrections and the mesh are made as "
+          "usual, by the options of this command. Options that say how links are made are refused")
+      ->type_name("SOLUTION")
+      ->group(kSolvingGroup);
+}
+
 nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const ResolvedOptions* resolved) {
   nlohmann::ordered_json options;
   options["scene"] = arguments.scene;

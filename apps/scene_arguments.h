@@ -27,7 +27,8 @@ struct SceneArguments {
   PipelineOptions solving;
   int threads = 0;  // 0: all
   bool verbose = false;
-  std::optional<std::string> report;  // where the report goes
+  std::optional<std::string> report;   // where the report goes
+  std::optional<std::string> restart;  // the solution whose links a solve begins with: LoadToSolve()
 };
 
 // SCENE or SOLUTION, the options of reading it, threads, seed, verbosity.
@@ -35,6 +36,7 @@ void AddSceneArguments(CLI::App& app, SceneArguments* arguments);
 // The options of the method. REQUIRES: AddSceneArguments.
 void AddSolveOptions(CLI::App& app, SceneArguments* arguments);
 CLI::Option* AddReportOption(CLI::App& app, SceneArguments* arguments);
+CLI::Option* AddRestartOption(CLI::App& app, SceneArguments* arguments);
 
 // What a user could set and what it came to, by option name with '_' for '-'. Without `resolved` nothing is
 // solved, and only what concerns the scene is listed.
@@ -58,7 +60,7 @@ struct LoadedScene {
   const Scene& scene = *owner;
   double seconds = 0;                              // that reading it took
   std::optional<StoredRun> stored = std::nullopt;  // of a solution file
-  // Of a solution of the same geometry, whose links another solve begins with: LoadRestart().
+  // Of a solution of the same geometry, whose links another solve begins with: LoadToSolve().
   std::optional<StoredRun> restart = std::nullopt;
 };
 

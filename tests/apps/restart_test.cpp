@@ -1,4 +1,4 @@
-// `solve --restart`: the light of other materials over the links of a solution.
+// `--restart`: the light of other materials over the links of a solution.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -130,6 +130,47 @@ TEST(Restart, AgreesWithSolvingAnew) {
   EXPECT_THAT(sandbox.Run({"info", "over.h5"}).out, HasSubstr("solved by"));
 }
 
+// Whoever solves may begin with the links of a solution: the result is that of the solution made so, to the
+// byte.
+TEST(Restart, ServesEveryCommandThatSolves) {
+  const Sandbox sandbox;
+  sandbox.Write("points.csv", kRestartPoints);
+  const std::vector<std::string> how = {
+      "--error", "0.5", "--error-points", "10", "--emittance", "left_light=0,0,9", "--restart", "first.h5"};
+  ASSERT_EQ(sandbox.Run({"solve", "floating-cube", "--error", "0.5", "-o", "first.h5"}).status, 0);
+  ASSERT_EQ(sandbox.Run(Command({"solve", "floating-cube", "-o", "over.h5"}, how)).status, 0);
+  for (const auto& [command, output] :
+       {std::pair(std::vector<std::string>{"render", "--size", "8x6"}, "a.png"),
+        {{"probe", "--points", "points.csv"}, "a.csv"},
+        {{"export"}, "a.ply"}}) {
+    const Outcome over = sandbox.Run(Command(command, {"over.h5", "-o", std::string("over-") + output}));
+    EXPECT_EQ(over.status, 0) << over.err;
+    const Outcome scene = sandbox.Run(Command(Command(command, {"floating-cube", "-o", output}), how));
+    EXPECT_EQ(scene.status, 0) << scene.err;
+    EXPECT_EQ(ReadBytes(sandbox.Path(output)), ReadBytes(sandbox.Path(std::string("over-") + output)));
+  }
+}
+
+// `info` solves where a report is asked for, and only there; of a solution it is the report of its solve.
+TEST(Info, ReportsOnTheSolve) {
+  const Sandbox sandbox;
+  const std::vector<std::string> how = {"--error", "0.5", "--error-points", "10"};
+  ASSERT_EQ(
+      sandbox.Run(Command({"solve", "floating-cube", "-o", "a.h5", "--report", "solve.json"}, how)).status,
+      0);
+  const json solved = ReadJson(sandbox, "solve.json");
+  const Outcome scene = sandbox.Run(Command({"info", "floating-cube", "--report", "scene.json"}, how)),
+                solution = sandbox.Run({"info", "a.h5", "--report", "solution.json"});
+  EXPECT_EQ(scene.status, 0) << scene.err;
+  EXPECT_EQ(scene.out, sandbox.Run({"info", "floating-cube"}).out);
+  EXPECT_EQ(solution.status, 0) << solution.err;
+  EXPECT_EQ(solution.out, sandbox.Run({"info", "a.h5"}).out);
+  for (const char* name : {"scene.json", "solution.json"})
+    for (const char* part : {"counts", "energy", "error"})
+      EXPECT_EQ(ReadJson(sandbox, name)[part], solved[part]) << name << " " << part;
+  EXPECT_EQ(sandbox.Run({"info", "floating-cube", "--report", "no/where.json"}).status, 1);
+}
+
 // What cannot be is refused in one line that says why, and nothing is written.
 TEST(Restart, RefusesWhatDoesNotFit) {
   const Sandbox sandbox;
@@ -151,7 +192,7 @@ TEST(Restart, RefusesWhatDoesNotFit) {
         Case{{"furnace", "--restart", "none.h5"}, 1, "none.h5:0: error: there is no such file"},
         Case{{"furnace", "--restart", "text"}, 1, "text:0: error: it is no solution"},
         Case{{"furnace", "--restart", "dense.h5"}, 1, "dense.h5:0: error: the dense solver"},
-        Case{{"a.h5", "--restart", "a.h5"}, 2, "is a solution already"},
+        Case{{"a.h5", "--restart", "a.h5"}, 2, "'a.h5' is a solution"},
         Case{{"furnace", "--restart", "a.h5", "--eps", "1"}, 2, "--eps says how links"},
         Case{{"furnace", "--restart", "a.h5", "--solver", "dense"}, 2, "--solver says how"}}) {
     const Outcome outcome = sandbox.Run(Command(Command({"solve"}, c.arguments), {"-o", "x.h5"}));

@@ -37,15 +37,15 @@ TEST(Help, ListsEveryOption) {
                                             "--error-points",
                                             "--iterations"};
   const std::vector<std::pair<std::string, std::vector<std::string>>> own = {
-      {"solve", {"--report"}},
+      {"solve", {"--report", "--restart"}},
       {"render",
        {"--output", "--mode", "--eye", "--look-at", "--up", "--fov", "--size", "--exposure", "--camera",
         "--benchmark", "--report", "--false-colour", "--scale-max", "--split", "--backend",
-        "--opengl-coordinates", "--supersampling", "--samples"}},
-      {"probe", {"--points", "--direct", "--output", "--report"}},
-      {"export", {"--output", "--exposure", "--camera", "--report"}},
+        "--opengl-coordinates", "--supersampling", "--samples", "--restart"}},
+      {"probe", {"--points", "--direct", "--output", "--report", "--restart"}},
+      {"export", {"--output", "--exposure", "--camera", "--report", "--restart"}},
       {"view", {"--script", "--no-solve", "--help-script", "--camera", "--eye"}},
-      {"info", {"--json"}}};
+      {"info", {"--json", "--report", "--restart"}}};
   const Outcome form_factor = sandbox.Run({"form-factor", "--help"});
   EXPECT_EQ(form_factor.status, 0);
   for (const char* option :
@@ -138,6 +138,8 @@ TEST(Usage, BadUsageEndsWithTwo) {
       {"form-factor", "furnace", "--from", "0", "--to", "1", "--tolerance", "0"},
       {"form-factor", "furnace", "--from", "0", "--to", "1", "--rays", "0"},
       {"probe", "furnace", "--points", "p.csv", "--direct", "--report", "r.json"},
+      {"probe", "furnace", "--points", "p.csv", "--direct", "--restart", "a.h5"},
+      {"export", "furnace", "-o", "furnace2.obj", "--restart", "a.h5"},
   };
   const Sandbox sandbox;
   for (const std::vector<std::string>& arguments : bad) {
