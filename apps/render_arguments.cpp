@@ -90,10 +90,7 @@ nlohmann::ordered_json RenderOptionsUsed(const RenderArguments& arguments) {
     if (arguments.backend == Backend::kOpenGl)
       options["opengl_coordinates"] = ChoiceName(kCoordinates, arguments.coordinates);
   }
-  if (arguments.exposure)
-    options["exposure"] = *arguments.exposure;
-  else
-    options["exposure"] = arguments.mode.shading == ShadingMode::kReflectance ? "1" : "metered";
+  if (arguments.exposure) options["exposure"] = *arguments.exposure;
   options["false_colour"] = arguments.false_colour;
   if (arguments.scale_max) options["scale_max"] = *arguments.scale_max;
   options["split"] = arguments.split;

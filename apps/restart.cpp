@@ -15,10 +15,6 @@
 namespace penumbra {
 namespace {
 
-// Options of how links are made, which is done.
-constexpr const char* kLinkOptions[] = {"--eps",          "--iterations", "--oracle", "--multigrid",
-                                        "--form-factors", "--solver",     "--basis",  "--divisions"};
-
 void TakeLinkOptions(const PipelineOptions& from, PipelineOptions& to) {
   to.eps = from.eps;
   to.max_iterations = from.max_iterations;

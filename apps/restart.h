@@ -5,9 +5,16 @@
 
 #pragma once
 
+#include <array>
+
 #include "apps/scene_arguments.h"
 
 namespace penumbra {
+
+// Options of how links are made, which --restart refuses: that is done.
+inline constexpr auto kLinkOptions =
+    std::to_array<const char*>({"--eps", "--iterations", "--oracle", "--multigrid", "--form-factors",
+                                "--solver", "--basis", "--divisions"});
 
 // LoadScene(), for who is going to solve. With --restart it reads that solution, too, whose links become
 // those of the scene: LoadedScene::restart. The options that say how links are made become those of the file.

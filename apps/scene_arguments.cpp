@@ -14,6 +14,7 @@
 #include "apps/commands.h"
 #include "apps/option_values.h"
 #include "apps/report.h"
+#include "apps/restart.h"
 #include "mesh/solution_file.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
@@ -381,11 +382,9 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
 namespace {
 
 // The option as it would be given; nothing for a flag that was not.
-std::string OptionText(const std::string& key, const nlohmann::ordered_json& value) {
-  std::string name = key;
-  std::replace(name.begin(), name.end(), '_', '-');
+std::string OptionText(const std::string& name, const nlohmann::ordered_json& value) {
   if (value.is_boolean()) {
-    if (key == kAcceleration) return value.get<bool>() ? "" : fmt::format("   --no-{}\n", name);
+    if (name == kAcceleration) return value.get<bool>() ? "" : fmt::format("   --no-{}\n", name);
     return value.get<bool>() ? fmt::format("   --{}\n", name) : "";
   }
   if (value.is_object()) {  // of materials
@@ -398,11 +397,28 @@ std::string OptionText(const std::string& key, const nlohmann::ordered_json& val
   return fmt::format("   --{} {}\n", name, value.is_string() ? value.get<std::string>() : value.dump());
 }
 
+// Whether the option may not be given again: the links of a restart were made with it.
+bool IsOfRestart(const std::string& name, const nlohmann::ordered_json& options) {
+  return options.contains("restart") &&
+         std::find(kLinkOptions.begin(), kLinkOptions.end(), "--" + name) != kLinkOptions.end();
+}
+
 }  // namespace
 
 void PrintOptionsUsed(const nlohmann::ordered_json& options) {
-  std::string block = "Options used:\n";
-  for (const auto& [key, value] : options.items()) block += OptionText(key, value);
+  // A solution was made of the scene by these, which stand for it.
+  std::string block = options.contains("solution")
+                          ? fmt::format("Options used, and those that '{}' was solved with:\n",
+                                        options["solution"].get<std::string>())
+                          : "Options used:\n";
+  for (const auto& [key, value] : options.items()) {
+    std::string name = key;
+    std::replace(name.begin(), name.end(), '_', '-');
+    if (key == "scene")
+      block += fmt::format("   {}\n", value.get<std::string>());
+    else if (key != "solution" && !IsOfRestart(name, options))
+      block += OptionText(name, value);
+  }
   fmt::print(stderr, "{}", block);
 }
 

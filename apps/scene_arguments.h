@@ -44,7 +44,7 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
 // The same read back: OptionsUsed() of these, resolved, gives `options` again. Throws
 // nlohmann::json::exception.
 PipelineOptions SolvingFrom(const nlohmann::ordered_json& options);
-// The "Options used:" block, to standard error.
+// The "Options used:" block, to standard error: what, given again, does the same.
 void PrintOptionsUsed(const nlohmann::ordered_json& options);
 
 // A solution file's share in a run.

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <thread>
 
 #include "tests/apps/run_program.h"
@@ -318,6 +319,59 @@ TEST(Usage, OptionsUsedCanBeGivenAgain) {
   const std::string set = told({"--two-sided", "--no-acceleration", "--emittance", "glow=1,2,0.5"});
   for (const char* line : {"   --two-sided\n", "   --no-acceleration\n", "   --emittance glow=1"})
     EXPECT_THAT(set, HasSubstr(line));
+}
+
+// The words of the block of options used.
+std::vector<std::string> OptionsUsedIn(const std::string& err) {
+  std::vector<std::string> words;
+  bool inside = false;
+  for (const std::string& line : Lines(err)) {
+    if (inside && !line.starts_with("   ")) break;
+    if (inside) {
+      std::istringstream rest(line);
+      for (std::string word; rest >> word;) words.push_back(word);
+    }
+    inside = inside || line.starts_with("Options used");
+  }
+  return words;
+}
+
+// Given again, they are the same options, whatever the command.
+TEST(Usage, OptionsUsedGiveThemselves) {
+  const Sandbox sandbox;
+  sandbox.Write("p.csv", "x,y,z,nx,ny,nz\n0.5,0.5,0.5,0,0,1\n");
+  ASSERT_EQ(sandbox.Run({"solve", "furnace", "--error", "0.5", "-o", "a.h5"}).status, 0);
+  struct Case {
+    std::vector<std::string> command, options;
+  };
+  for (const Case& c : {
+           Case{{"solve"}, {"furnace", "--error", "0.5"}},
+           Case{{"solve"}, {"furnace", "--solver", "dense", "--basis", "linear", "--divisions", "1"}},
+           Case{{"solve"},
+                {"furnace", "--error", "0.5", "--two-sided", "--no-acceleration", "--bounces", "2"}},
+           Case{{"solve"}, {"furnace", "--error", "0.5", "--restart", "a.h5", "--time-limit", "1000"}},
+           Case{{"render", "-o", "a.png"}, {"furnace", "--error", "0.5", "--size", "8x6"}},
+           Case{{"render", "-o", "a.png"}, {"furnace", "--mode", "rho", "--size", "8x6", "--exposure", "2"}},
+           Case{{"probe", "--points", "p.csv"}, {"furnace", "--error", "0.5", "--parts"}},
+           Case{{"probe", "--points", "p.csv"}, {"furnace", "--direct", "--emittance", "glow=1,2,0.5"}},
+           Case{{"form-factor"}, {"furnace", "--from", "0", "--to", "1"}},
+           Case{{"info"}, {"furnace", "--max-reflectance", "0.5"}},
+           Case{{"probe", "--points", "p.csv"}, {"a.h5"}},
+       }) {
+    const auto run = [&](const std::vector<std::string>& options) {
+      std::vector<std::string> arguments = c.command;
+      arguments.insert(arguments.end(), options.begin(), options.end());
+      arguments.push_back("-v");
+      return sandbox.Run(arguments);
+    };
+    const Outcome first = run(c.options);
+    ASSERT_EQ(first.status, 0) << first.err;
+    const std::vector<std::string> used = OptionsUsedIn(first.err);
+    const Outcome again = run(used);
+    ASSERT_EQ(again.status, 0) << testing::PrintToString(used) << again.err;
+    EXPECT_THAT(OptionsUsedIn(again.err), testing::UnorderedElementsAreArray(used));
+    EXPECT_EQ(again.out, first.out);
+  }
 }
 
 // An output that cannot be written is told in one line, before the solve.
