@@ -62,10 +62,10 @@ TEST(FormLinks, Disks) {
 
   Add(scene, {{0.5, -2, 5}, {3, -2, 5}, {3, 3, 5}, {0.5, 3, 5}}, 0);
   const LinkSet half = Roots(scene).Form(0, LinkFormFactors::kDisk);
-  for (const Link& link : half.links)
-    if (link.source == ElementForest::Root(1)) EXPECT_NEAR(link.form_factor, 0.5 * disk, 1e-15);
-  EXPECT_TRUE(std::any_of(half.links.begin(), half.links.end(),
-                          [](const Link& link) { return link.source == ElementForest::Root(1); }));
+  const auto link = std::find_if(half.links.begin(), half.links.end(),
+                                 [](const Link& l) { return l.source == ElementForest::Root(1); });
+  ASSERT_NE(link, half.links.end());
+  EXPECT_NEAR(link->form_factor, 0.5 * disk, 1e-15);
 }
 
 // In closed rooms the factors of a patch's links add up to 1, and those of a pair are reciprocal: A F = A'
