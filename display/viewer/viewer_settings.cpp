@@ -142,7 +142,8 @@ void Viewer::AddSolveSettings() {
   also(s.Choice("oracle", "Solving", "Refinement of links", &o.oracle,
                 {"transport", "visibility", "gradient", "thesis"}));
   also(s.Toggle("multigrid", "Solving", "Coarse links first", &o.multigrid));
-  also(s.Choice("form-factors", "Solving", "Form factors of links", &o.form_factors, {"cubature", "exact", "disk"}));
+  also(s.Choice("form-factors", "Solving", "Form factors of links", &o.form_factors,
+                {"cubature", "exact", "disk"}));
   s.Add(Optional("time-limit", "Time limit [s]", &o.time_limit, 1e-9, {}, changed));
   s.Add(Optional("memory-limit", "Memory limit [bytes]", &o.memory_limit, 1, {}, changed));
   also(s.Integer("bounces", "Solving", "Bounces that are reported", &o.bounces, 0, 1000));
