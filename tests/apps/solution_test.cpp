@@ -125,6 +125,21 @@ TEST(Solution, IsKeptWhenALimitEndsTheSolve) {
   }
 }
 
+// A name is bytes, which need not be text: what is kept and told of it is.
+TEST(Solution, IsKeptOfASceneOfAnyName) {
+  const Sandbox sandbox;
+  const std::string scene = "b\xff.obj", solution = "s\xfe.h5";
+  sandbox.Write(scene, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+  const Outcome solve = sandbox.Run({"solve", scene, "-o", solution, "--report", "a.json", "-v"});
+  ASSERT_EQ(solve.status, 0) << solve.err;
+  EXPECT_THAT(solve.err, HasSubstr(scene));
+  const Outcome info = sandbox.Run({"info", solution, "--json", "--report", "b.json", "-v"});
+  ASSERT_EQ(info.status, 0) << info.err;
+  EXPECT_EQ(json::parse(info.out)["faces"], 1);
+  for (const char* name : {"a.json", "b.json"})
+    EXPECT_TRUE(json::parse(ReadBytes(sandbox.Path(name)))["options"].is_object());
+}
+
 // Reflectances need no light: nothing is solved for them, and the picture is the same.
 TEST(Solution, IsNotMadeForReflectances) {
   const Sandbox sandbox;
