@@ -17,6 +17,7 @@
 #include "solver/base/check.h"
 #include "solver/transport/approximate_form_factor.h"
 #include "solver/visibility/area_form_factor.h"
+#include "solver/visibility/occlusion_method.h"
 
 namespace penumbra {
 namespace {
@@ -25,6 +26,7 @@ constexpr const char *kAuto = "auto", *kExact = "exact";
 constexpr const char* kDisk = "disk";
 constexpr const char* kCubature = "cubature";
 constexpr const char* kMonteCarlo = "monte-carlo";
+constexpr const char* kSampled = "sampled";  // of the methods at points, not here
 
 struct FormFactorArguments {
   SceneArguments scene;
@@ -33,6 +35,29 @@ struct FormFactorArguments {
   double tolerance = AreaFormFactorOptions().tolerance;
   std::uint64_t rays = 1'000'000;
 };
+
+// Exact ways to find occlusion at a point.
+std::vector<std::string> PointMethods() {
+  std::vector<std::string> names = OcclusionMethodNames();
+  std::erase(names, kSampled);
+  return names;
+}
+
+bool IsAtPoints(const std::string& method) {
+  const std::vector<std::string> names = PointMethods();
+  return std::find(names.begin(), names.end(), method) != names.end();
+}
+
+// Samples jump from point to point: no quadrature settles on them, nor can tell how far off they are.
+std::string WhyNotSampled(const std::string& method) {
+  if (method != kSampled) return "";
+  return "sampled visibility cannot be integrated with an error that holds; use cubature or monte-carlo";
+}
+
+// Whether point factors are integrated to the tolerance.
+bool Integrates(const std::string& method) {
+  return method == kAuto || method == kExact || IsAtPoints(method);
+}
 
 // The faces of the objects and groups of that name; without one, the face with that number.
 std::vector<std::int32_t> FindFaces(const FormFactorArguments& arguments, const Scene& scene,
@@ -89,7 +114,7 @@ void PrintFormFactor(const FormFactorArguments& arguments) {
     options["from"] = arguments.from;
     options["to"] = arguments.to;
     options["method"] = arguments.method;
-    if (arguments.method == kExact || arguments.method == kAuto) options["tolerance"] = arguments.tolerance;
+    if (Integrates(arguments.method)) options["tolerance"] = arguments.tolerance;
     if (arguments.method == kMonteCarlo) options["rays"] = arguments.rays;
     PrintOptionsUsed(options);
   }
@@ -102,7 +127,10 @@ void PrintFormFactor(const FormFactorArguments& arguments) {
     } else if (arguments.method == kMonteCarlo) {
       estimate = MonteCarloFormFactor(scene, from, to, arguments.rays, arguments.scene.solving.seed, context);
     } else {
+      const std::unique_ptr<const OcclusionMethod> method =
+          IsAtPoints(arguments.method) ? MakeOcclusionMethod(arguments.method) : nullptr;
       AreaFormFactorOptions options;
+      options.method = method.get();
       options.tolerance = arguments.tolerance;
       options.clear_tolerance = std::min(options.clear_tolerance, arguments.tolerance);
       options.context = &context;
@@ -124,16 +152,22 @@ Command AddFormFactorCommand(CLI::App& program) {
   app->add_option("--to", arguments->to, "Where it arrives: an object, a group or a face's number")
       ->required()
       ->type_name("OBJECT");
+  std::vector<std::string> methods = PointMethods();
+  methods.insert(methods.begin(), {kAuto, kExact});
+  methods.insert(methods.end(), {kCubature, kDisk, kMonteCarlo});
   app->add_option(
          "--method", arguments->method,
-         "auto, exact: exact point factors past all blockers, integrated to the tolerance; cubature: their "
-         "mean over a fixed set of points (thesis 4.2); disk: a disk seen from a point, whole or not at "
+         "auto, exact: exact point factors past all blockers, integrated to the tolerance; clipping, "
+         "backprojection and vertex-tracing: the same, occlusion found so (see probe); cubature: the mean "
+         "over a fixed set of points (thesis 4.2); disk: a disk seen from a point, whole or not at "
          "all (Wallace et al. 1989, Hanrahan et al. 1991); monte-carlo: random rays")
-      ->check(CLI::IsMember(std::vector<std::string>{kAuto, kExact, kDisk, kCubature, kMonteCarlo}))
+      ->check(&WhyNotSampled)
+      ->check(CLI::IsMember(methods))
       ->type_name("METHOD")
       ->capture_default_str();
   AddNumber(*app, "--tolerance", &arguments->tolerance, kPositive,
-            "exact: the relative error that is asked for, of each pair of faces with something in between");
+            "auto, exact and their like: the relative error that is asked for, of each pair of faces with "
+            "something in between");
   AddInteger(*app, "--rays", &arguments->rays, std::uint64_t{1}, std::uint64_t{1} << 40,
              "monte-carlo: the number of rays");
   app->footer(

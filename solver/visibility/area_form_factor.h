@@ -16,6 +16,8 @@
 
 namespace penumbra {
 
+class OcclusionMethod;
+
 // A convex part of a patch's front.
 struct AreaPart {
   PatchId patch = kNoPatch;
@@ -43,6 +45,8 @@ struct AreaFormFactorOptions {
   std::size_t max_points = 10'000'000;
   // Takes the points on the first area whatever the sizes: for tests of reciprocity.
   bool points_on_first = false;
+  // How occlusion is found at a point; null: the fastest exact way.
+  const OcclusionMethod* method = nullptr;
   // Null, or what may cancel the work: the result is then of no use.
   const ExecutionContext* context = nullptr;
 };

@@ -13,6 +13,7 @@
 #include "solver/visibility/event_lines.h"
 #include "solver/visibility/form_factor.h"
 #include "solver/visibility/kronrod_rule.h"
+#include "solver/visibility/occlusion_method.h"
 #include "solver/visibility/point_view.h"
 #include "solver/visibility/quad.h"
 #include "solver/visibility/tube_blockers.h"
@@ -216,7 +217,7 @@ double PairIntegral::Visible(const Vec2& p, std::span<const PatchId> blockers) c
   ReceiverPoint at;
   at.position = pair_.frame.FromPlane(p);
   at.normal = pair_.frame.n;
-  PointView view(scene_, at);
+  PointView view(scene_, at, options_.method ? *options_.method : FastestExactMethod());
   if (!view.FaceSource(pair_.source)) return 0;
   const DirectionPolygon seen = view.SeeSource(source_part_);
   if (seen.empty()) return 0;

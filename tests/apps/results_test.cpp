@@ -528,6 +528,12 @@ TEST(FormFactor, PastABlocker) {
   const auto [factor, error] = FormFactorOf(sandbox, {"blocked.obj", "--from", "floor", "--to", "light"});
   EXPECT_NEAR(factor, kBlocked, error);
   EXPECT_LE(error, 1e-6 * kBlocked);
+  for (const char* method : {"auto", "exact", "clipping", "backprojection", "vertex-tracing"}) {
+    const auto [same, off] =
+        FormFactorOf(sandbox, {"blocked.obj", "--from", "floor", "--to", "light", "--method", method});
+    EXPECT_NEAR(same, kBlocked, off) << method;
+    EXPECT_LE(off, 1e-6 * kBlocked) << method;
+  }
   const auto first = FormFactorOf(sandbox, {"blocked.obj", "--from", "0", "--to", "light"}),
              second = FormFactorOf(sandbox, {"blocked.obj", "--from", "1", "--to", "2"});
   EXPECT_NEAR(0.5 * (first.first + second.first), kBlocked, 0.5 * (first.second + second.second));

@@ -136,6 +136,7 @@ TEST(Usage, BadUsageEndsWithTwo) {
       {"form-factor", "furnace", "--from", "0"},
       {"form-factor", "furnace", "--to", "0"},
       {"form-factor", "furnace", "--from", "0", "--to", "1", "--method", "guess"},
+      {"form-factor", "furnace", "--from", "0", "--to", "1", "--method", "sampled"},
       {"form-factor", "furnace", "--from", "0", "--to", "1", "--tolerance", "0"},
       {"form-factor", "furnace", "--from", "0", "--to", "1", "--rays", "0"},
       {"probe", "furnace", "--points", "p.csv", "--direct", "--report", "r.json"},
