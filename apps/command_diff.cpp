@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,8 +11,10 @@
 #include <string>
 
 #include "apps/commands.h"
+#include "apps/interruptible.h"
 #include "apps/option_values.h"
 #include "apps/output.h"
+#include "apps/scene_arguments.h"
 #include "display/false_colour.h"
 #include "display/image_difference.h"
 #include "display/image_io.h"
@@ -28,6 +31,8 @@ struct DiffArguments {
   std::optional<std::string> output;
   double pixels_per_degree = kPixelsPerDegree;
   int threads = 0;
+  std::uint64_t seed = PipelineOptions().seed;  // of nothing: every command takes one
+  bool verbose = false;
   bool as_json = false;
 };
 
@@ -70,8 +75,16 @@ std::string DiffTable(const std::array<ChannelError, 3>& errors, const VisibleDi
                              visible.exposures.size(), visible.mean, visible.max);
 }
 
+Json DiffOptionsUsed(const DiffArguments& arguments) {
+  return {{"threads", ThreadCount()},
+          {"seed", arguments.seed},
+          {"pixels_per_degree", arguments.pixels_per_degree},
+          {"json", arguments.as_json}};
+}
+
 void Diff(const DiffArguments& arguments) {
   SetThreadCount(arguments.threads);
+  if (arguments.verbose) PrintOptionsUsed(DiffOptionsUsed(arguments));
   if (arguments.output) CheckWritable(*arguments.output);
   const RgbImage reference = ReadPicture(arguments.reference), test = ReadPicture(arguments.test);
   if (reference.width != test.width || reference.height != test.height)
@@ -79,7 +92,10 @@ void Diff(const DiffArguments& arguments) {
         "{}:0: error: it has {}x{} pixels, but {} has {}x{}; give pictures of one size", arguments.test,
         test.width, test.height, arguments.reference, reference.width, reference.height));
   const std::array<ChannelError, 3> errors = RelativeErrors(reference, test);
-  const VisibleDifference visible = FindVisibleDifference(reference, test, arguments.pixels_per_degree);
+  VisibleDifference visible;
+  RunInterruptible([&](const ExecutionContext& context) {
+    visible = FindVisibleDifference(reference, test, arguments.pixels_per_degree, context);
+  });
   if (arguments.output)
     WritePng(*arguments.output, FalseColours(visible.map, reference.width, reference.height));
   WriteResult(std::nullopt,
@@ -109,7 +125,7 @@ Command AddDiffCommand(CLI::App& program) {
             NumberRule{[](double x) { return x >= 1 && x <= 1000; }, "a number from 1 to 1000"},
             "How far away the screen is: pixels in a degree of the view");
   app->add_flag("--json", arguments->as_json, "Print JSON");
-  AddInteger(*app, "--threads", &arguments->threads, 0, 1024, "Threads to work with, 0: all");
+  AddRunningOptions(*app, &arguments->threads, &arguments->seed, &arguments->verbose);
   app->footer(
       "Relative error, channel by channel: |b - a| / max(a, 1 % of the mean of a); mean ratio: mean of b / "
       "mean of a.\n"

@@ -120,6 +120,7 @@ void PrintFormFactor(const FormFactorArguments& arguments) {
   }
   FormFactorEstimate estimate;
   RunInterruptible([&](const ExecutionContext& context) {
+    context.Report(arguments.method, 0);  // the approximate methods tell no more
     if (arguments.method == kDisk) {
       estimate = DiskFormFactor(scene, from, to, context);
     } else if (arguments.method == kCubature) {

@@ -120,6 +120,18 @@ LoadedScene LoadSolution(const std::string& path) {
   return loaded;
 }
 
+void AddRunningOptions(CLI::App& app, int* threads, std::uint64_t* seed, bool* verbose) {
+  AddInteger(app, "--threads", threads, 0, kMaxThreads,
+             "Threads to work with, 0: all; the result is the same for any number")
+      ->group("Running");
+  AddInteger(app, "--seed", seed, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max(),
+             "Seed of everything that is drawn at random")
+      ->group("Running");
+  app.add_flag("-v,--verbose", *verbose,
+               "Tell on standard error which options were used, and what a solve took and reached")
+      ->group("Running");
+}
+
 void AddSceneArguments(CLI::App& app, SceneArguments* arguments) {
   arguments->app = &app;
   app.add_option(
@@ -142,15 +154,7 @@ void AddSceneArguments(CLI::App& app, SceneArguments* arguments) {
   AddMaterialChange(app, "--reflectance", &arguments->reflectance, kBelowOne,
                     "Another reflectance for a material, in [0, 1); may be repeated")
       ->group(kSceneGroup);
-  AddInteger(app, "--threads", &arguments->threads, 0, kMaxThreads,
-             "Threads to work with, 0: all; the result is the same for any number")
-      ->group("Running");
-  AddInteger(app, "--seed", &arguments->solving.seed, std::uint64_t{0},
-             std::numeric_limits<std::uint64_t>::max(), "Seed of everything that is drawn at random")
-      ->group("Running");
-  app.add_flag("-v,--verbose", arguments->verbose,
-               "Tell on standard error which options were used, and what a solve took and reached")
-      ->group("Running");
+  AddRunningOptions(app, &arguments->threads, &arguments->solving.seed, &arguments->verbose);
 }
 
 void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {

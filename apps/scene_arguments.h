@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -31,6 +32,8 @@ struct SceneArguments {
   std::optional<std::string> restart;  // the solution whose links a solve begins with: LoadToSolve()
 };
 
+// Threads, seed and verbosity: of every command that takes long.
+void AddRunningOptions(CLI::App& app, int* threads, std::uint64_t* seed, bool* verbose);
 // SCENE or SOLUTION, the options of reading it, threads, seed, verbosity.
 void AddSceneArguments(CLI::App& app, SceneArguments* arguments);
 // The options of the method. REQUIRES: AddSceneArguments.

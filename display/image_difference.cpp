@@ -82,14 +82,18 @@ std::array<ChannelError, 3> RelativeErrors(const RgbImage& reference, const RgbI
 }
 
 VisibleDifference FindVisibleDifference(const RgbImage& reference, const RgbImage& test,
-                                        double pixels_per_degree) {
+                                        double pixels_per_degree, const ExecutionContext& context) {
   VisibleDifference difference;
   difference.exposures = Exposures(reference);
   difference.map.assign(reference.PixelCount(), 0.0F);
+  std::size_t compared = 0;
   for (const double exposure : difference.exposures) {
+    if (context.Cancelled()) break;
     const std::vector<float> map =
         FlipOfExposed(ExposeAndCut(reference, exposure), ExposeAndCut(test, exposure), pixels_per_degree);
     for (std::size_t i = 0; i < map.size(); ++i) difference.map[i] = std::max(difference.map[i], map[i]);
+    context.Report("compare",
+                   static_cast<double>(++compared) / static_cast<double>(difference.exposures.size()));
   }
   difference.mean = Mean(difference.map);
   difference.max = static_cast<double>(*std::max_element(difference.map.begin(), difference.map.end()));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "display/image.h"
+#include "solver/base/progress.h"
 
 namespace penumbra {
 
@@ -41,7 +42,9 @@ struct VisibleDifference {
 // The same of pictures of any range, after HDR-FLIP (Andersson, Nilsson, Shirley and Akenine-Moeller 2021):
 // at exposures from that which shows the brightest pixel of the reference just below white to that which
 // shows the median one so, each cut off at white as our display does.
+// Cancelled, it is of no use.
 VisibleDifference FindVisibleDifference(const RgbImage& reference, const RgbImage& test,
-                                        double pixels_per_degree = kPixelsPerDegree);
+                                        double pixels_per_degree = kPixelsPerDegree,
+                                        const ExecutionContext& context = {});
 
 }  // namespace penumbra

@@ -1,6 +1,7 @@
 #include "solver/visibility/area_form_factor.h"
 
 #include <algorithm>
+#include <mutex>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -14,6 +15,25 @@ namespace {
 
 // Of many pairs, each is known this well before it is decided which deserve more.
 constexpr double kRoughTolerance = 1e-2;
+
+// Counts pairs from several threads, and tells the context.
+class PairCounter {
+ public:
+  PairCounter(const ExecutionContext* context, const char* phase, std::size_t pairs)
+      : context_(context), phase_(phase), pairs_(pairs) {}
+
+  void Add() {
+    if (!context_) return;
+    const std::lock_guard lock(mutex_);
+    context_->Report(phase_, static_cast<double>(++done_) / static_cast<double>(pairs_));
+  }
+
+ private:
+  const ExecutionContext* context_;
+  const char* phase_;
+  std::size_t pairs_, done_ = 0;
+  std::mutex mutex_;
+};
 
 double Area(const AreaPart& part) { return VectorArea(part.polygon).norm(); }
 
@@ -85,22 +105,27 @@ FormFactorEstimate AreaFormFactor(const Scene& scene, std::span<const AreaPart> 
   const PatchHierarchy patches(scene, std::move(all));
   std::vector<FormFactorEstimate> pairs(from.size() * to.size());
   const auto flux_error = [&](std::size_t k) { return Area(from[k / to.size()]) * pairs[k].error; };
-  const auto solve = [&](std::span<const std::size_t> which, const AreaFormFactorOptions& how) {
+  const auto solve = [&](const char* phase, std::span<const std::size_t> which,
+                         const AreaFormFactorOptions& how) {
+    PairCounter counter(how.context, phase, which.size());
     ParallelFor(which.size(), 1, [&](std::size_t i) {
       if (how.context && how.context->Cancelled()) return;
       const std::size_t k = which[i];
       pairs[k] = AreaFormFactor(scene, patches, from[k / to.size()], to[k % to.size()], how);
+      counter.Add();
     });
   };
   std::vector<std::size_t> which(pairs.size());
   std::iota(which.begin(), which.end(), std::size_t{0});
   if (pairs.size() == 1) {
-    solve(which, options);
+    AreaFormFactorOptions alone = options;
+    alone.tells = true;
+    solve("integrate", which, alone);
   } else {
     // First as well as is cheap, then those that matter as well as matters for the sum.
     AreaFormFactorOptions rough = options;
     rough.tolerance = std::max(options.tolerance, kRoughTolerance);
-    solve(which, rough);
+    solve("estimate", which, rough);
     double flux = 0, error = 0;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       flux += Area(from[k / to.size()]) * pairs[k].factor;
@@ -113,7 +138,7 @@ FormFactorEstimate AreaFormFactor(const Scene& scene, std::span<const AreaPart> 
       AreaFormFactorOptions fine = options;
       fine.tolerance = 0;
       fine.enough = asked / static_cast<double>(2 * which.size());
-      solve(which, fine);
+      solve("integrate", which, fine);
     }
   }
   double area = 0;

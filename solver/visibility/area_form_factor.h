@@ -49,6 +49,8 @@ struct AreaFormFactorOptions {
   const OcclusionMethod* method = nullptr;
   // Null, or what may cancel the work: the result is then of no use.
   const ExecutionContext* context = nullptr;
+  // Whether a pair tells the context how far it is: only where it is alone. Several together always do.
+  bool tells = false;
 };
 
 // From one part to another, past all patches of the scene; `patches` holds all of them. The error is an

@@ -330,9 +330,14 @@ void PairIntegral::Evaluate(Cell& cell) const {
   cell.settled = cell.Error() <= noise || width <= kLeastWidth * pair_.diameter;
 }
 
+// How far an error has come on its way to the one that is asked for, counted in digits.
+double ShareOfDigits(double first, double error, double asked) {
+  return asked > 0 && asked < error && error < first ? std::log(first / error) / std::log(first / asked) : 0;
+}
+
 FormFactorEstimate PairIntegral::Integrate() {
   ParallelFor(cells_.size(), 1, [&](std::size_t i) { Evaluate(cells_[i]); });
-  double value = 0, error = 0;
+  double value = 0, error = 0, first_error = 0, share = 0;
   bool shadowed = false;
   std::size_t points = 0;
   for (const Cell& cell : cells_) points += cell.points;
@@ -348,6 +353,9 @@ FormFactorEstimate PairIntegral::Integrate() {
         std::max(options_.enough, value * (shadowed ? options_.tolerance : options_.clear_tolerance));
     if (error <= asked || points >= options_.max_points) break;
     if (options_.context && options_.context->Cancelled()) break;
+    first_error = std::max(first_error, error);
+    share = std::max(share, ShareOfDigits(first_error, error, asked));
+    if (options_.context && options_.tells) options_.context->Report("integrate", share);
     std::vector<std::size_t> order(cells_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::erase_if(order, [&](std::size_t i) { return cells_[i].settled || cells_[i].Error() == 0; });

@@ -87,7 +87,9 @@ TEST(Diff, TellsHowFarPicturesAre) {
   EXPECT_GT(other["flip"]["mean"], 0.05);
   EXPECT_LE(other["flip"]["max"], 1);
   EXPECT_EQ(ReadBytes(sandbox.Path("map.png")).substr(1, 3), "PNG");
-  EXPECT_THAT(sandbox.Run({"diff", "a.exr", "b.exr"}).out, HasSubstr("visible difference"));
+  const Outcome text = sandbox.Run({"diff", "a.exr", "b.exr", "--seed", "7", "--threads", "1", "-v"});
+  EXPECT_THAT(text.out, HasSubstr("visible difference"));
+  EXPECT_EQ(text.err, "Options used:\n   --threads 1\n   --seed 7\n   --pixels-per-degree 67.0206\n");
 
   const Outcome sizes = sandbox.Run({"diff", "a.exr", "c.exr"});
   EXPECT_EQ(sizes.status, 1);

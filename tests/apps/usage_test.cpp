@@ -58,6 +58,10 @@ TEST(Help, ListsEveryOption) {
     for (const auto* list : {&common, &solving, &options})
       for (const std::string& option : *list) EXPECT_THAT(help.out, HasSubstr(option)) << command;
   }
+  const Outcome diff = sandbox.Run({"diff", "--help"});
+  EXPECT_EQ(diff.status, 0);
+  for (const char* option : {"--output", "--pixels-per-degree", "--json", "--threads", "--seed", "--verbose"})
+    EXPECT_THAT(diff.out, HasSubstr(option));
   const Outcome program = sandbox.Run({"--help"});
   EXPECT_EQ(program.status, 0);
   for (const char* command : {"solve", "render", "probe", "form-factor", "export", "diff", "info", "scenes"})

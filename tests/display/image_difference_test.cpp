@@ -140,5 +140,19 @@ TEST(Flip, OfAnyRangeKnowsNoUnit) {
   EXPECT_EQ(FindVisibleDifference(dark, dark).max, 0);
 }
 
+// How far it is, is told exposure by exposure up to the end; cancelled, it ends early.
+TEST(VisibleDifference, TellsHowFarItIs) {
+  const RgbImage a = Noise(40, 30, 6), b = Noise(40, 30, 7);
+  std::vector<double> told;
+  ExecutionContext context([&](std::string_view, double fraction) { told.push_back(fraction); });
+  const VisibleDifference whole = FindVisibleDifference(a, b, kPixelsPerDegree, context);
+  ASSERT_EQ(told.size(), whole.exposures.size());
+  for (std::size_t i = 0; i < told.size(); ++i)
+    EXPECT_DOUBLE_EQ(told[i], static_cast<double>(i + 1) / static_cast<double>(told.size()));
+  context.Cancel();
+  FindVisibleDifference(a, b, kPixelsPerDegree, context);
+  EXPECT_EQ(told.size(), whole.exposures.size());
+}
+
 }  // namespace
 }  // namespace penumbra

@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <limits>
 #include <numeric>
+#include <string>
+#include <string_view>
 
 #include "solver/base/parallel.h"
 #include "solver/scene/patch_builder.h"
@@ -272,6 +274,38 @@ TEST(AreaFormFactor, IsTheSameForAnyNumberOfThreads) {
   SetThreadCount(0);
   EXPECT_EQ(one.factor, three.factor);
   EXPECT_EQ(one.error, three.error);
+}
+
+// How far it is, is told from 0 to 1 and never backwards within a phase, of one pair and of many, and telling
+// changes nothing.
+TEST(AreaFormFactor, TellsHowFarItIs) {
+  Random random(4500);
+  const Scene scene = FurnishedRoom(random, 3);
+  const std::vector<AreaPart> all = Everything(scene);
+  const std::span<const AreaPart> room(all.data(), 3), boxes(all.data() + 6, 12);
+  int told = 0;
+  std::string phase;
+  double last = 0;
+  const ExecutionContext context([&](std::string_view name, double fraction) {
+    EXPECT_GE(fraction, name == phase ? last : 0);
+    EXPECT_LE(fraction, 1);
+    phase = name;
+    last = fraction;
+    ++told;
+  });
+  AreaFormFactorOptions quiet = Asked(1e-4), telling = quiet;
+  telling.context = &context;
+  EXPECT_EQ(AreaFormFactor(scene, room, boxes, telling).factor,
+            AreaFormFactor(scene, room, boxes, quiet).factor);
+  EXPECT_EQ(last, 1);
+  EXPECT_GE(told, 3 * 12);
+  for (const AreaPart& box : boxes) {
+    phase.clear();
+    told = 0;
+    EXPECT_EQ(Between(scene, room[0], box, telling).factor, Between(scene, room[0], box, quiet).factor);
+    EXPECT_GE(told, 1);
+    EXPECT_EQ(last, 1);
+  }
 }
 
 // A quadrilateral joined from two triangles is either triangle's face; the flux of both is that of the whole.
