@@ -40,6 +40,18 @@ int OpenBeside(const std::string& path, std::string* name) {
   }
 }
 
+// Where a chain of links leads, whether there is a file or not yet.
+fs::path BehindLinks(fs::path path) {
+  constexpr int kMostLinks = 40;  // as the kernel follows; a longer chain is a ring
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
+    const fs::path next = fs::read_symlink(path, error);
+    if (error) break;
+    path = path.parent_path() / next;
+  }
+  return path;
+}
+
 }  // namespace
 
 void FailToWrite(const std::string& path, const std::string& why) {
@@ -57,8 +69,7 @@ void WriteWholeFile(const std::string& path, std::string_view bytes) {
     if (file < 0 || !WriteAndClose(file, bytes)) FailToWrite(path, std::strerror(errno));
     return;
   }
-  std::error_code error;
-  const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : fs::path(path);
+  const fs::path target = BehindLinks(path);
   std::string temporary;
   const int file = OpenBeside(target.string(), &temporary);
   if (file >= 0 && WriteAndClose(file, bytes) && std::rename(temporary.c_str(), target.c_str()) == 0) return;

@@ -299,15 +299,18 @@ TEST(Output, TouchesNoOtherFile) {
   sandbox.Write("out.csv.tmp", "mine");
   sandbox.Write("kept.csv", "old");
   std::filesystem::create_symlink("kept.csv", sandbox.Path("link.csv"));
-  for (const char* name : {"out.csv", "link.csv"}) {
+  std::filesystem::create_symlink("new.csv", sandbox.Path("to_nothing.csv"));
+  for (const char* name : {"out.csv", "link.csv", "to_nothing.csv"}) {
     const Outcome outcome =
         sandbox.Run({"probe", "scene.obj", "--points", "points.csv", "--direct", "-o", name});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
   }
   EXPECT_EQ(ReadBytes(sandbox.Path("out.csv.tmp")), "mine");
   EXPECT_TRUE(std::filesystem::is_symlink(sandbox.Path("link.csv")));
+  EXPECT_TRUE(std::filesystem::is_symlink(sandbox.Path("to_nothing.csv")));
   EXPECT_EQ(ReadBytes(sandbox.Path("kept.csv")), ReadBytes(sandbox.Path("out.csv")));
-  EXPECT_THAT(sandbox.Files(), SizeIs(6));
+  EXPECT_EQ(ReadBytes(sandbox.Path("new.csv")), ReadBytes(sandbox.Path("out.csv")));
+  EXPECT_THAT(sandbox.Files(), SizeIs(8));
 }
 
 // The options used are told as they would be given: flags where they are set, under their own names.
