@@ -18,9 +18,9 @@ namespace penumbra {
 namespace {
 
 // Receivers nearer to the source than this many of their own radii see the form factor bend towards the
-// contact: the rule is refined twice there.
+// contact: the rule is refined there.
 constexpr double kNear = 1.0;
-constexpr int kNearRefinement = 2;
+constexpr int kNearRefinement = 1;
 
 // A candidate that may shed light on the receiver.
 struct Pending {
@@ -239,7 +239,7 @@ class Former {
         listed_.Add(quarter, 1, {factor->data() + q, 1});
       } else {
         seen[q] = view.SeeSource(quarter);
-        if (clear) (*factor)[q] = FormFactor(seen[q], patch_.normal);
+        if (clear) (*factor)[q] = FormFactor(seen[q], patch_.normal, kRoughCancellation);
       }
     }
     if (!clear)

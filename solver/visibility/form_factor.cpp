@@ -23,7 +23,7 @@ struct EdgeSum {
     value += normal.dot(m) / length * angle;
     angles += angle;
   }
-  bool Cancels() const { return angles > kFormFactorCancellation * std::abs(value); }
+  bool Cancels(double allowed) const { return angles > allowed * std::abs(value); }
   double FormFactor() const { return std::max(0.0, value * (0.5 * std::numbers::inv_pi)); }
 };
 
@@ -132,15 +132,16 @@ double FormFactor(const Vec3& base, std::span<const Vec3> offset, const Vec3& no
     const Vec3 a = base + offset[i], edge = offset[i + 1 == offset.size() ? 0 : i + 1] - offset[i];
     sum.Add(a.cross(edge), a.dot(a + edge), normal);
   }
-  return sum.Cancels() ? FormFactorByQuadrature(base, offset, normal) : sum.FormFactor();
+  return sum.Cancels(kFormFactorCancellation) ? FormFactorByQuadrature(base, offset, normal)
+                                              : sum.FormFactor();
 }
 
-double FormFactor(const DirectionPolygon& polygon, const Vec3& normal) {
+double FormFactor(const DirectionPolygon& polygon, const Vec3& normal, double cancellation) {
   EdgeSum sum;
   for (int i = 0; i < polygon.size(); ++i)
     sum.Add(EdgeNormal(polygon[i], polygon.Next(i)), polygon[i].dot(polygon.Next(i)), normal);
   // What is seen all round, in a limit at a contact, is no small part of the hemisphere.
-  if (!sum.Cancels() || ImageAxis(polygon).isZero(0)) return sum.FormFactor();
+  if (!sum.Cancels(cancellation) || ImageAxis(polygon).isZero(0)) return sum.FormFactor();
   std::array<Vec3, DirectionPolygon::kCapacity> offset;
   for (int i = 0; i < polygon.size(); ++i) offset[static_cast<std::size_t>(i)] = polygon[i] - polygon[0];
   return FormFactorByQuadrature(polygon[0], {offset.data(), static_cast<std::size_t>(polygon.size())},
