@@ -337,18 +337,22 @@ void DiscontinuityFinder::Impl::AddTripleEdges(const Receiver& r, const SourceVi
       Discontinuity d;
       d.kind = DiscontinuityKind::kEEE;
       d.source = s.id;
-      d.blocker = trace.first.patch;
-      d.blocker_part = trace.first.k;
-      d.source_part = trace.source_edge;
-      d.second_blocker_edge = trace.second;
+      const bool of_source = trace.edge[0].patch == s.id;
+      if (of_source) d.source_part = trace.edge[0].k;
+      const PatchEdge& first = trace.edge[of_source ? 1 : 0];
+      d.blocker = first.patch;
+      d.blocker_part = first.k;
+      d.second_blocker_edge = trace.edge[of_source ? 2 : 1];
+      if (!of_source) d.third_blocker_edge = trace.edge[2];
       d.strength = s.strength;
       for (const Transversal* line : {&piece.from, &piece.to}) {
-        const double lower = std::min(r.Height(line->on_edge[1]), r.Height(line->on_edge[2]));
-        d.geometric_weight =
-            std::max(d.geometric_weight, std::clamp(1 - lower / r.Height(line->on_edge[0]), 0.0, 1.0));
+        double lowest = r.Height(line->on_source);
+        const double source_height = lowest;
+        for (const Vec3& p : line->on_edge) lowest = std::min(lowest, r.Height(p));
+        d.geometric_weight = std::max(d.geometric_weight, std::clamp(1 - lowest / source_height, 0.0, 1.0));
       }
       if (out.TooLight(d.geometric_weight * s.strength)) continue;
-      // The piece may run out of the receiver.
+      // Rounding may have it end beyond the receiver.
       SegmentClip clip;
       const Vec3 &a = piece.from.on_receiver, &b = piece.to.on_receiver;
       for (std::size_t e = 0; e < s.lit.size() && !clip.Empty(); ++e) {

@@ -49,9 +49,10 @@ struct Discontinuity {
   PatchId source = kNoPatch;   // kNoPatch for a contact
   PatchId blocker = kNoPatch;  // kNoPatch for a horizon; the touching patch for a contact
   // VE: the source's vertex and the blocker's edge that meet; EV: the source's edge and the blocker's vertex.
-  // EEE: the source's edge and that of the blocker. An edge has the number of the vertex where it starts.
+  // EEE: the source's edge, or -1, and that of the blocker. An edge has the number of the vertex where it
+  // starts.
   std::int32_t source_part = -1, blocker_part = -1;
-  PatchEdge second_blocker_edge;  // EEE
+  PatchEdge second_blocker_edge, third_blocker_edge;  // EEE; the third where there is no edge of the source
   // Of a D1 event: the edges that lie in one plane.
   std::int32_t shared_source_edge = -1;
   PatchEdge shared_blocker_edge;

@@ -198,31 +198,43 @@ IrradianceJump EdgeVertex(const Scene& scene, const Silhouettes& silhouettes, co
 
 IrradianceJump TripleEdge(const Scene& scene, const Silhouettes& silhouettes, const View& view,
                           const Discontinuity& d) {
-  const Vec3& v = view.source.vertex[d.source_part];
-  const Vec3 along = view.source.vertex[(d.source_part + 1) % view.source.size] - v;
   IrradianceJump jump;
+  std::array<PatchEdge, 3> edge = {PatchEdge{d.blocker, d.blocker_part}, d.second_blocker_edge,
+                                   d.third_blocker_edge};
+  const bool of_source = d.source_part >= 0;
+  if (of_source) edge[2] = {d.source, d.source_part};
+  std::array<std::array<Vec3, 2>, 3> end;
+  std::array<Vec3, 3> plane;  // its normal, of x and the edge
+  for (int i = 0; i < 3; ++i) {
+    const Patch& patch = scene.patches[edge[i].patch];
+    end[i] = {patch.vertex[edge[i].k], patch.vertex[(edge[i].k + 1) % patch.size]};
+    plane[i] = (end[i][0] - view.x).cross(end[i][1] - view.x);
+  }
+  // Where the three meet on the source's plane: on its edge, or behind the crossing of two others.
+  const Vec3 from = of_source ? end[2][0] : view.x;
+  const Vec3 way = of_source ? Vec3(end[2][1] - end[2][0]) : plane[0].cross(plane[1]);
+  const Vec3& across = of_source ? plane[0] : view.source.normal;
+  const double rate = across.dot(way);
+  if (rate == 0) return jump;
+  const Vec3 y = from + (across.dot((of_source ? view.x : view.source.vertex[0]) - from) / rate) * way;
+
   // Of the three half planes that are seen where they overlap: their normals, outwards, and how fast they
   // grow.
   std::array<Vec3, 3> outward;
   std::array<double, 3> speed = {0, 0, 0};
-  outward[0] = -view.source.normal.cross(along).normalized();  // the source lies to the left of its edge
-  Vec3 y = Vec3::Zero();
-  double chord = SourceDiameter(view.source);
-  const std::array<PatchEdge, 2> edges = {PatchEdge{d.blocker, d.blocker_part}, d.second_blocker_edge};
-  for (int i = 0; i < 2; ++i) {
-    const Patch& patch = scene.patches[edges[i].patch];
-    const Vec3 &a = patch.vertex[edges[i].k], &b = patch.vertex[(edges[i].k + 1) % patch.size];
+  double chord = SourceDiameter(view.source), fastest = 0;
+  for (int i = 0; i < 3; ++i) {
+    const auto& [a, b] = end[i];
+    if (edge[i].patch == d.source) {
+      outward[i] = -view.source.normal.cross(b - a).normalized();  // the source lies to the left of its edge
+      continue;
+    }
     const MovingEdge moving(view, a, b);
     if (!moving.valid()) return jump;
-    if (i == 0) {  // where the three meet, on the source's edge
-      const Vec3 plane = (a - view.x).cross(b - view.x);
-      const double rate = plane.dot(along);
-      if (rate == 0) return jump;
-      y = v + (plane.dot(view.x - v) / rate) * along;
-    }
-    const int covered = CoveredSide(scene, silhouettes, edges[i].patch, edges[i].k, moving);
-    outward[i + 1] = covered * moving.line().across;
-    speed[i + 1] = covered * moving.SpeedAt(y);
+    const int covered = CoveredSide(scene, silhouettes, edge[i].patch, edge[i].k, moving);
+    outward[i] = covered * moving.line().across;
+    speed[i] = covered * moving.SpeedAt(y);
+    fastest = std::max(fastest, std::abs(speed[i]));
     const double magnified = (y - view.x).norm() / (0.5 * (a + b) - view.x).norm();
     chord = std::min(chord, std::max(1.0, magnified) * (b - a).norm());
   }
@@ -241,7 +253,7 @@ IrradianceJump TripleEdge(const Scene& scene, const Silhouettes& silhouettes, co
     if ((sine[i] > 0) != (sine[(i + 1) % 3] > 0) && (sine[i] > 0) != (sine[(i + 2) % 3] > 0)) odd = i;
   const double kernel = view.Kernel(y);
   jump.curvature = kernel * (sum / sine[odd] > 0 ? 1 : -1) * sum * sum / std::abs(product);
-  BoundGradient(&jump, kernel, std::max(std::abs(speed[1]), std::abs(speed[2])), chord, view.source.area);
+  BoundGradient(&jump, kernel, fastest, chord, view.source.area);
   return jump;
 }
 

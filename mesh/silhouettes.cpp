@@ -42,14 +42,29 @@ Vec3 Silhouettes::Away(std::int32_t edge, std::int32_t corner) const {
   return Position(e.a == corner ? e.b : e.a) - Position(corner);
 }
 
-bool Silhouettes::IsSilhouette(std::int32_t edge, const Vec3& from) const {
+std::array<double, 2> Silhouettes::Sides(std::int32_t edge, const Vec3& from) const {
   const std::span<const PatchEdge> sharing = Sharing(edge);
-  if (sharing.size() != 2 || sharing[0].patch == sharing[1].patch) return true;
+  if (sharing.size() != 2 || sharing[0].patch == sharing[1].patch) return {0, 0};
   const Patch &one = scene_.patches[sharing[0].patch], &two = scene_.patches[sharing[1].patch];
   const Vec3& a = one.vertex[sharing[0].k];
   // A closed surface runs along its edges once in each direction; else one of the two is turned over.
   const double turned = two.vertex[sharing[1].k] == a ? -1 : 1;
-  return one.normal.dot(from - a) * (turned * two.normal.dot(from - a)) <= 0;
+  return {one.normal.dot(from - a), turned * two.normal.dot(from - a)};
+}
+
+bool Silhouettes::IsSilhouette(std::int32_t edge, const Vec3& from) const {
+  const auto [one, two] = Sides(edge, from);
+  return one * two <= 0;
+}
+
+bool Silhouettes::MayBeSilhouette(std::int32_t edge, std::span<const Vec3> polygon) const {
+  bool front = true, back = true;  // of both faces
+  for (const Vec3& p : polygon) {
+    const auto [one, two] = Sides(edge, p);
+    front = front && std::min(one, two) > 0;
+    back = back && std::max(one, two) < 0;
+  }
+  return !front && !back;
 }
 
 }  // namespace penumbra

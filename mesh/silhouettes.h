@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -40,6 +41,8 @@ class Silhouettes {
   // True unless exactly two faces meet in the edge and the point sees the fronts of both, or of neither; a
   // point in the plane of one sees a silhouette.
   bool IsSilhouette(std::int32_t edge, const Vec3& from) const;
+  // False only if the edge is no silhouette from any point of the convex polygon.
+  bool MayBeSilhouette(std::int32_t edge, std::span<const Vec3> polygon) const;
 
  private:
   struct Corner {
@@ -51,6 +54,10 @@ class Silhouettes {
     std::int32_t a, b;  // corners
     std::vector<PatchEdge> sharing;
   };
+
+  // How far the point lies before each of the two faces that meet in the edge, both turned as the first is
+  // [m]; two zeros where other than two meet.
+  std::array<double, 2> Sides(std::int32_t edge, const Vec3& from) const;
 
   static std::size_t Size(std::int32_t i) { return static_cast<std::size_t>(i); }
   static std::size_t Index(PatchId patch, std::int32_t k) { return 4 * Size(patch) + Size(k); }

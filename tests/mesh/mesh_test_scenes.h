@@ -58,6 +58,28 @@ inline PatchId AddBox(Scene& scene, const Vec3& low, const Vec3& high, bool bott
   return first;
 }
 
+// A square light over a floor, turned and `aside` metres off the middle, and between them three boards at
+// three heights, of whose inner edges no two lie in one plane: they leave a triangular hole about the middle.
+inline Scene ThreeBoards(double half, double aside = 0) {
+  Scene scene = EmptyScene();
+  AddSquare(scene, 0, 0, 0, 4, true);
+  AddPatch(scene,
+           {{aside + half, 0.1 * half, 4},
+            {aside + 0.1 * half, -half, 4},
+            {aside - half, -0.1 * half, 4},
+            {aside - 0.1 * half, half, 4}},
+           1);
+  constexpr double kLength = 0.9, kWidth = 1.5, kRise = 0.1;
+  for (int i = 0; i < 3; ++i) {
+    const double angle = 0.3 + i * 2 * M_PI / 3;
+    const Vec3 out(std::cos(angle), std::sin(angle), 0), along(-out.y(), out.x(), kRise);
+    const Vec3 inner = 0.05 * out + (1.4 + 0.4 * i) * Vec3::UnitZ();
+    AddPatch(scene, {inner - kLength * along, inner + kLength * along, inner + kLength * along + kWidth * out,
+                     inner - kLength * along + kWidth * out});
+  }
+  return scene;
+}
+
 // Turns all patches by `degrees` about the x axis, then about z, so that nothing is axis-aligned any more.
 inline void Tilt(Scene& scene, double degrees) {
   const double angle = degrees * M_PI / 180;

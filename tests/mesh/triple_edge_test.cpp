@@ -3,11 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <vector>
 
 #include "mesh/discontinuity.h"
 #include "mesh_test_scenes.h"
+#include "solver/base/random.h"
 
 namespace penumbra {
 namespace {
@@ -16,6 +20,7 @@ using mesh_test::AddBox;
 using mesh_test::AddPatch;
 using mesh_test::AddSquare;
 using mesh_test::EmptyScene;
+using mesh_test::ThreeBoards;
 using mesh_test::Tilt;
 
 constexpr PatchId kReceiver = 0, kSource = 1;
@@ -139,6 +144,241 @@ TEST(TripleEdges, PolylinesLieWithinTheTolerance) {
                 found.size(), points, worst);
     EXPECT_GT(points, 500U);
   }
+}
+
+// The distance of a point of the receiver from the polyline of the pieces that `belongs` chooses.
+template <class Belongs>
+double FromPieces(const std::vector<Discontinuity>& found, const Vec2& x, const Belongs& belongs) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Discontinuity& d : found) {
+    if (!belongs(d)) continue;
+    const Vec2 along = d.end[1] - d.end[0], to = x - d.end[0];
+    const double t = std::clamp(to.dot(along) / along.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (to - t * along).norm());
+  }
+  return least;
+}
+
+// The hole between the three boards, whose inner edges start at their first vertices.
+bool OfTheHole(const Discontinuity& d) {
+  return d.source_part < 0 && d.blocker == 2 && d.second_blocker_edge.patch == 3 &&
+         d.third_blocker_edge.patch == 4 && d.blocker_part == 0 && d.second_blocker_edge.k == 0 &&
+         d.third_blocker_edge.k == 0;
+}
+
+// Where a hole between three boards closes before the inside of a large source: the point x belongs to the
+// curve just if the planes through x and each of the edges have a line in common, whose determinant F is then
+// zero. Along the polyline |F| over its gradient is the distance from the curve. The curve ends at the ends
+// of the edges, or of the source's image.
+TEST(TripleEdges, HolesCloseBeforeTheInsideOfASource) {
+  for (const double degrees : {0.0, 25.0}) {
+    Scene scene = ThreeBoards(3);
+    if (degrees > 0) Tilt(scene, degrees);
+    const Frame frame = PolygonFrame(scene.patches[kReceiver].Vertices());
+    const auto determinant = [&](const Vec2& at) {
+      const Vec3 x = frame.FromPlane(at);
+      std::array<Vec3, 3> plane;
+      for (int i = 0; i < 3; ++i) {
+        const Edge edge = EdgeOf(scene, 2 + i, 0);
+        plane[i] = (edge.a - x).cross(edge.b - x);
+      }
+      return plane[0].cross(plane[1]).dot(plane[2]);
+    };
+    for (const double tolerance : {1e-5, 1e-3, 1e-2}) {
+      std::vector<Discontinuity> found = Find(scene, tolerance);
+      std::erase_if(found, [](const Discontinuity& d) { return !OfTheHole(d); });
+      ASSERT_FALSE(found.empty());
+      double worst = 0, length = 0;
+      for (const Discontinuity& d : found) {
+        EXPECT_EQ(d.degree, DiscontinuityDegree::kD2);
+        EXPECT_GT(d.geometric_weight, 0.3);
+        EXPECT_LT(d.geometric_weight, 1);
+        length += (d.end[1] - d.end[0]).norm();
+        for (int i = 0; i <= 10; ++i) {
+          const Vec2 x = d.end[0] + 0.1 * i * (d.end[1] - d.end[0]);
+          constexpr double kStep = 1e-5;
+          const Vec2 gradient =
+              Vec2(determinant(x + kStep * Vec2::UnitX()) - determinant(x - kStep * Vec2::UnitX()),
+                   determinant(x + kStep * Vec2::UnitY()) - determinant(x - kStep * Vec2::UnitY())) /
+              (2 * kStep);
+          const double off = std::abs(determinant(x)) / gradient.norm();
+          worst = std::max(worst, off);
+          EXPECT_LE(off, 1.01 * tolerance + 1e-12);
+          if (i % 10 == 0) {
+            EXPECT_LE(off, 1e-12) << "ends lie on the curve";
+          }
+        }
+      }
+      std::printf("tolerance %g: %zu pieces, %.3g m, at most %.2g m from the curve\n", tolerance,
+                  found.size(), length, worst);
+      EXPECT_GT(length, 0.5);
+    }
+  }
+  // A light beside the lines, or so small that they miss it.
+  const Scene small = ThreeBoards(0.05, 1.5), aside = ThreeBoards(0.5, 2.5);
+  for (const Scene& scene : {small, aside}) {
+    const std::vector<Discontinuity> found = Find(scene, 1e-3);
+    EXPECT_TRUE(std::none_of(found.begin(), found.end(), OfTheHole));
+  }
+  // A lid on the hole closes it, and the hidden curve is there if asked for.
+  Scene lid = ThreeBoards(3);
+  AddSquare(lid, 0, 0, 2.6, 1.5, true);
+  std::vector<Discontinuity> found = Find(lid, 1e-3);
+  EXPECT_TRUE(std::none_of(found.begin(), found.end(), OfTheHole));
+  found = Find(lid, 1e-3, true);
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(), OfTheHole));
+}
+
+// No event is overlooked, however short: along one edge of each three, of the light and of random triangles
+// and a box, lines through the two others are taken in small steps. Those that start on the floor and end on
+// the light, as silhouettes, and are not blocked elsewhere, lie within the tolerance of a piece of the event;
+// and the lines at the ends of pieces touch their edges.
+TEST(TripleEdges, NoneIsOverlooked) {
+  constexpr double kTolerance = 1e-3;
+  std::size_t points = 0, of_blockers = 0, pieces = 0;
+  double worst = 0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Scene scene = EmptyScene();
+    AddSquare(scene, 0, 0, 0, 1.5, true);
+    AddPatch(scene, {{0.9, 0.1, 4}, {0.1, -1, 4}, {-0.8, 0.05, 4}, {0, 1.1, 4}}, 1);
+    Random random(seed);
+    for (int i = 0; i < 4; ++i) {
+      const Vec3 centre(random.Uniform(-0.4, 0.4), random.Uniform(-0.4, 0.4), random.Uniform(1, 3));
+      const auto corner = [&] {
+        return Vec3(centre +
+                    Vec3(random.Uniform(-0.7, 0.7), random.Uniform(-0.7, 0.7), random.Uniform(-0.5, 0.5)));
+      };
+      const Vec3 a = corner(), b = corner(), c = corner();
+      AddPatch(scene, {a, b, c});
+    }
+    AddBox(scene, {-0.2, -0.3, 0.5}, {0.3, 0.15, 0.9}, true);
+    FindConvexSolids(scene);
+    const Silhouettes silhouettes(scene);
+    const Frame frame = PolygonFrame(scene.patches[kReceiver].Vertices());
+    const std::vector<Discontinuity> found = Find(scene, kTolerance);
+    pieces += found.size();
+    const auto numbers = [&](const Discontinuity& d) {
+      const PatchEdge third = d.source_part < 0 ? d.third_blocker_edge : PatchEdge{kSource, d.source_part};
+      std::array<std::int32_t, 3> number = {
+          silhouettes.EdgeAt(d.blocker, d.blocker_part),
+          silhouettes.EdgeAt(d.second_blocker_edge.patch, d.second_blocker_edge.k),
+          silhouettes.EdgeAt(third.patch, third.k)};
+      std::sort(number.begin(), number.end());
+      return number;
+    };
+    // Each edge once.
+    std::vector<PatchEdge> edges;
+    std::vector<std::int32_t> seen;
+    for (PatchId p = kSource; p < static_cast<PatchId>(scene.patches.size()); ++p)
+      for (std::int32_t k = 0; k < scene.patches[p].size; ++k) {
+        const std::int32_t number = silhouettes.EdgeAt(p, k);
+        if (std::find(seen.begin(), seen.end(), number) != seen.end()) continue;
+        seen.push_back(number);
+        edges.push_back({p, k});
+      }
+    const auto body = [&](const PatchEdge& e) { return std::min(e.patch, 6); };  // the box is one
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      for (std::size_t j = i + 1; j < edges.size(); ++j)
+        for (std::size_t k = j + 1; k < edges.size(); ++k) {
+          if (body(edges[i]) == body(edges[j]) || body(edges[j]) == body(edges[k])) continue;
+          std::array<std::int32_t, 3> event = {seen[i], seen[j], seen[k]};
+          std::sort(event.begin(), event.end());
+          const Edge one = EdgeOf(scene, edges[i].patch, edges[i].k),
+                     two = EdgeOf(scene, edges[j].patch, edges[j].k),
+                     three = EdgeOf(scene, edges[k].patch, edges[k].k);
+          constexpr int kSteps = 100;
+          for (int step = 0; step < kSteps; ++step) {
+            const Vec3 p = one.a + (step + 0.5) / kSteps * (one.b - one.a);
+            const Vec3 way =
+                (two.a - p).cross(two.b - p).cross((three.a - p).cross(three.b - p)).normalized();
+            const double second = ToEdge(p, way, two).at, third = ToEdge(p, way, three).at;
+            if (std::min(second, third) < 0 || std::max(second, third) > 1) continue;
+            const Vec3 x = p - p.z() / way.z() * way, y = p + (4 - p.z()) / way.z() * way;
+            if (x.head<2>().cwiseAbs().maxCoeff() > 1.5) continue;
+            const Patch& light = scene.patches[kSource];
+            if (!ConvexContains(light.Vertices(), light.normal, y, 1e-12)) continue;
+            const auto outline = [&](std::size_t e) {
+              return edges[e].patch == kSource || silhouettes.IsSilhouette(seen[e], x);
+            };
+            if (!outline(i) || !outline(j) || !outline(k)) continue;
+            bool blocked = false;
+            for (PatchId q = 2; q < static_cast<PatchId>(scene.patches.size()); ++q) {
+              bool owner = false;
+              for (const std::int32_t number : event)
+                for (const PatchEdge& at : silhouettes.Sharing(number)) owner |= at.patch == q;
+              const Patch& patch = scene.patches[q];
+              const double hx = patch.normal.dot(x - patch.vertex[0]),
+                           hy = patch.normal.dot(y - patch.vertex[0]);
+              blocked |= !owner && hx * hy < 0 &&
+                         ConvexContains(patch.Vertices(), patch.normal, x + hx / (hx - hy) * (y - x), 0);
+            }
+            if (blocked) continue;
+            ++points;
+            if (edges[i].patch != kSource) ++of_blockers;
+            const double off = FromPieces(found, frame.ToPlane(x),
+                                          [&](const Discontinuity& d) { return numbers(d) == event; });
+            worst = std::max(worst, off);
+            EXPECT_LE(off, kTolerance + 1e-12) << "seed " << seed << ": " << i << ", " << j << ", " << k;
+          }
+        }
+    for (const Discontinuity& d : found)
+      for (const Vec2& end : d.end) {
+        const Vec3 x = frame.FromPlane(end);
+        const PatchEdge last = d.source_part < 0 ? d.third_blocker_edge : PatchEdge{kSource, d.source_part};
+        const Edge one = EdgeOf(scene, d.blocker, d.blocker_part),
+                   two = EdgeOf(scene, d.second_blocker_edge.patch, d.second_blocker_edge.k);
+        const Vec3 way = (one.a - x).cross(one.b - x).cross((two.a - x).cross(two.b - x)).normalized();
+        for (const Edge& edge : {one, two, EdgeOf(scene, last.patch, last.k)}) {
+          const Nearness nearness = ToEdge(x, way, edge);
+          EXPECT_LE(nearness.distance, 1e-9);
+          EXPECT_GE(nearness.at, -1e-7);
+          EXPECT_LE(nearness.at, 1 + 1e-7);
+        }
+      }
+  }
+  std::printf("%zu pieces; %zu points, %zu of them of blockers' edges alone, at most %.2g m away\n", pieces,
+              points, of_blockers, worst);
+  EXPECT_GT(of_blockers, 100U);
+}
+
+// A curve that another blocker cuts off ends where its edge appears to touch: with a tolerance so wide that
+// every arc is straight no two pieces of an event join, and past a board each end lies on the board's image
+// or is an end of the whole curve.
+TEST(TripleEdges, CurvesThatAreCutOffEndInOnePiece) {
+  Scene scene = TwoTriangles();
+  constexpr double kTolerance = 0.1;
+  const auto own = [](std::vector<Discontinuity> found) {
+    std::erase_if(found, [](const Discontinuity& d) {
+      return d.source_part < 0 || d.blocker > 3 || d.second_blocker_edge.patch > 3;
+    });
+    return found;
+  };
+  const std::vector<Discontinuity> open = own(Find(scene, kTolerance));
+  const PatchId board = AddPatch(scene, {{0.02, -2, 3.2}, {2, -2, 3.2}, {2, 2, 3.2}, {0.02, 2, 3.2}});
+  const std::vector<Discontinuity> seen = own(Find(scene, kTolerance));
+  const Frame frame = PolygonFrame(scene.patches[kReceiver].Vertices());
+  int cut = 0;
+  for (const Discontinuity& d : seen)
+    for (const Vec2& end : d.end) {
+      EXPECT_TRUE(std::none_of(seen.begin(), seen.end(), [&](const Discontinuity& other) {
+        return &other != &d && other.source_part == d.source_part && other.blocker_part == d.blocker_part &&
+               other.second_blocker_edge.k == d.second_blocker_edge.k &&
+               (other.end[0] == end || other.end[1] == end);
+      }));
+      const bool whole = std::any_of(open.begin(), open.end(), [&](const Discontinuity& other) {
+        return std::min((other.end[0] - end).norm(), (other.end[1] - end).norm()) < 1e-12;
+      });
+      if (whole) continue;
+      ++cut;
+      const Vec3 x = frame.FromPlane(end);
+      const Edge first = EdgeOf(scene, d.blocker, d.blocker_part),
+                 second = EdgeOf(scene, d.second_blocker_edge.patch, d.second_blocker_edge.k);
+      const Vec3 direction =
+          (first.a - x).cross(first.b - x).cross((second.a - x).cross(second.b - x)).normalized();
+      EXPECT_LE(ToEdge(x, direction, EdgeOf(scene, board, 3)).distance, 1e-12);
+    }
+  std::printf("%zu arcs, %zu past a board, of which %d ends are cut\n", open.size(), seen.size(), cut);
+  EXPECT_GT(cut, 0);
 }
 
 // Off by default, nothing from one convex blocker, nothing where edges are parallel to axes in pairs; and
