@@ -83,9 +83,8 @@ class Series {
 
   void FindPowers() const {
     log_->Find(
-        fmt::format("{}, {} to {} {}: seconds of processors grow as the power {:.2f} of their number, links "
-                    "as {:.2f}, bytes "
-                    "as {:.2f}.",
+        fmt::format("{}, {} to {} {}: seconds of processors grow as the power {:.2f} of their number, "
+                    "links as {:.2f}, bytes as {:.2f}.",
                     whole_ ? "Whole solves" : "Links alone", size_.front(), size_.back(), what_,
                     LogSlope(size_, processor_), LogSlope(size_, links_), LogSlope(size_, bytes_)));
   }

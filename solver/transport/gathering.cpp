@@ -130,7 +130,7 @@ void Gathering::Gather(PatchId source, const DirectionPolygon& seen, std::span<c
   const Tree tree = sources_.Tree(source);
   if (tolerance_ > 0) {
     source_normal_ = scene_.patches[static_cast<std::size_t>(source)].normal;
-    whole_ = FormFactor(seen, at_.normal, kRoughCancellation);
+    whole_ = FormFactor(seen, at_.normal, CancellationAllowed());
     tolerance_here_ = tolerance_ * std::max(1.0, kOneOfMany * Outshone(tree[0].radiosity * whole_));
   }
   if (occluders_.empty()) {
@@ -285,7 +285,7 @@ void Gathering::GatherAsOne(Tree nodes) {
       listed.radiosity.push_back(node.radiosity);
       if (node.skip > 1) AddMoment(node);
     } else {
-      Add(node.radiosity, FormFactor(view_.SeeSource(Vertices(node)), at_.normal, kRoughCancellation));
+      Add(node.radiosity, FormFactor(view_.SeeSource(Vertices(node)), at_.normal, CancellationAllowed()));
     }
   }
 }

@@ -13,9 +13,9 @@ namespace {
 // them.
 constexpr double kMargin = 0.01, kMarginOfPatch = 1e-5;
 
-// A list is narrowed where the leaves below have so many blockers together: a tube costs as much as some
-// hundred looks of a point at a blocker, a leaf has about eight points, and few blockers go. With 20 and 160
-// the office or a building of nine rooms take longer.
+// A list is narrowed where the leaves below have at least so many blockers together: a tube costs as much as
+// some hundred looks of a point at a blocker, a leaf has eight points or, in a refined mesh, fifty, and few
+// blockers go.
 constexpr std::size_t kWorthwhile = 10;
 
 Polygon3 Widened(std::span<const Vec3> polygon, double margin) {

@@ -239,7 +239,7 @@ class Former {
         listed_.Add(quarter, 1, {factor->data() + q, 1});
       } else {
         seen[q] = view.SeeSource(quarter);
-        if (clear) (*factor)[q] = FormFactor(seen[q], patch_.normal, kRoughCancellation);
+        if (clear) (*factor)[q] = FormFactor(seen[q], patch_.normal);
       }
     }
     if (!clear)

@@ -448,10 +448,9 @@ void ForEachVisiblePiece(const DirectionPolygon& source, std::span<const Occlude
 namespace {
 
 // Adds the form factors of what is visible in the image to those of its owners.
-void AddVisible(ImageEdges& visible, const ImageFrame& frame, const Vec3& normal, double cancellation,
-                std::span<double> factors) {
+void AddVisible(ImageEdges& visible, const ImageFrame& frame, const Vec3& normal, std::span<double> factors) {
   const ImageEdges::Sum sum = visible.FormFactorSum(frame, normal);
-  const bool cancels = sum.angles > cancellation * std::abs(sum.value);
+  const bool cancels = sum.angles > kFormFactorCancellation * std::abs(sum.value);
   for (std::size_t p = 0; p < visible.Pieces(); ++p)
     factors[static_cast<std::size_t>(visible.Owner(p))] +=
         cancels ? visible.PieceByQuadrature(frame, normal, p)
@@ -479,7 +478,7 @@ void VisibleFormFactors(const DirectionPolygon& whole, std::span<const Direction
       clipper.CutOut(image, own, static_cast<std::int32_t>(i));
     clipper.Restore(all);
   }
-  AddVisible(clipper.Visible(), frame, normal, kRoughCancellation, factors);
+  AddVisible(clipper.Visible(), frame, normal, factors);
   for (double& factor : factors) factor = std::max(0.0, factor);
 }
 
@@ -488,7 +487,7 @@ double Clipping::VisibleFormFactor(const DirectionPolygon& source, std::span<con
   Clipper& clipper = ThreadClipper();
   double factor = 0;
   ForEachImage(clipper, source, occluders, normal, [&](const ImageFrame& frame) {
-    AddVisible(clipper.Visible(), frame, normal, kFormFactorCancellation, {&factor, 1});
+    AddVisible(clipper.Visible(), frame, normal, {&factor, 1});
   });
   return std::max(0.0, factor);
 }

@@ -65,8 +65,8 @@ void ForEachVisiblePiece(const DirectionPolygon& source, std::span<const Occlude
                          const Vec3& normal, const std::function<void(std::span<const Vec3>)>& visit);
 
 // Writes the form factors of the point to what the occluders leave of each of the parts of a source, which
-// lie in `whole` and do not overlap; faster than one after the other, and with kRoughCancellation: a few
-// parts in a billion of the form factor of `whole` may be lost.
+// lie in `whole` and do not overlap; faster than one after the other. Each is within kOcclusionError of the
+// form factor of `whole`, which is more than Clipping loses of a part that is small beside it.
 void VisibleFormFactors(const DirectionPolygon& whole, std::span<const DirectionPolygon> parts,
                         std::span<const Occluder> occluders, const Vec3& normal, std::span<double> factors);
 

@@ -21,9 +21,6 @@ inline constexpr double kFormFactorCancellation = 200;
 // x 8 Gauss nodes are off by less.
 inline constexpr double kFormFactorError = 1e-13;
 
-// The same for what need not be as exact: a few parts in a billion of the value are lost.
-inline constexpr double kRoughCancellation = 1e7;
-
 // (1 / 2 pi) sum gamma n . m / |m| over the edges a -> b of the polygon, m = a x b, gamma the angle between a
 // and b by atan2 (Baum, Rushmeier and Winget 1989; thesis eq. 6.1). The polygon must lie above the horizon
 // of `normal` (unit). Quadrature takes over where the angles are more than `cancellation` times the sum.

@@ -251,8 +251,6 @@ TEST(OcclusionMethod, AgreeFarFromTheOrigin) {
 // The quarters of sources in one image, against one after the other. Far from the origin and beside the
 // horizon, too; sources that fit into no image go one by one.
 TEST(OcclusionMethod, PartsTogetherAreAsPartsAlone) {
-  // A sum loses 1e-16 of its angles, of which there are kRoughCancellation times its value at most.
-  constexpr double kRoughError = kFormFactorError * kRoughCancellation / kFormFactorCancellation;
   std::size_t compared = 0;
   double worst = 0;
   for (const Generator generator : {RandomSizes, Room, TurnedRoom, Contact})
@@ -282,9 +280,9 @@ TEST(OcclusionMethod, PartsTogetherAreAsPartsAlone) {
       }
     }
   std::printf("seed 611: %zu parts, largest difference %.2g of the whole source (bound %.2g)\n", compared,
-              worst, kRoughError);
+              worst, kOcclusionError);
   EXPECT_GT(compared, 2000U);
-  EXPECT_LE(worst, kRoughError);
+  EXPECT_LE(worst, kOcclusionError);
 }
 
 // Closed cases, seen from the origin, which looks up.
