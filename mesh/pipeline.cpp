@@ -24,7 +24,7 @@ constexpr double kInterpolantShare = 0.65, kSourceShare = 0.25;
 // What interpolants' samples may leave out of their sources' detail, as a share of the error. Those of the
 // looks before the last keep to SolverOptions::correction_tolerance: their means correct the sources' light,
 // so that what is off in all of them grows from bounce to bounce.
-constexpr double kNearShare = 0.2;
+constexpr double kNearShare = 0.1;
 // Looks before the last, which only sources are made of, take edges of this times the least weight.
 constexpr double kFirstWeight = 2;
 // Sources are refined again while their means will change by more than this share of the error, so many
