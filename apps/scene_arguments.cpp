@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "apps/commands.h"
 #include "apps/option_values.h"
@@ -385,6 +386,16 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
 
 namespace {
 
+// The text as one word of a shell.
+std::string ShellWord(const std::string& text) {
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,:/@%^";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
 // The option as it would be given; nothing for a flag that was not.
 std::string OptionText(const std::string& name, const nlohmann::ordered_json& value) {
   if (value.is_boolean()) {
@@ -394,11 +405,13 @@ std::string OptionText(const std::string& name, const nlohmann::ordered_json& va
   if (value.is_object()) {  // of materials
     std::string text;
     for (const auto& [material, rgb] : value.items())
-      text += fmt::format("   --{} {}={},{},{}\n", name, material, rgb[0].get<double>(), rgb[1].get<double>(),
-                          rgb[2].get<double>());
+      text += fmt::format("   --{} {}\n", name,
+                          ShellWord(fmt::format("{}={},{},{}", material, rgb[0].get<double>(),
+                                                rgb[1].get<double>(), rgb[2].get<double>())));
     return text;
   }
-  return fmt::format("   --{} {}\n", name, value.is_string() ? value.get<std::string>() : value.dump());
+  return fmt::format("   --{} {}\n", name,
+                     value.is_string() ? ShellWord(value.get<std::string>()) : value.dump());
 }
 
 // Whether the option may not be given again: the links of a restart were made with it.
@@ -419,7 +432,7 @@ void PrintOptionsUsed(const nlohmann::ordered_json& options) {
     std::string name = key;
     std::replace(name.begin(), name.end(), '_', '-');
     if (key == "scene")
-      block += fmt::format("   {}\n", value.get<std::string>());
+      block += fmt::format("   {}\n", ShellWord(value.get<std::string>()));
     else if (key != "solution" && !IsOfRestart(name, options))
       block += OptionText(name, value);
   }

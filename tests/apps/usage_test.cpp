@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 #include <thread>
 
@@ -329,7 +330,7 @@ TEST(Usage, OptionsUsedCanBeGivenAgain) {
     EXPECT_THAT(set, HasSubstr(line));
 }
 
-// The words of the block of options used.
+// The words of the block of options used, as a shell would read them.
 std::vector<std::string> OptionsUsedIn(const std::string& err) {
   std::vector<std::string> words;
   bool inside = false;
@@ -337,7 +338,7 @@ std::vector<std::string> OptionsUsedIn(const std::string& err) {
     if (inside && !line.starts_with("   ")) break;
     if (inside) {
       std::istringstream rest(line);
-      for (std::string word; rest >> word;) words.push_back(word);
+      for (std::string word; rest >> std::quoted(word, '\'');) words.push_back(word);
     }
     inside = inside || line.starts_with("Options used");
   }
@@ -349,6 +350,8 @@ TEST(Usage, OptionsUsedGiveThemselves) {
   const Sandbox sandbox;
   sandbox.Write("p.csv", "x,y,z,nx,ny,nz\n0.5,0.5,0.5,0,0,1\n");
   ASSERT_EQ(sandbox.Run({"solve", "furnace", "--error", "0.5", "-o", "a.h5"}).status, 0);
+  sandbox.Write("two words.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl dim glow\nf 1 2 3\n");
+  sandbox.Write("a.mtl", "newmtl dim glow\nKe 1 1 1\n");
   struct Case {
     std::vector<std::string> command, options;
   };
@@ -365,6 +368,7 @@ TEST(Usage, OptionsUsedGiveThemselves) {
            Case{{"form-factor"}, {"furnace", "--from", "0", "--to", "1"}},
            Case{{"info"}, {"furnace", "--max-reflectance", "0.5"}},
            Case{{"probe", "--points", "p.csv"}, {"a.h5"}},
+           Case{{"info"}, {"two words.obj", "--emittance", "dim glow=1,2,0.5"}},
        }) {
     const auto run = [&](const std::vector<std::string>& options) {
       std::vector<std::string> arguments = c.command;
