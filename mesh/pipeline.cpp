@@ -50,6 +50,7 @@ struct Pipeline::Impl {
   std::optional<RunLimits::Clock::time_point> begun;  // when Solve() did: its limits count from there
   std::optional<RadiositySolution> stored;            // that another one made, until a step begins anew
   std::optional<MeshKind> mesh_kind;                  // of a mesh of the present solution
+  bool mesh_unrefined = false;                        // for that was not asked for then
   IrradianceMesh mesh;
   std::unique_ptr<LocalPassCache> local_pass;      // of the present visibility
   std::vector<PatchTriangulation> triangulations;  // of the mesh
@@ -252,7 +253,8 @@ struct Pipeline::Impl {
   // Makes the mesh of that kind, from the solution as it is; for interpolants refines what they show, unless
   // that is cancelled or not asked for. Returns the kind; nothing if it was cancelled before there was a
   // mesh. Adds to the report.
-  std::optional<MeshKind> MakeMesh(MeshKind kind, const ExecutionContext& context, MeshReport& done) {
+  std::optional<MeshKind> MakeMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is,
+                                   MeshReport& done) {
     MeshOptions mesh_options;
     mesh_options.discontinuities = resolved.discontinuities;
     if (kind != MeshKind::kGouraudMesh && kind != MeshKind::kInterpolant)
@@ -260,7 +262,8 @@ struct Pipeline::Impl {
     mesh_options.order = kind == MeshKind::kFlat          ? InterpolantOrder::kConstant
                          : kind == MeshKind::kInterpolant ? InterpolantOrder::kQuadratic
                                                           : InterpolantOrder::kLinear;
-    const bool refines = kind == MeshKind::kInterpolant && solver && options.refine != RefineBy::kTransport;
+    const bool refines =
+        kind == MeshKind::kInterpolant && solver && options.refine != RefineBy::kTransport && !as_it_is;
     MeshOptions first = mesh_options;
     if (refines) first.discontinuities.min_weight *= kFirstWeight;
     const double tolerance = refines ? resolved.solver.correction_tolerance : kNearShare * options.error;
@@ -399,7 +402,7 @@ std::optional<IterationReport> Pipeline::Relight(const ExecutionContext& context
 }
 
 void Pipeline::SolveOverLinks(const ExecutionContext& context) {
-  impl_->begun = RunLimits::Clock::now();
+  CountLimits();
   const RunLimits limits = impl_->LimitsSinceSolve(context);
   const ExecutionContext& running = limits.context();
   running.Report("iterate", 0);
@@ -414,7 +417,7 @@ void Pipeline::SolveOverLinks(const ExecutionContext& context) {
 }
 
 void Pipeline::Solve(const ExecutionContext& context) {
-  impl_->begun = RunLimits::Clock::now();
+  CountLimits();
   const RunLimits limits = impl_->LimitsSinceSolve(context);
   const ExecutionContext& running = limits.context();
   Link(running);
@@ -442,16 +445,18 @@ void Pipeline::Solve(const ExecutionContext& context) {
                                               corrected ? "corrected" : "not corrected to the end"));
 }
 
-void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context) {
-  if (impl_->mesh_kind == kind) return;
+void Pipeline::CountLimits() { impl_->begun = RunLimits::Clock::now(); }
+
+void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is) {
+  if (impl_->mesh_kind == kind && (as_it_is || !impl_->mesh_unrefined)) return;
   const RunLimits limits = impl_->LimitsSinceSolve(context);
   MeshReport report;
   // What needs no irradiance at points is quick, and made whatever the limits say.
   const bool flat = kind == MeshKind::kFlat;
-  std::optional<MeshKind> made = impl_->MakeMesh(kind, flat ? context : limits.context(), report);
+  std::optional<MeshKind> made = impl_->MakeMesh(kind, flat ? context : limits.context(), as_it_is, report);
   if (!made && !flat && !context.Cancelled()) {
     report = {};
-    made = impl_->MakeMesh(MeshKind::kFlat, context, report);
+    made = impl_->MakeMesh(MeshKind::kFlat, context, as_it_is, report);
   }
   if (const std::optional<std::string> limit = limits.Exceeded(); limit && !flat)
     impl_->report.unmet.push_back(
@@ -459,6 +464,7 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context) {
                     made == kind ? "and not refined by what is shown"
                                  : "before there were interpolants: leaves show their mean"));
   impl_->mesh_kind = context.Cancelled() ? std::nullopt : made;
+  impl_->mesh_unrefined = as_it_is;
   impl_->locator = std::make_unique<MeshLocator>(impl_->scene, impl_->mesh);
 
   impl_->AddPhase("discontinuities", report.seconds.discontinuities);

@@ -184,9 +184,12 @@ class Pipeline {
 
   // Stages discontinuities, triangulate, interpolate, for what a display mode needs, from the solution as it
   // is. For interpolants, unless transport alone is asked for, they then refine the solution's sources, and
-  // the mesh (RefineMesh), until the error asked for is met. Nothing is done where it is there already.
+  // the mesh (RefineMesh), until the error asked for is met; not where the solution is to stay `as_it_is`,
+  // after a step that is to be looked at. Nothing is done where it is there already.
   // REQUIRES: Link() or what begins with it.
-  void BuildMesh(MeshKind kind, const ExecutionContext& context);
+  void BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is = false);
+  // The limits of what is done from here on begin anew, as Solve() begins them: for those who do its steps.
+  void CountLimits();
   // Measures the energy balance, and the soundness of scene, links and triangles. REQUIRES: BuildMesh() after
   // the last step.
   void Diagnose();

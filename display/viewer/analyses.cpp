@@ -58,4 +58,11 @@ bool Analyses::Busy() {
   return busy[0] || busy[1] || busy[2] || busy[3] || busy[4];
 }
 
+bool Analyses::RanOutOfMemory() {
+  const bool failed[] = {discontinuities_.RanOutOfMemory(), graph_.RanOutOfMemory(),
+                         error_map_.RanOutOfMemory(), probe_.RanOutOfMemory(),
+                         backprojection_.RanOutOfMemory()};
+  return failed[0] || failed[1] || failed[2] || failed[3] || failed[4];
+}
+
 }  // namespace penumbra::viewer

@@ -22,6 +22,8 @@ class Analyses {
                          const ViewState& view);
   // Whether anything is under way.
   bool Busy();
+  // There was not enough memory for one since this was asked last: it stays out.
+  bool RanOutOfMemory();
 
  private:
   using Light = std::shared_ptr<const LightState>;

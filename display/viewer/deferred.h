@@ -7,7 +7,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <mutex>
+#include <new>
 #include <optional>
 #include <thread>
 
@@ -54,6 +54,9 @@ class Deferred {
     return running_;
   }
 
+  // There was not enough memory for a value since this was asked last: the key has none.
+  bool RanOutOfMemory() { return no_memory_.exchange(false); }
+
  private:
   void Start(const Key& key) {
     key_ = key;
@@ -62,7 +65,11 @@ class Deferred {
     done_ = false;
     running_ = true;
     thread_ = std::thread([this, key, context = context_] {
-      result_ = std::make_shared<const Value>(compute_(key, *context));
+      try {
+        result_ = std::make_shared<const Value>(compute_(key, *context));
+      } catch (const std::bad_alloc&) {
+        no_memory_ = true;
+      }
       done_ = true;
     });
   }
@@ -92,7 +99,7 @@ class Deferred {
   std::shared_ptr<const Value> value_;
   std::shared_ptr<ExecutionContext> context_;
   std::shared_ptr<const Value> result_;  // of the thread, until done_
-  std::atomic<bool> done_{false};
+  std::atomic<bool> done_{false}, no_memory_{false};
   bool running_ = false;
   std::thread thread_;
 };

@@ -397,10 +397,9 @@ void Panels::Message(Viewer& viewer) {
 
 // The scale of false colours: smaller in a window that has no room for it.
 void Panels::Legend(Viewer& viewer) {
-  const ViewState& view = viewer.view();
-  const bool errors = view.error_map;
-  if (!errors && !view.false_colour) return;
-  const double top = errors ? view.error_map_max : viewer.picture().scale_top();
+  const ColourScale colours = viewer.picture().scale();
+  if (colours == ColourScale::kNone) return;
+  const double top = viewer.picture().scale_top();
   constexpr float kWidth = 112, kHeight = 270, kBarTop = 34, kBarLeft = 12, kBarWidth = 18, kBarHeight = 220;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const float menus = ImGui::GetFrameHeight();
@@ -422,7 +421,7 @@ void Panels::Legend(Viewer& viewer) {
   const auto write = [&](float x, float y, const std::string& text) {
     draw->AddText(ImGui::GetFont(), letters, ImVec2(x, y), IM_COL32_WHITE, text.c_str());
   };
-  write(box.x + 8 * scale, box.y + 6 * scale, errors ? "rel. error" : "W/m^2");
+  write(box.x + 8 * scale, box.y + 6 * scale, UnitOf(colours));
   constexpr int kTicks = 4;
   for (int i = 0; i <= kTicks; ++i) {
     const float x = bar.x + kBarWidth * scale;

@@ -29,6 +29,18 @@ MeshKind MeshOf(DrawMode mode) {
   return MeshKind::kInterpolant;
 }
 
+const char* UnitOf(ColourScale scale) {
+  switch (scale) {
+    case ColourScale::kNone:
+      break;
+    case ColourScale::kIrradiance:
+      return "W/m^2";
+    case ColourScale::kError:
+      return "rel. error";
+  }
+  return "";
+}
+
 double MeterSparsely(const RgbImage& linear, const std::vector<PixelKind>& kinds) {
   const int columns = (linear.width + kMeterStride - 1) / kMeterStride;
   const int rows = (linear.height + kMeterStride - 1) / kMeterStride;
@@ -49,32 +61,35 @@ void PictureMaker::ChooseMesh(const OverlayContext& context, const ViewState& vi
     kind_ = MeshKind::kFlat;
     wanted = context.snapshot.Mesh(kind_);
   }
-  // A triangle is one of the tools' mesh.
-  const bool isolate = view.isolate && context.selection;
+  // Rays meet the whole scene. A triangle is one of the tools' mesh.
+  const bool isolate = view.isolate && context.selection && !(CastsRays(view.mode) && !view.error_map);
   if (isolate && context.selection.kind == SelectionKind::kTriangle)
     for (const auto& mesh : context.snapshot.mesh)
       if (mesh.get() == &context.mesh) wanted = mesh;
   const Selection isolated = isolate ? context.selection : Selection{};
   const bool same_results = isolated.kind != SelectionKind::kDiscontinuity || isolated_by_ == context.results;
-  if (wanted == whole_ && isolated == isolated_ && same_results && view.backend == backend_ && display_)
+  if (wanted == whole_ && isolated == isolated_ && same_results && view.backend == backend_ &&
+      view.coordinates == coordinates_ && display_)
     return;
   backend_ = view.backend;
+  coordinates_ = view.coordinates;
   whole_ = wanted;
   isolated_ = isolated;
   isolated_by_ = context.results;
   drawn_ = whole_;
-  if (isolated)
-    drawn_ = std::make_shared<const MeshState>(
-        context.snapshot.scene, SubMesh(whole_->mesh(), IsolatedTriangles(context, whole_->mesh())));
-  display_.emplace(*context.snapshot.scene, drawn_->mesh(), MakePasses(backend_));
+  if (isolated) {
+    left_ = IsolatedTriangles(context, whole_->mesh());
+    drawn_ = std::make_shared<const MeshState>(context.snapshot.scene, SubMesh(whole_->mesh(), left_));
+  }
+  display_.emplace(*context.snapshot.scene, drawn_->mesh(), MakePasses());
 }
 
 // Of what is drawn; the rasteriser's where there is no OpenGL.
-std::unique_ptr<Passes> PictureMaker::MakePasses(Backend backend) {
+std::unique_ptr<Passes> PictureMaker::MakePasses() {
   backend_error_.clear();
-  if (backend == Backend::kOpenGl) {
+  if (backend_ == Backend::kOpenGl) {
     try {
-      return OpenGlPasses(drawn_->mesh());
+      return OpenGlPasses(drawn_->mesh(), coordinates_);
     } catch (const InputError& error) {
       backend_error_ = error.what();
     }
@@ -82,21 +97,26 @@ std::unique_ptr<Passes> PictureMaker::MakePasses(Backend backend) {
   return SoftwarePasses(drawn_->mesh());
 }
 
-void PictureMaker::PaintErrors(const ErrorMap& errors, double top, Srgb8Image* out) const {
-  const RenderedFrame& frame = display_->frame();
-  if (drawn_ != whole_ || errors.error.size() != drawn_->mesh().triangles.size()) return;
-  for (std::size_t i = 0; i < frame.triangle.size(); ++i)
-    if (frame.triangle[i] != kNoTriangle)
-      SetPixel(out, i, FalseColour(static_cast<double>(errors.error[frame.triangle[i]]) / top));
+// Whether the errors are those of the triangles that are drawn.
+bool PictureMaker::Shows(const ErrorMap* errors) const {
+  return errors && errors->error.size() == whole_->mesh().triangles.size();
 }
 
-// Modes that cast rays have the passes' picture until the rays are there. What is isolated has no picture by
-// rays: they meet the whole scene.
+void PictureMaker::PaintErrors(const ErrorMap& errors, double top, Srgb8Image* out) const {
+  const RenderedFrame& frame = display_->frame();
+  for (std::size_t i = 0; i < frame.triangle.size(); ++i) {
+    const std::uint32_t drawn = frame.triangle[i];
+    if (drawn == kNoTriangle) continue;
+    const std::uint32_t triangle = drawn_ == whole_ ? drawn : left_[drawn];
+    SetPixel(out, i, FalseColour(static_cast<double>(errors.error[triangle]) / top));
+  }
+}
+
+// Modes that cast rays have the passes' picture until the rays are there.
 void PictureMaker::CastRays(const OverlayContext& context, const ViewState& view, int width, int height) {
   const bool lerp = view.mode == DrawMode::kLerp;
   const auto& interpolants = context.snapshot.Mesh(MeshKind::kInterpolant);
-  by_rays_ = CastsRays(view.mode) && !isolated_ && !view.error_map && context.snapshot.light &&
-             (!lerp || interpolants);
+  by_rays_ = CastsRays(view.mode) && !view.error_map && context.snapshot.light && (!lerp || interpolants);
   if (!by_rays_) {
     rays_.Clear();
     return;
@@ -113,10 +133,15 @@ void PictureMaker::Shade(const OverlayContext& context, const ViewState& view, S
   const bool rho = view.mode == DrawMode::kRho || (view.mode == DrawMode::kFlat && view.trees_by_reflectance);
   exposure_ = rho ? 1 : view.auto_exposure ? MeterSparsely(linear(), kinds) : view.exposure;
   scale_top_ = view.false_colour_max > 0 ? view.false_colour_max : 1 / exposure_;
-  if (view.error_map && context.results.error_map) {
+  const bool errors = view.error_map && Shows(context.results.error_map.get());
+  scale_ = errors                      ? ColourScale::kError
+           : view.false_colour && !rho ? ColourScale::kIrradiance
+                                       : ColourScale::kNone;
+  if (errors) {
+    scale_top_ = view.error_map_max;
     *out = display_->ToneMap({exposure_, true}).screen;
-    PaintErrors(*context.results.error_map, view.error_map_max, out);
-  } else if (view.false_colour && !rho) {
+    PaintErrors(*context.results.error_map, scale_top_, out);
+  } else if (scale_ == ColourScale::kIrradiance) {
     PaintFalseColours(linear(), kinds, scale_top_, out);
   } else if (by_rays_) {
     ToneMap(linear(), kinds, {exposure_, true}, out);

@@ -17,6 +17,10 @@
 
 namespace penumbra::viewer {
 
+// What a picture's colours stand for, where they are false.
+enum class ColourScale { kNone, kIrradiance /* [W/m^2] */, kError /* relative */ };
+const char* UnitOf(ColourScale scale);
+
 class PictureMaker {
  public:
   // Draws width x height pixels. REQUIRES: width, height > 0; the view's camera can see.
@@ -40,7 +44,8 @@ class PictureMaker {
   const IrradianceMesh& drawn() const { return drawn_->mesh(); }
   // The kind of mesh that the mode got: another one where its own is not built yet.
   MeshKind drawn_kind() const { return kind_; }
-  double exposure() const { return exposure_; }    // screen value per W/m^2
+  double exposure() const { return exposure_; }  // screen value per W/m^2
+  ColourScale scale() const { return scale_; }
   double scale_top() const { return scale_top_; }  // of false colours
   // Why the view's back end did not draw the passes, and the rasteriser did; empty: it did.
   const std::string& backend_error() const { return backend_error_; }
@@ -48,17 +53,20 @@ class PictureMaker {
 
  private:
   void ChooseMesh(const OverlayContext& context, const ViewState& view);
-  std::unique_ptr<Passes> MakePasses(Backend backend);
+  std::unique_ptr<Passes> MakePasses();
   void CastRays(const OverlayContext& context, const ViewState& view, int width, int height);
   void Shade(const OverlayContext& context, const ViewState& view, Srgb8Image* out);
+  bool Shows(const ErrorMap* errors) const;
   void PaintErrors(const ErrorMap& errors, double top, Srgb8Image* out) const;
 
   std::shared_ptr<const MeshState> whole_;  // the mesh of the mode
   std::shared_ptr<const MeshState> drawn_;  // that, or what is left of it when a selection is isolated
+  std::vector<std::uint32_t> left_;         // then, which of its triangles those are
   Selection isolated_;
   AnalysisResults isolated_by_;
   std::optional<TwoPassDisplay> display_;
   Backend backend_ = Backend::kSoftware;  // that was asked for
+  OpenGlCoordinates coordinates_ = OpenGlCoordinates::kFloat;
   std::string backend_error_;
   std::optional<DepthMap> depth_;
   RayPicture rays_;
@@ -68,6 +76,7 @@ class PictureMaker {
   Srgb8Image screen_, part_;
   MeshKind kind_ = MeshKind::kFlat;
   double exposure_ = 1, scale_top_ = 1;
+  ColourScale scale_ = ColourScale::kNone;
   FrameTimes times_;
 };
 

@@ -258,7 +258,9 @@ void SolverSession::DoConverge(const ExecutionContext& outer) {
   const PipelineOptions options = this->options();
   const RunLimits limits(outer, options.time_limit, options.memory_limit);
   const ExecutionContext& context = limits.context();
-  if (MustLink()) DoLink(context);
+  const bool must_link = MustLink();
+  if (!must_link && settled_ && snapshot()->corrections > 0) return;  // done is done
+  if (must_link) DoLink(context);
   for (int i = 0; i < options.max_iterations && !context.Cancelled() && !options.dense; ++i) {
     if (pipeline_->Converged()) break;
     DoIterate(context);
@@ -281,12 +283,11 @@ void SolverSession::DoCorrect(const ExecutionContext& context) {
 void SolverSession::DoBuildMesh(MeshKind kind, const ExecutionContext& context) {
   const std::shared_ptr<const Snapshot> before = snapshot();
   if (!before->light || before->Mesh(kind)) return;
-  if (kind == MeshKind::kInterpolant && settled_) return DoInterpolants(context);
+  if (kind == MeshKind::kInterpolant) return DoInterpolants(context);
   MeshOptions mesh;
   mesh.discontinuities = pipeline_->resolved().discontinuities;
-  if (kind != MeshKind::kGouraudMesh && kind != MeshKind::kInterpolant)
-    mesh.discontinuities.choice = DiscontinuityChoice::kNone;
-  mesh.order = kind == MeshKind::kInterpolant ? InterpolantOrder::kQuadratic : InterpolantOrder::kLinear;
+  if (kind != MeshKind::kGouraudMesh) mesh.discontinuities.choice = DiscontinuityChoice::kNone;
+  mesh.order = InterpolantOrder::kLinear;
   MeshResult result = RunLocalPass(before->light->visibility(), before->light->solution(),
                                    SamplerOf(*before->light), mesh, context);
   if (context.Cancelled()) return;
@@ -296,18 +297,21 @@ void SolverSession::DoBuildMesh(MeshKind kind, const ExecutionContext& context) 
   Publish(std::move(next));
 }
 
-// The pipeline's own: they may refine sources, and so the light, before they are what is shown.
+// The pipeline's own: once the solver has settled, they may refine sources, and so the light, before they are
+// what is shown. What was stepped to stays as it is. A limit of time is one for the solve, and one for these.
 void SolverSession::DoInterpolants(const ExecutionContext& context) {
-  if (!pipeline_ || pipeline_->mesh_kind() == MeshKind::kInterpolant) return;
   const std::shared_ptr<const Snapshot> before = snapshot();
-  pipeline_->BuildMesh(MeshKind::kInterpolant, context);
+  if (!pipeline_ || before->Mesh(MeshKind::kInterpolant)) return;
+  pipeline_->CountLimits();
+  pipeline_->BuildMesh(MeshKind::kInterpolant, context, /*as_it_is=*/!settled_);
   if (context.Cancelled()) return;
   const PipelineOptions& options = pipeline_->options();
-  const bool refined = !options.dense && options.refine != RefineBy::kTransport;
+  const bool refined = settled_ && !options.dense && options.refine != RefineBy::kTransport;
   std::shared_ptr<Snapshot> next =
       refined ? NextLight(before->corrections) : std::make_shared<Snapshot>(*before);
   next->converged = before->converged;
-  next->mesh[static_cast<std::size_t>(MeshKind::kInterpolant)] =
+  // Where a limit ended it, the leaves.
+  next->mesh[static_cast<std::size_t>(*pipeline_->mesh_kind())] =
       std::make_shared<const MeshState>(before->scene, pipeline_->mesh());
   Publish(std::move(next));
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "display/opengl_passes.h"
 #include "mesh/pipeline.h"
 #include "solver/scene/scene.h"
 
@@ -75,6 +76,7 @@ struct ViewState {
 
   DrawMode mode = DrawMode::kFlat;
   Backend backend = Backend::kSoftware;
+  OpenGlCoordinates coordinates = OpenGlCoordinates::kFloat;  // of the passes by OpenGL
   bool faces = true;
   bool trees_by_reflectance = false;  // flat faces by rho (thesis B.4.1)
   bool split = false;                 // ids, coordinates and picture side by side (thesis B.3.2)

@@ -3,12 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 
 #include "display/viewer/selection.h"
 #include "display/viewer/walk.h"
 #include "solver/base/check.h"
 
 namespace penumbra::viewer {
+namespace {
+
+constexpr const char* kNoMemory = "out of memory for what is drawn over the picture: ask for a coarser grid";
+
+}  // namespace
 
 Viewer::Viewer(const OpenedScene& opened, ViewerOptions options)
     : options_(std::move(options)), session_(opened, options_.solving) {
@@ -59,8 +65,15 @@ OverlayContext Viewer::Context() const {
 }
 
 void Viewer::Want(MeshKind kind) {
-  if (!snapshot_->light || snapshot_->Mesh(kind) || declined_ == snapshot_->number) return;
-  if (asked_.emplace(snapshot_->number, kind).second) session_.BuildMesh(kind);
+  const std::pair mesh(snapshot_->number, kind);
+  if (!snapshot_->light || snapshot_->Mesh(kind) || declined_.contains(mesh)) return;
+  if (asked_.insert(mesh).second) session_.BuildMesh(kind);
+}
+
+// What is under way, and what the mode wants, is not asked for again unless the solution changes.
+void Viewer::Decline() {
+  declined_ = asked_;
+  declined_.emplace(session_.snapshot()->number, MeshOf(view_.mode));
 }
 
 // Meshes are built when the solver rests: the picture follows it with the leaves until then.
@@ -77,7 +90,8 @@ void Viewer::AskForMeshes() {
 std::string Viewer::activity() {
   if (picture_.Busy()) return fmt::format("casting rays, {:.0f} %", 100 * picture_.RayFraction());
   if (analyses_.Busy()) return "analysing";
-  return snapshot_->light ? "ready" : "not solved";
+  if (!snapshot_->light) return "not solved";
+  return snapshot_->Mesh(MeshOf(view_.mode)) ? "ready" : "the leaves, since the mesh was cancelled";
 }
 
 std::string Viewer::message() const {
@@ -108,6 +122,7 @@ const Srgb8Image& Viewer::Frame(int width, int height, double seconds) {
       view_.selection.kind != SelectionKind::kElement)
     view_.selection = {};
   results_ = analyses_.Update(*snapshot_, tools_, view_);
+  if (analyses_.RanOutOfMemory()) Complain(kNoMemory);
   if (view_.selection &&
       !(view_.selection.kind == SelectionKind::kDiscontinuity && !results_.discontinuities) &&
       !IsValid(Context(), view_.selection))
@@ -122,8 +137,7 @@ const Srgb8Image& Viewer::Frame(int width, int height, double seconds) {
 
   DrawnOf now{snapshot_, tools_, view_.overlays, view_.selection, view_.isolate, results_};
   if (!(drawn_of_ == now)) {
-    drawing_ = {};
-    for (const auto& overlay : AllOverlays()) overlay->Draw(Context(), &drawing_);
+    DrawOverlays();
     drawn_of_ = std::move(now);
   }
   picture_.Make(Context(), view_, drawing_, width, height);
@@ -133,6 +147,17 @@ const Srgb8Image& Viewer::Frame(int width, int height, double seconds) {
   }
   fresh_ = true;
   return picture_.screen();
+}
+
+// What there is no memory for is left out: the solution is worth more.
+void Viewer::DrawOverlays() {
+  drawing_ = {};
+  try {
+    for (const auto& overlay : AllOverlays()) overlay->Draw(Context(), &drawing_);
+  } catch (const std::bad_alloc&) {
+    drawing_ = {};
+    Complain(kNoMemory);
+  }
 }
 
 bool Viewer::Idle() {

@@ -120,9 +120,11 @@ class Viewer {
 
   void Unselect();
   void Want(MeshKind kind);
+  void Decline();
   std::shared_ptr<const MeshState> ToolsMesh() const;
   OverlayContext Context() const;
   void AskForMeshes();
+  void DrawOverlays();
   void SolvingChanged() { session_.SetOptions(options_.solving); }
 
   ViewerOptions options_;
@@ -141,8 +143,9 @@ class Viewer {
   std::string message_;
   std::size_t printed_ = 0;
   std::shared_ptr<const ProbeResult> printed_probe_;
-  std::optional<std::uint64_t> declined_;  // the snapshot for which the user did not want meshes
+  // Meshes that were asked for, with the snapshot's number; those that the user did not want after all.
   std::set<std::pair<std::uint64_t, MeshKind>> asked_;
+  std::set<std::pair<std::uint64_t, MeshKind>> declined_;
   std::uint64_t scene_number_ = 0;
 
   // The drawing of the overlays, and what it was made of.

@@ -70,10 +70,8 @@ void Viewer::SavePicture(const std::string& path) {
     screen = ShrinkScreen(
         larger.Make(Context(), view_, Widened(drawing_, k), k * size_.width, k * size_.height), k);
   }
-  if (view_.error_map)
-    PaintLegend(view_.error_map_max, "rel. error", &screen);
-  else if (view_.false_colour)
-    PaintLegend(picture_.scale_top(), "W/m^2", &screen);
+  if (picture_.scale() != ColourScale::kNone)
+    PaintLegend(picture_.scale_top(), UnitOf(picture_.scale()), &screen);
   WritePng(path, screen);
 }
 
@@ -97,7 +95,7 @@ void Viewer::SaveRayPicture(const std::string& path) {
           for (std::size_t i = 0; i < picture.kind.size(); i += static_cast<std::size_t>(picture.samples))
             first.push_back(picture.kind[i]);
           PaintFalseColours(Downsample(picture.linear, picture.samples, 1), first, top, &screen);
-          PaintLegend(top, "W/m^2", &screen);
+          PaintLegend(top, UnitOf(ColourScale::kIrradiance), &screen);
         } else {
           EncodeSrgb(Downsample(Expose(picture.linear, picture.kind, exposure), picture.samples, 1), true,
                      &screen);

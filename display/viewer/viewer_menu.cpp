@@ -94,12 +94,15 @@ void Viewer::AddMenus() {
   add("Iteration/Link", "", "Start over: links between patches", [this] { session_.Link(); });
   add("Iteration/Iterate", "i", "Gather until little changes, then refine, once",
       [this] { session_.Iterate(); });
-  add("Iteration/Iterate to convergence", "c", "Iterate until it is done, then correct",
-      [this] { session_.Converge(); });
+  add("Iteration/Iterate to convergence", "c", "Iterate until it is done, then correct", [this] {
+    declined_.clear();
+    asked_.clear();
+    session_.Converge();
+  });
   add("Iteration/Correct", "y", "One pass of exact irradiance over the leaves",
       [this] { session_.Correct(); });
   add("Iteration/Build interpolants", "", "Discontinuities, triangles and interpolants", [this] {
-    declined_.reset();
+    declined_.clear();
     session_.BuildMesh(MeshKind::kInterpolant);
   });
   add("Iteration/Measure", "", "Energy balance, and errors at random points", [this] {
@@ -111,7 +114,7 @@ void Viewer::AddMenus() {
       picture_.CancelRays();
       return;
     }
-    declined_ = session_.snapshot()->number;
+    Decline();
     session_.Cancel();
   });
   toggle("Iteration/Report", "ctrl+r", "report");

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <charconv>
 
 #include "display/viewer/viewer.h"
 #include "solver/base/check.h"
@@ -26,6 +26,14 @@ Setting Optional(const std::string& name, const std::string& help, std::optional
   return setting;
 }
 
+std::uint64_t WholeNumber(const std::string& text) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || text.empty())
+    throw InputError(fmt::format("'{}' is not a whole number", text));
+  return number;
+}
+
 }  // namespace
 
 void Viewer::AddViewSettings() {
@@ -33,6 +41,7 @@ void Viewer::AddViewSettings() {
   s.Choice("mode", "Drawing", "Drawing mode", &view_.mode,
            {"flat", "gouraud", "gouraud-mesh", "interpolant", "exact", "lerp", "rho"});
   s.Choice("backend", "Drawing", "Who draws the two passes", &view_.backend, {"software", "opengl"});
+  s.Choice("opengl-coordinates", "Drawing", "Coordinates by OpenGL", &view_.coordinates, {"float", "8bit"});
   s.Toggle("faces", "Drawing", "Faces", &view_.faces);
   s.Toggle("trees-by-reflectance", "Drawing", "Flat faces by reflectance", &view_.trees_by_reflectance);
   s.Toggle("split", "Drawing", "Ids, coordinates, depth and picture", &view_.split);
@@ -128,6 +137,10 @@ void Viewer::AddSolveSettings() {
                         {"thesis", "irradiance"}));
   also(s.Toggle("keep-hidden-discontinuities", "Solving", "Hidden discontinuities, too",
                 &o.keep_hidden_discontinuities));
+  also(s.Number("eee", "Solving", "Triple-edge discontinuities within [m], 0: none", &o.triple_edge_tolerance,
+                0, 1e12, false));
+  s.Add(Optional("source-error", "Error of sources cut by corrections, relative", &o.source_error, 1e-9, {},
+                 changed));
   also(s.Integer("error-samples", "Solving", "Error samples a side of a triangle", &o.error_samples, 1, 100));
   also(s.Integer("max-leaf-dsets", "Solving", "Max leaf discontinuity segments", &o.max_leaf_dsets, 0,
                  1'000'000));
@@ -166,7 +179,7 @@ void Viewer::AddSolveSettings() {
     changed();
   };
   Setting& divisions =
-      s.Integer("divisions", "Solving", "Dense: divisions of a patch's side", &o.divisions, 1, 1024);
+      s.Integer("divisions", "Solving", "Dense: divisions of a patch's side", &o.divisions, 1, 64);
   divisions.set = [set = divisions.set, &o, changed](const std::string& text) {
     const int before = o.divisions;
     set(text);
@@ -194,12 +207,20 @@ void Viewer::AddSolveSettings() {
                  {}};
   points.get = [&o] { return std::to_string(o.error_points); };
   points.set = [&o, changed](const std::string& text) {
-    const double number = NumberFrom(text, 0, 1e8);
-    if (number != std::floor(number)) throw InputError(fmt::format("'{}' is not a whole number", text));
-    o.error_points = static_cast<std::size_t>(number);
+    if (WholeNumber(text) > 100'000'000) throw InputError(fmt::format("'{}' are too many", text));
+    o.error_points = WholeNumber(text);
     changed();
   };
   s.Add(points);
+  Setting seed = points;
+  seed.name = "seed";
+  seed.help = "Seed of what is drawn at random";
+  seed.get = [&o] { return std::to_string(o.seed); };
+  seed.set = [&o, changed](const std::string& text) {
+    o.seed = WholeNumber(text);
+    changed();
+  };
+  s.Add(seed);
 }
 
 // Settings that are done rather than kept: dialogs and scripts name a file or a camera.

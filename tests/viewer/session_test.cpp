@@ -120,6 +120,59 @@ TEST(SolverSession, MeasuresWhatThePipelineMeasures) {
   EXPECT_DOUBLE_EQ(session.snapshot()->measured->energy.emitted, pipeline.report().energy.emitted);
 }
 
+// A step that is measured and saved is the one that was shown, not what refining would make of it.
+TEST(SolverSession, MeasuringLeavesAStepAsItIs) {
+  PipelineOptions options = Loose();
+  options.refine = RefineBy::kBoth;
+  options.error = 0.02;
+  SolverSession session(viewer_test::ShadowScene(), options);
+  session.Iterate();
+  session.BuildMesh(MeshKind::kInterpolant);
+  ASSERT_TRUE(Rest(session));
+  const auto step = session.snapshot();
+  ASSERT_FALSE(step->converged);
+  ASSERT_TRUE(step->Mesh(MeshKind::kInterpolant));
+  std::size_t saved = 0;
+  session.Save([&](const Pipeline& pipeline) { saved = pipeline.mesh().triangles.size(); });
+  ASSERT_TRUE(Rest(session));
+  ASSERT_TRUE(session.snapshot()->measured);
+  EXPECT_EQ(session.snapshot()->light, step->light);
+  EXPECT_EQ(session.snapshot()->Mesh(MeshKind::kInterpolant), step->Mesh(MeshKind::kInterpolant));
+  EXPECT_EQ(saved, step->Mesh(MeshKind::kInterpolant)->mesh().triangles.size());
+  // Once it has settled, they refine again.
+  session.Converge();
+  session.BuildMesh(MeshKind::kInterpolant);
+  ASSERT_TRUE(Rest(session));
+  EXPECT_GT(session.snapshot()->Mesh(MeshKind::kInterpolant)->mesh().triangles.size(), saved);
+}
+
+TEST(SolverSession, WhatHasConvergedStays) {
+  SolverSession session(viewer_test::ShadowScene(), Loose());
+  session.Converge();
+  session.BuildMesh(MeshKind::kInterpolant);
+  ASSERT_TRUE(Rest(session));
+  const auto before = session.snapshot();
+  session.Converge();
+  ASSERT_TRUE(Rest(session));
+  EXPECT_EQ(session.snapshot(), before);
+}
+
+// A limit holds for the interpolants as it does for the solve: they are not refined, or not even made.
+TEST(SolverSession, LimitsHoldForTheMesh) {
+  PipelineOptions options = Loose();
+  options.refine = RefineBy::kBoth;
+  options.error = 1e-3;
+  options.time_limit = 1e-9;
+  SolverSession session(viewer_test::ShadowScene(), options);
+  session.Link();
+  session.Iterate();
+  for (int i = 0; i < 10; ++i) session.Correct();
+  session.BuildMesh(MeshKind::kInterpolant);
+  ASSERT_TRUE(Rest(session));
+  EXPECT_FALSE(session.snapshot()->Mesh(MeshKind::kInterpolant));
+  EXPECT_TRUE(session.snapshot()->Mesh(MeshKind::kFlat));
+}
+
 // What the window shows is what `solve` makes: sources and mesh refined by what is shown, the same numbers.
 TEST(SolverSession, RefinesByWhatIsShown) {
   const auto scene = viewer_test::ShadowScene();

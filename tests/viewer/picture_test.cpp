@@ -1,0 +1,185 @@
+// What the picture shows is what its state says: selections, maps and scales; what is cancelled, and what
+// there is no memory for.
+
+#include "display/viewer/picture.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <new>
+
+#include "display/viewer/deferred.h"
+#include "display/viewer/selection.h"
+#include "tests/viewer/viewer_test_scenes.h"
+
+namespace penumbra::viewer {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using viewer_test::Click;
+using viewer_test::Options;
+using viewer_test::PlaceOf;
+using viewer_test::Settle;
+using viewer_test::ShadowScene;
+
+class PictureOfAViewer : public testing::Test {
+ protected:
+  PictureOfAViewer() : viewer(ShadowScene(), Options(true)) { EXPECT_TRUE(Settle(viewer)); }
+
+  void SelectFloor() {
+    const ScreenPoint at = PlaceOf(viewer, Vec3(-0.4, -0.3, 0));
+    Click(viewer, MouseButton::kLeft, at.x, at.y);
+    ASSERT_TRUE(Settle(viewer));
+    ASSERT_EQ(viewer.view().selection.kind, SelectionKind::kElement);
+  }
+
+  Viewer viewer;
+};
+
+// The colours of the map are those of the triangles, whether others are drawn or not.
+TEST_F(PictureOfAViewer, MapsTheErrorsOfWhatIsSelected) {
+  viewer.Set("error-map", "on");
+  ASSERT_TRUE(Settle(viewer));
+  ASSERT_EQ(viewer.picture().scale(), ColourScale::kError);
+  const Srgb8Image whole = viewer.picture().screen();
+  const std::vector<std::uint32_t> triangle = viewer.picture().frame()->triangle;
+  const IrradianceMesh mesh = viewer.picture().drawn();
+  SelectFloor();
+  EXPECT_EQ(viewer.picture().scale(), ColourScale::kError);
+  ASSERT_LT(viewer.picture().drawn().triangles.size(), mesh.triangles.size());
+  std::size_t floor = 0, same = 0;
+  for (std::size_t i = 0; i < triangle.size(); ++i) {
+    if (triangle[i] == kNoTriangle || mesh.triangles[triangle[i]].patch != 0) continue;
+    ++floor;
+    same += std::equal(whole.pixels.data() + 3 * i, whole.pixels.data() + 3 * i + 3,
+                       viewer.picture().screen().pixels.data() + 3 * i)
+                ? 1
+                : 0;
+  }
+  // But for the outline of the selection.
+  EXPECT_GT(floor, 200U);
+  EXPECT_GT(same, floor - floor / 4);
+}
+
+// Rays meet the whole scene, so it is drawn whole.
+TEST_F(PictureOfAViewer, IsByRaysWhateverIsSelected) {
+  for (const char* mode : {"exact", "lerp"}) {
+    viewer.RunMenu("Geometry/Unselect all");
+    viewer.Set("mode", mode);
+    ASSERT_TRUE(Settle(viewer));
+    ASSERT_TRUE(viewer.picture().by_rays());
+    const RgbImage before = viewer.picture().linear();
+    SelectFloor();
+    EXPECT_TRUE(viewer.picture().by_rays()) << mode;
+    EXPECT_EQ(viewer.picture().linear().channel, before.channel) << mode;
+  }
+}
+
+TEST_F(PictureOfAViewer, HasAScaleWhereItsColoursAreFalse) {
+  viewer.Set("false-colour", "on");
+  for (const auto& [mode, scale] :
+       {std::pair("interpolant", ColourScale::kIrradiance), std::pair("rho", ColourScale::kNone),
+        std::pair("flat", ColourScale::kIrradiance)}) {
+    viewer.Set("mode", mode);
+    ASSERT_TRUE(Settle(viewer));
+    EXPECT_EQ(viewer.picture().scale(), scale) << mode;
+  }
+  viewer.Set("trees-by-reflectance", "on");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.picture().scale(), ColourScale::kNone);
+}
+
+// A mesh that was cancelled is not begun again by itself; the meshes of other modes are, and so are all after
+// another step.
+TEST(Picture, OtherModesGetTheirMeshesAfterACancel) {
+  ViewerOptions options = Options(false);
+  options.solving.error = 0.005;
+  Viewer viewer(ShadowScene(), options);
+  viewer.Set("mode", "flat");
+  viewer.RunMenu("Iteration/Iterate to convergence");
+  ASSERT_TRUE(Settle(viewer));
+  viewer.Set("mode", "interpolant");
+  viewer.Frame(96, 64, 0.02);
+  viewer.RunMenu("Iteration/Cancel");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.picture().drawn_kind(), MeshKind::kFlat);
+  EXPECT_THAT(viewer.activity(), HasSubstr("cancelled"));
+  viewer.Set("mode", "gouraud");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.picture().drawn_kind(), MeshKind::kGouraud);
+  EXPECT_EQ(viewer.activity(), "ready");
+}
+
+TEST(Picture, MeshesAreMadeOnceItIsAskedToConvergeAgain) {
+  Viewer viewer(ShadowScene(), Options(false));
+  viewer.Set("mode", "flat");
+  viewer.RunMenu("Iteration/Iterate to convergence");
+  ASSERT_TRUE(Settle(viewer));
+  viewer.Set("mode", "interpolant");
+  viewer.Frame(96, 64, 0.02);
+  viewer.RunMenu("Iteration/Cancel");
+  ASSERT_TRUE(Settle(viewer));
+  viewer.RunMenu("Iteration/Iterate to convergence");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.picture().drawn_kind(), MeshKind::kInterpolant);
+}
+
+// Faces are told as users count them: their own number on one that was merged, once where one was cut.
+TEST(Probe, TellsFacesAndEverySource) {
+  Scene scene = mesh_test::EmptyScene();
+  constexpr std::int32_t kSquares = 16;
+  for (std::int32_t k = 0; k < kSquares; ++k) {
+    mesh_test::AddSquare(scene, 0, 0, k, 1, true);
+    scene.patches.back().faces = {k};
+  }
+  scene.patches[0].faces = {20, 21};
+  scene.patches[2].faces = {1};  // another part of face 1
+  ProbeResult probe;
+  probe.at.patch = 0;
+  probe.face = 21;
+  for (std::int32_t k = 1; k < kSquares; ++k) probe.sources.push_back({k, Rgb::Constant(k == 2 ? 20 : k)});
+  const std::vector<std::string> lines = DescribeProbe(probe, scene);
+  EXPECT_THAT(lines, Contains(HasSubstr("on patch 21 (")));
+  EXPECT_THAT(lines, Contains("from 14 sources:"));
+  EXPECT_THAT(lines, Contains(testing::AllOf(HasSubstr("  1 ("), HasSubstr("21 21 21"))));
+  EXPECT_THAT(lines, Contains("  2 others: 7 7 7"));
+}
+
+TEST(Picture, OptionsOfASolveAreSettings) {
+  Viewer viewer(ShadowScene(), Options(false));
+  viewer.Set("eee", "0.01");
+  viewer.Set("source-error", "0.02");
+  viewer.Set("seed", "18446744073709551615");
+  EXPECT_EQ(viewer.solving().triple_edge_tolerance, 0.01);
+  EXPECT_EQ(viewer.solving().source_error, 0.02);
+  EXPECT_EQ(viewer.solving().seed, 18446744073709551615U);
+  viewer.Set("source-error", "none");
+  EXPECT_FALSE(viewer.solving().source_error);
+  EXPECT_THROW(viewer.Set("seed", "-1"), InputError);
+  EXPECT_THROW(viewer.Set("divisions", "128"), InputError);
+}
+
+TEST(Deferred, WhatThereIsNoMemoryForHasNoValue) {
+  int begun = 0;
+  Deferred<int, int> values([&](const int& key, const ExecutionContext&) {
+    ++begun;
+    if (key == 1) throw std::bad_alloc();
+    return key;
+  });
+  const auto get = [&](int key) {
+    std::shared_ptr<const int> value = values.Get(key);
+    while (values.Busy()) std::this_thread::yield();
+    return values.Get(key);
+  };
+  EXPECT_FALSE(get(1));
+  EXPECT_TRUE(values.RanOutOfMemory());
+  EXPECT_FALSE(values.RanOutOfMemory());
+  EXPECT_FALSE(get(1));
+  EXPECT_EQ(begun, 1);
+  ASSERT_TRUE(get(2));
+  EXPECT_EQ(*get(2), 2);
+}
+
+}  // namespace
+}  // namespace penumbra::viewer
