@@ -113,6 +113,7 @@ class Viewer {
   void Open(const std::string& name);
   void SaveCamera(const std::string& name);
   void SavePicture(const std::string& path);
+  void SaveLargerPicture(const std::string& path, int k);
   void SaveRayPicture(const std::string& path);
   void SaveSolution(const std::string& path);
   void Export(const std::string& path);

@@ -26,6 +26,12 @@ OverlayDrawing Widened(OverlayDrawing drawing, int k) {
   return drawing;
 }
 
+void WriteWithLegend(const std::string& path, const PictureMaker& picture, Srgb8Image* screen) {
+  if (picture.scale() != ColourScale::kNone)
+    PaintLegend(picture.scale_top(), UnitOf(picture.scale()), screen);
+  WritePng(path, *screen);
+}
+
 }  // namespace
 
 void Viewer::Open(const std::string& name) {
@@ -64,15 +70,21 @@ void Viewer::SavePicture(const std::string& path) {
   const int k = view_.split ? 1 : view_.supersampling;
   if (k * std::max(size_.width, size_.height) > kMaxPictureSize)
     throw InputError("the picture would be too large; ask for less supersampling");
+  if (k > 1) return SaveLargerPicture(path, k);
   Srgb8Image screen = picture_.screen();
-  if (k > 1) {
+  WriteWithLegend(path, picture_, &screen);
+}
+
+// Drawn k times as large, lines too, and averaged; beside the view, for it takes a while.
+void Viewer::SaveLargerPicture(const std::string& path, int k) {
+  session_.Run("render", [=, now = snapshot_, tools = tools_, view = view_, results = results_,
+                          drawing = Widened(drawing_, k),
+                          size = size_](const Snapshot&, const ExecutionContext&) {
     PictureMaker larger;
-    screen = ShrinkScreen(
-        larger.Make(Context(), view_, Widened(drawing_, k), k * size_.width, k * size_.height), k);
-  }
-  if (picture_.scale() != ColourScale::kNone)
-    PaintLegend(picture_.scale_top(), UnitOf(picture_.scale()), &screen);
-  WritePng(path, screen);
+    const OverlayContext context{*now, *tools, view.overlays, view.selection, results, view.isolate};
+    Srgb8Image screen = ShrinkScreen(larger.Make(context, view, drawing, k * size.width, k * size.height), k);
+    WriteWithLegend(path, larger, &screen);
+  });
 }
 
 // As `render` draws it: so many rays a pixel, without overlays, beside the view.
