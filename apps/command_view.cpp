@@ -2,16 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/camera_arguments.h"
 #include "apps/commands.h"
 #include "apps/export_file.h"
+#include "apps/material_change.h"
 #include "apps/option_values.h"
 #include "apps/output.h"
 #include "apps/scene_arguments.h"
@@ -24,6 +27,15 @@
 
 namespace penumbra {
 namespace {
+
+constexpr const char* kTwoSided = "two-sided";
+constexpr const char* kRadiance = "emission-is-radiance";
+constexpr const char* kMaxReflectance = "max-reflectance";
+constexpr const char* kEmittanceOption = "emittance";
+constexpr const char* kReflectanceOption = "reflectance";
+// Values of flags that are given and are not, and of other options that are not.
+constexpr const char *kOn = "on", *kOff = "off";
+const std::string kNone = "none";
 
 struct ViewArguments {
   SceneArguments scene;
@@ -71,6 +83,57 @@ class ViewedScene {
     return Take(std::move(loaded));
   }
 
+  // The scene that was opened last, with one option changed, in the words of the command line.
+  viewer::OpenedScene ReadWith(const std::string& option, const std::string& value) {
+    SceneArguments changed = arguments_;
+    CLI::App app;
+    AddSceneArguments(app, &changed);
+    std::vector<std::string> words = {changed.scene};
+    if (value == kOff || value == kNone) {
+      LeaveOut(option, changed);
+    } else {
+      words.push_back(fmt::format("--{}", option));
+      if (value != kOn) words.push_back(value);
+    }
+    std::reverse(words.begin(), words.end());  // as CLI11 takes them
+    try {
+      app.parse(std::move(words));
+      LoadedScene loaded = LoadScene(changed);
+      changed.app = nullptr;
+      {
+        const std::lock_guard lock(mutex_);
+        arguments_ = std::move(changed);
+      }
+      return Take(std::move(loaded));
+    } catch (const CLI::ParseError& error) {
+      throw InputError(error.what());
+    } catch (const UsageError& error) {
+      throw InputError(error.what());
+    }
+  }
+
+  std::vector<viewer::ReadingOption> Reading() const {
+    const SceneOptions& reading = arguments_.reading;
+    const auto flag = [](const bool& value) { return [&value] { return std::string(value ? kOn : kOff); }; };
+    const auto changes = [](const std::vector<MaterialChange>& of) {
+      return [&of] {
+        std::vector<std::string> texts;
+        for (const auto& [name, rgb] : of)
+          texts.push_back(fmt::format("{}={},{},{}", name, rgb[0], rgb[1], rgb[2]));
+        return of.empty() ? kNone : fmt::format("{}", fmt::join(texts, " "));
+      };
+    };
+    return {
+        {kTwoSided, "Every face has a second, reversed one", true, flag(reading.two_sided)},
+        {kRadiance, "Ke is radiance", true, flag(reading.emission_is_radiance)},
+        {kMaxReflectance, "Clamp larger reflectances to", false,
+         [&reading] {
+           return reading.max_reflectance ? fmt::format("{}", *reading.max_reflectance) : std::string(kNone);
+         }},
+        {kEmittanceOption, "Another emittance, MATERIAL=r,g,b", false, changes(arguments_.emittance)},
+        {kReflectanceOption, "Another reflectance, MATERIAL=r,g,b", false, changes(arguments_.reflectance)}};
+  }
+
   // Called from the solver's thread.
   void Save(const std::string& path, const Pipeline& pipeline) const {
     const std::lock_guard lock(mutex_);
@@ -83,6 +146,14 @@ class ViewedScene {
   }
 
  private:
+  static void LeaveOut(const std::string& option, SceneArguments& arguments) {
+    if (option == kTwoSided) arguments.reading.two_sided = false;
+    if (option == kRadiance) arguments.reading.emission_is_radiance = false;
+    if (option == kMaxReflectance) arguments.reading.max_reflectance.reset();
+    if (option == kEmittanceOption) arguments.emittance.clear();
+    if (option == kReflectanceOption) arguments.reflectance.clear();
+  }
+
   mutable std::mutex mutex_;
   SceneArguments arguments_;
   std::optional<nlohmann::ordered_json> stored_options_;
@@ -91,6 +162,10 @@ class ViewedScene {
 viewer::ViewerFiles FilesOf(ViewedScene& viewed) {
   viewer::ViewerFiles files;
   files.open = [&viewed](const std::string& name) { return viewed.Open(name); };
+  files.reading = viewed.Reading();
+  files.read_with = [&viewed](const std::string& option, const std::string& value) {
+    return viewed.ReadWith(option, value);
+  };
   files.save_solution = [&viewed](const std::string& path, const Pipeline& pipeline) {
     viewed.Save(path, pipeline);
   };
@@ -152,8 +227,10 @@ void View(const ViewArguments& arguments) {
 // The options that a script can set, with what they may be.
 std::string SettingsHelp() {
   std::string help = "Options for `set`, with their values at the start:\n";
-  const viewer::Viewer viewer(viewer::OpenedScene(std::make_shared<const Scene>()), [] {
+  ViewedScene viewed{SceneArguments()};
+  const viewer::Viewer viewer(viewer::OpenedScene(std::make_shared<const Scene>()), [&viewed] {
     viewer::ViewerOptions options;
+    options.files = FilesOf(viewed);
     options.solve = false;
     return options;
   }());

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "mesh/pipeline.h"
 #include "solver/scene/scene.h"
@@ -24,11 +25,21 @@ struct OpenedScene {
   PipelineOptions solving;
 };
 
+// What says how a scene is read.
+struct ReadingOption {
+  std::string name, help;
+  bool toggle = false;  // else text
+  std::function<std::string()> value;
+};
+
 // Each throws InputError, a line that says what is wrong. Those that write do it beside the place, then
 // rename.
 struct ViewerFiles {
   // A scene or a solution by its path or name.
   std::function<OpenedScene(const std::string& name)> open;
+  // The scene that was opened last, read anew with another value of one of these options.
+  std::vector<ReadingOption> reading;
+  std::function<OpenedScene(const std::string& option, const std::string& value)> read_with;
   // The pipeline is solved, meshed for interpolants and measured.
   std::function<void(const std::string& path, const Pipeline& pipeline)> save_solution;
   // Whether the format that the path's ending names holds the mesh, and not the scene alone.

@@ -54,7 +54,7 @@ constexpr float kGap = 8;
 // What the drawing control panel holds, and how wide its fields and those of the parameters are.
 constexpr std::string_view kControlGroups[] = {"Drawing", "Exposure", "Visualisations",
                                                "Links",   "Graphs",   "Viewing"};
-constexpr std::string_view kParameterGroups[] = {"Solving"};
+constexpr std::string_view kParameterGroups[] = {"Scene", "Solving"};
 constexpr float kControlField = 120, kParameterField = 150;
 
 // How much larger than plain everything is.

@@ -23,6 +23,7 @@ Viewer::Viewer(const OpenedScene& opened, ViewerOptions options)
   snapshot_ = session_.snapshot();
   tools_ = ToolsMesh();
   AddViewSettings();
+  AddSceneSettings();
   AddSolveSettings();
   AddFileSettings();
   AddMenus();
@@ -110,7 +111,7 @@ const Srgb8Image& Viewer::Frame(int width, int height, double seconds) {
     snapshot_ = latest;
     Unselect();
     ListCameras();
-    Home();
+    if (!keep_camera_) Home();
   }
   snapshot_ = latest;
   AskForMeshes();

@@ -110,6 +110,8 @@ class Viewer {
   void Home();
 
   // viewer_files.cpp
+  void AddSceneSettings();
+  void Take(const OpenedScene& opened);
   void Open(const std::string& name);
   void SaveCamera(const std::string& name);
   void SavePicture(const std::string& path);
@@ -178,7 +180,8 @@ class Viewer {
   double clock_ = 0;
   double last_click_ = -1, last_click_x_ = 0, last_click_y_ = 0;
   double seconds_a_frame_ = 0;
-  bool fresh_ = false;  // nothing happened since the last frame
+  bool keep_camera_ = false;  // when the next scene comes
+  bool fresh_ = false;        // nothing happened since the last frame
 };
 
 }  // namespace penumbra::viewer

@@ -39,10 +39,34 @@ void Viewer::Open(const std::string& name) {
                                  ? options_.files.open(name)
                                  : OpenedScene(std::make_shared<const Scene>(ReadNamedScene(name, {})));
   options_.scene_name = name;
+  keep_camera_ = false;
+  Take(opened);
+  if (options_.opened) options_.opened(name);
+}
+
+void Viewer::Take(const OpenedScene& opened) {
   if (opened.stored) options_.solving = opened.solving;
   session_.SetScene(opened);
   if (options_.solve && !opened.stored) session_.Converge();
-  if (options_.opened) options_.opened(name);
+}
+
+// Each reads the scene anew, which is seen from where one stands.
+void Viewer::AddSceneSettings() {
+  for (const ReadingOption& option : options_.files.reading) {
+    Setting setting{option.name, "Scene", option.help, SettingKind::kText, 0, 1, false, false, {}, {}, {}};
+    if (option.toggle) {
+      setting.kind = SettingKind::kToggle;
+      setting.choices = {"off", "on"};
+    }
+    setting.get = option.value;
+    setting.set = [this, option](const std::string& text) {
+      if (text == option.value()) return;
+      const OpenedScene opened = options_.files.read_with(option.name, text);
+      keep_camera_ = true;
+      Take(opened);
+    };
+    settings_.Add(std::move(setting));
+  }
 }
 
 // Those of the scene, then those that users named.

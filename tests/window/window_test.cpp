@@ -293,6 +293,31 @@ TEST_F(Window, EveryMenuItemKeyAndOption) {
   EXPECT_EQ(Load("last.png").width, 320);
 }
 
+// How a scene is read can be changed while it is looked at: what is solved then is what `solve` makes with
+// these options.
+TEST_F(Window, ReadsItsSceneAnew) {
+  const Outcome changed = Play(R"(
+resize 64x48
+wait idle
+set two-sided on
+set emittance left_light=300,200,100
+set max-reflectance 0.5
+set max-reflectance none
+wait idle
+set save-solution a.h5
+wait idle
+)");
+  EXPECT_EQ(changed.status, 0) << changed.err;
+  const Outcome solved = sandbox.Run({"solve", "floating-cube", "--error", "0.2", "--two-sided",
+                                      "--emittance", "left_light=300,200,100", "-o", "b.h5"});
+  EXPECT_EQ(solved.status, 0) << solved.err;
+  EXPECT_EQ(ReadBytes(sandbox.Path("a.h5")), ReadBytes(sandbox.Path("b.h5")));
+  const Outcome wrong = Play("wait idle\nset emittance nothing=1,1,1\n");
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_THAT(wrong.err, HasSubstr("script:2: error: emittance: the scene has no material 'nothing'"));
+  EXPECT_EQ(Play("wait idle\nset two-sided maybe\n").status, 1);
+}
+
 // A solution is saved, exported and opened again: as another program run, and in the window.
 TEST_F(Window, SavesOpensAndExportsSolutions) {
   const Outcome saved = Play(R"(
