@@ -190,10 +190,21 @@ void Panels::Widget(Viewer& viewer, const Setting& setting) {
       if (setting.logarithmic && !setting.automatic) {
         // Sliders reach a thousandfold either way of where they are.
         auto number = static_cast<float>(NumberFrom(value, -1e30, 1e30));
-        const float low = std::max(number / 1000, static_cast<float>(setting.low));
-        const float high = std::min(number * 1000, static_cast<float>(setting.high));
+        float low = std::max(number / 1000, static_cast<float>(setting.low));
+        float high = std::min(number * 1000, static_cast<float>(setting.high));
+        if (slid_ == setting.name) {
+          low = slid_low_;
+          high = slid_high_;
+        }
         if (ImGui::SliderFloat(label.c_str(), &number, low, high, "%.4g", ImGuiSliderFlags_Logarithmic))
           chosen = TextOf(static_cast<double>(number));
+        if (ImGui::IsItemActive()) {
+          slid_ = setting.name;
+          slid_low_ = low;
+          slid_high_ = high;
+        } else if (slid_ == setting.name) {
+          slid_.clear();
+        }
         break;
       }
       [[fallthrough]];

@@ -44,6 +44,8 @@ class Panels {
   char text_[1024] = {};  // in its field
   std::string edited_;    // the setting whose field is being edited
   char edit_[128] = {};
+  std::string slid_;  // the setting whose slider is held
+  float slid_low_ = 0, slid_high_ = 1;
 };
 
 }  // namespace penumbra::viewer

@@ -7,7 +7,10 @@
 #include <imgui_internal.h>
 
 #include <cmath>
+#include <optional>
+#include <string>
 #include <tuple>
+#include <utility>
 
 #include "tests/viewer/viewer_test_scenes.h"
 
@@ -20,13 +23,15 @@ using viewer_test::ShadowScene;
 // ImGui in a display of a given size, letters `scale` times as large as plain ones.
 class Stage {
  public:
-  Stage(float width, float height, float scale) : viewer_(ShadowScene(), Options(false)) {
+  Stage(float width, float height, float scale, ViewerOptions options = Options(false))
+      : viewer_(ShadowScene(), std::move(options)) {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.DisplaySize = ImVec2(width, height);
     io.DeltaTime = 0.02F;
     io.KeyMap[ImGuiKey_Escape] = kEscape;
+    io.KeyMap[ImGuiKey_Enter] = kEnter;
     ImFontConfig font;
     font.SizePixels = std::round(kPlainFontSize * scale);
     io.Fonts->AddFontDefault(&font);
@@ -58,9 +63,48 @@ class Stage {
     ImGui::GetIO().MouseDown[0] = false;
     Frames();
   }
+  void DoubleClick(ImVec2 at) {
+    Point(at.x, at.y);
+    for (int i = 0; i < 2; ++i)
+      for (const bool down : {true, false}) {
+        ImGui::GetIO().MouseDown[0] = down;
+        Frames(1);
+      }
+    Frames();
+  }
+  void Type(const char* text) {
+    ImGui::GetIO().AddInputCharactersUTF8(text);
+    Frames();
+  }
+  void Press(int key) {
+    for (const bool down : {true, false}) {
+      ImGui::GetIO().KeysDown[key] = down;
+      Frames(2);
+    }
+  }
+  // Where the pointer, on its way along a line, meets an item first; nothing if it does not.
+  std::optional<ImVec2> Find(ImGuiID id, ImVec2 from, ImVec2 step) {
+    const ImVec2 end = ImGui::GetIO().DisplaySize;
+    for (ImVec2 at = from; at.x < end.x && at.y < end.y; at.x += step.x, at.y += step.y) {
+      ImGui::GetIO().MousePos = at;
+      Frames(2);
+      if (GImGui->HoveredId == id) return at;
+    }
+    return std::nullopt;
+  }
+  // The same down a panel.
+  ImVec2 FindField(const char* panel, const Setting& setting) {
+    ImGuiWindow* window = ImGui::FindWindowByName(panel);
+    const std::string item = setting.help + "##" + setting.name;
+    const auto at = Find(window->GetIDNoKeepAlive(item.c_str()),
+                         ImVec2(window->WorkRect.Min.x + 20, window->Pos.y), {0, 4});
+    EXPECT_TRUE(at) << setting.name;
+    return at.value_or(ImVec2(0, 0));
+  }
+  const Setting& Option(const std::string& name) { return *viewer_.settings().Find(name); }
   Viewer& viewer() { return viewer_; }
 
-  static constexpr int kEscape = 1;
+  static constexpr int kEscape = 1, kEnter = 2;
 
  private:
   Viewer viewer_;
@@ -98,6 +142,35 @@ TEST(Panels, OpenBesideOneAnother) {
       const ImRect one = ImGui::FindWindowByName(a)->Rect(), other = ImGui::FindWindowByName(b)->Rect();
       EXPECT_FALSE(one.Overlaps(other)) << a << " and " << b;
     }
+}
+
+// A slider shows what the pointer is at for as long as it is held, at one scale from end to end of the drag.
+TEST(Panels, ASliderFollowsThePointer) {
+  for (const char* name : {"exposure", "walk-speed"}) {
+    Stage stage(1400, 1600, 1);
+    stage.viewer().Set("control-panel", "on");
+    stage.viewer().Set(name, "2");  // far from either end of what may be
+    stage.Frames();
+    ImGui::SetWindowSize(kControl, ImVec2(400, 1500));
+    const ImVec2 left = stage.FindField(kControl, stage.Option(name));
+    const float middle = ImGui::FindWindowByName(kControl)->WorkRect.Min.x + 60;
+    const auto value = [&] { return std::stod(stage.Option(name).get()); };
+    stage.Point(middle + 2, left.y);
+    ImGui::GetIO().MouseDown[0] = true;
+    stage.Frames(60);
+    const double first = value();
+    EXPECT_NEAR(std::log10(first / 2), 0, 0.25) << name;  // 6 decades on 120 pixels
+    stage.Point(middle + 20, left.y);
+    const double further = value();
+    EXPECT_NEAR(std::log10(further / first), 1, 0.25) << name;
+    stage.Frames(60);
+    EXPECT_EQ(value(), further) << name;
+    stage.Point(middle + 2, left.y);
+    EXPECT_EQ(value(), first) << name;
+    ImGui::GetIO().MouseDown[0] = false;
+    stage.Frames();
+    EXPECT_EQ(value(), first) << name;
+  }
 }
 
 // In a window of any size the scale of false colours lies inside, below the menus.
