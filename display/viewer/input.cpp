@@ -41,4 +41,13 @@ std::optional<KeyChord> ParseChord(const std::string& text) {
   return chord;
 }
 
+KeyChord ChordOf(const std::string& key, unsigned modifiers, unsigned typed) {
+  // Other alphabets type no name of ours: there the place of the key counts.
+  if (typed <= ' ' || typed >= 127) return {key, modifiers};
+  const auto c = static_cast<char>(typed);
+  if (c >= 'A' && c <= 'Z') return {std::string(1, static_cast<char>(c - 'A' + 'a')), modifiers};
+  const bool letter = c >= 'a' && c <= 'z';
+  return {std::string(1, c), letter ? modifiers : modifiers & ~static_cast<unsigned>(kShift)};
+}
+
 }  // namespace penumbra::viewer

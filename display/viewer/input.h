@@ -36,4 +36,9 @@ struct KeyChord {
 std::optional<KeyChord> ParseChord(const std::string& text);
 bool IsKeyName(const std::string& name);
 
+// What the press of a key is called. `key`: its name where nothing is known of the layout, or empty; `typed`:
+// the code point that the layout makes of it, or 0. Shift that made another character of the key is part of
+// its name: `?`, wherever that is; with letters it stays a modifier.
+KeyChord ChordOf(const std::string& key, unsigned modifiers, unsigned typed);
+
 }  // namespace penumbra::viewer

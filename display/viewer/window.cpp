@@ -11,6 +11,8 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
+#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -73,6 +75,13 @@ std::string KeyName(int key) {
   }
 }
 
+// The same as the keyboard is labelled, if that is a name of ours.
+std::string LabelOf(int key, int scancode) {
+  const std::string name = KeyName(key);
+  const char* label = name.size() > 1 ? nullptr : glfwGetKeyName(key, scancode);
+  return label && label[0] != '\0' && label[1] == '\0' && IsKeyName(label) ? label : name;
+}
+
 // The keys that ImGui's text fields listen to, with its names for them.
 constexpr std::pair<const char*, ImGuiKey_> kImGuiKeys[] = {{"tab", ImGuiKey_Tab},
                                                             {"left", ImGuiKey_LeftArrow},
@@ -110,6 +119,9 @@ class Window final : public ScriptStage {
 
  private:
   void Listen();
+  void PressKey(int key, int scancode, int mods);
+  void ReleaseKey(int scancode, int mods);
+  void TypeCharacter(unsigned text);
   void SetUpImGui(std::optional<double> scale);
   void FeedEvents();
   void Feed(const InputEvent& event);
@@ -124,6 +136,13 @@ class Window final : public ScriptStage {
   GLuint texture_ = 0;
   Panels panels_;
   std::deque<InputEvent> events_;
+  std::map<int, std::string> pressed_;  // the names of the keys that are down, by scancode
+  struct PressedKey {
+    int scancode;
+    std::string label;
+    unsigned modifiers;
+  };
+  std::optional<PressedKey> typing_;  // the key that was pressed last, until its character comes
   double x_ = 0, y_ = 0;              // of the pointer, in pixels
   double scale_x_ = 1, scale_y_ = 1;  // pixels a unit of the window's coordinates
   bool pressed_in_picture_[3] = {};
@@ -210,19 +229,15 @@ void Window::SetUpImGui(std::optional<double> scale) {
 // Everything that GLFW hears becomes an event, to be taken up with the next frame.
 void Window::Listen() {
   glfwSetWindowUserPointer(window_, this);
-  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
-    if (action == GLFW_REPEAT) return;  // text fields repeat by themselves
-    InputEvent event;
-    event.key = KeyName(key);
-    event.modifiers = FromGlfwModifiers(mods);
-    event.kind = action == GLFW_RELEASE ? InputEvent::Kind::kKeyUp : InputEvent::Kind::kKeyDown;
-    if (!event.key.empty()) static_cast<Window*>(glfwGetWindowUserPointer(w))->Input(event);
+  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+    auto* window = static_cast<Window*>(glfwGetWindowUserPointer(w));
+    window->typing_.reset();
+    if (action == GLFW_PRESS) window->PressKey(key, scancode, mods);
+    if (action == GLFW_RELEASE) window->ReleaseKey(scancode, mods);
+    // Text fields repeat by themselves.
   });
   glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned text) {
-    InputEvent event;
-    event.kind = InputEvent::Kind::kText;
-    event.text = text;
-    static_cast<Window*>(glfwGetWindowUserPointer(w))->Input(event);
+    static_cast<Window*>(glfwGetWindowUserPointer(w))->TypeCharacter(text);
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
     auto* window = static_cast<Window*>(glfwGetWindowUserPointer(w));
@@ -251,6 +266,38 @@ void Window::Listen() {
     event.scroll = notches;
     static_cast<Window*>(glfwGetWindowUserPointer(w))->Input(event);
   });
+}
+
+void Window::PressKey(int key, int scancode, int mods) {
+  typing_ = PressedKey{scancode, LabelOf(key, scancode), FromGlfwModifiers(mods)};
+  InputEvent event;
+  event.kind = InputEvent::Kind::kKeyDown;
+  event.key = pressed_[scancode] = typing_->label;
+  event.modifiers = typing_->modifiers;
+  Input(event);
+}
+
+// By the name that it was pressed with: shift may have been let go since.
+void Window::ReleaseKey(int scancode, int mods) {
+  InputEvent event;
+  event.kind = InputEvent::Kind::kKeyUp;
+  event.key = std::exchange(pressed_[scancode], {});
+  event.modifiers = FromGlfwModifiers(mods);
+  Input(event);
+}
+
+// A character follows the press of its key, and says what the key is called.
+void Window::TypeCharacter(unsigned text) {
+  if (typing_ && !events_.empty() && events_.back().kind == InputEvent::Kind::kKeyDown) {
+    const KeyChord chord = ChordOf(typing_->label, typing_->modifiers, text);
+    events_.back().key = pressed_[typing_->scancode] = chord.key;
+    events_.back().modifiers = chord.modifiers;
+  }
+  typing_.reset();
+  InputEvent event;
+  event.kind = InputEvent::Kind::kText;
+  event.text = text;
+  Input(event);
 }
 
 void Window::Resize(int width, int height) {
