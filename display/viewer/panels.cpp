@@ -66,7 +66,7 @@ void PlaceNext(float x, float y, float width, float height) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const auto fit = [scale](float at, float size, float room) {
     const float length = std::min(scale * size, std::max(room - 2 * kGap, 1.0F));
-    return std::pair(std::min(scale * at, std::max(room - kGap - length, kGap)), length);
+    return std::pair(std::max(std::min(scale * at, room - kGap - length), kGap), length);
   };
   const auto [left, across] = fit(x, width, display.x);
   const auto [top, down] = fit(y, height, display.y - 22 * scale);  // below the menus

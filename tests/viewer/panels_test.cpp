@@ -144,6 +144,26 @@ TEST(Panels, OpenBesideOneAnother) {
     }
 }
 
+// Whatever the size of the window and the letters, a panel opens where all of it is seen, below the menus.
+TEST(Panels, OpenInsideTheWindow) {
+  for (const auto& [width, height, scale] : {std::tuple{1280.0F, 800.0F, 1.0F},
+                                             {1280.0F, 800.0F, 3.0F},
+                                             {660.0F, 460.0F, 1.5F},
+                                             {400.0F, 300.0F, 1.0F}}) {
+    Stage stage(width, height, scale);
+    OpenPanels(stage);
+    stage.viewer().Set("help", "on");
+    stage.Frames();
+    for (const char* name : {kControl, "Parameters", "Report", "Keyboard and mouse"}) {
+      const ImRect panel = ImGui::FindWindowByName(name)->Rect();
+      EXPECT_GE(panel.Min.x, 0) << name << ", " << width << " x " << height;
+      EXPECT_GE(panel.Min.y, ImGui::GetFrameHeight()) << name << ", " << width << " x " << height;
+      EXPECT_LE(panel.Max.x, width) << name << ", " << width << " x " << height;
+      EXPECT_LE(panel.Max.y, height) << name << ", " << width << " x " << height;
+    }
+  }
+}
+
 // A slider shows what the pointer is at for as long as it is held, at one scale from end to end of the drag.
 TEST(Panels, ASliderFollowsThePointer) {
   for (const char* name : {"exposure", "walk-speed"}) {
