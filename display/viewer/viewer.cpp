@@ -95,9 +95,22 @@ std::string Viewer::activity() {
   return snapshot_->Mesh(MeshOf(view_.mode)) ? "ready" : "the leaves, since the mesh was cancelled";
 }
 
-std::string Viewer::message() const {
-  if (!message_.empty()) return message_;
-  return session_.status().message;
+// What goes wrong in the session is told once.
+void Viewer::HearSession() {
+  if (!HasNews()) return;
+  heard_ = session_.status().message;
+  Complain(heard_);
+}
+
+bool Viewer::HasNews() const {
+  const std::string message = session_.status().message;
+  return !message.empty() && message != heard_;
+}
+
+SolverSession& Viewer::Begin() {
+  Dismiss();
+  heard_.clear();
+  return session_;
 }
 
 const Srgb8Image& Viewer::Frame(int width, int height, double seconds) {
@@ -114,6 +127,7 @@ const Srgb8Image& Viewer::Frame(int width, int height, double seconds) {
     if (!keep_camera_) Home();
   }
   snapshot_ = latest;
+  HearSession();
   AskForMeshes();
   const std::shared_ptr<const MeshState> tools = ToolsMesh();
   // Numbers of links, triangles and discontinuities are those of one state; elements keep theirs.
@@ -164,7 +178,7 @@ void Viewer::DrawOverlays() {
 bool Viewer::Idle() {
   if (session_.status().busy || analyses_.Busy() || picture_.Busy() || !fresh_) return false;
   // A result that came since the last frame has to be drawn first, and may ask for more.
-  if (session_.snapshot() != snapshot_) return false;
+  if (session_.snapshot() != snapshot_ || HasNews()) return false;
   AskForMeshes();
   if (session_.status().busy) return false;
   return results_ == analyses_.Update(*snapshot_, tools_, view_) && !analyses_.Busy();

@@ -74,8 +74,8 @@ class Viewer {
   SessionStatus status() const { return session_.status(); }
   // What is going on beside the solver, in a few words.
   std::string activity();
-  // What to tell the user: what went wrong last; empty: nothing.
-  std::string message() const;
+  // What to tell the user: what went wrong last, up to the last frame; empty: nothing.
+  const std::string& message() const { return message_; }
   void Dismiss() { message_.clear(); }
   void Complain(const std::string& message) { message_ = message; }
   // What is selected and probed, a line each.
@@ -128,6 +128,11 @@ class Viewer {
   OverlayContext Context() const;
   void AskForMeshes();
   void DrawOverlays();
+  void HearSession();
+  bool HasNews() const;
+  // The session, to begin something that the user asked for: complaints are about what was before, and what
+  // it says next is news, even if it is the same.
+  SolverSession& Begin();
   void SolvingChanged() { session_.SetOptions(options_.solving); }
 
   ViewerOptions options_;
@@ -144,6 +149,7 @@ class Viewer {
   AnalysisResults results_;
   PictureMaker picture_;
   std::string message_;
+  std::string heard_;  // the session's message, once it was told
   std::size_t printed_ = 0;
   std::shared_ptr<const ProbeResult> printed_probe_;
   // Meshes that were asked for, with the snapshot's number; those that the user did not want after all.

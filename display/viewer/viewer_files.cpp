@@ -46,8 +46,8 @@ void Viewer::Open(const std::string& name) {
 
 void Viewer::Take(const OpenedScene& opened) {
   if (opened.stored) options_.solving = opened.solving;
-  session_.SetScene(opened);
-  if (options_.solve && !opened.stored) session_.Converge();
+  Begin().SetScene(opened);
+  if (options_.solve && !opened.stored) Begin().Converge();
 }
 
 // Each reads the scene anew, which is seen from where one stands.
@@ -101,9 +101,9 @@ void Viewer::SavePicture(const std::string& path) {
 
 // Drawn k times as large, lines too, and averaged; beside the view, for it takes a while.
 void Viewer::SaveLargerPicture(const std::string& path, int k) {
-  session_.Run("render", [=, now = snapshot_, tools = tools_, view = view_, results = results_,
-                          drawing = Widened(drawing_, k),
-                          size = size_](const Snapshot&, const ExecutionContext&) {
+  Begin().Run("render", [=, now = snapshot_, tools = tools_, view = view_, results = results_,
+                         drawing = Widened(drawing_, k),
+                         size = size_](const Snapshot&, const ExecutionContext&) {
     PictureMaker larger;
     const OverlayContext context{*now, *tools, view.overlays, view.selection, results, view.isolate};
     Srgb8Image screen = ShrinkScreen(larger.Make(context, view, drawing, k * size.width, k * size.height), k);
@@ -116,7 +116,7 @@ void Viewer::SaveRayPicture(const std::string& path) {
   const bool exact = view_.mode == DrawMode::kExact;
   const ViewState view = view_;
   const double exposure = picture_.exposure(), top = picture_.scale_top();
-  session_.Run(
+  Begin().Run(
       "render", [=, size = size_, light = snapshot_->light, mesh = snapshot_->Mesh(MeshKind::kInterpolant)](
                     const Snapshot&, const ExecutionContext& context) {
         const Scene& scene = light->scene();
@@ -142,7 +142,7 @@ void Viewer::SaveRayPicture(const std::string& path) {
 
 void Viewer::SaveSolution(const std::string& path) {
   if (!options_.files.save_solution) throw InputError("there is nobody who writes solutions");
-  session_.Save(
+  Begin().Save(
       [path, write = options_.files.save_solution](const Pipeline& pipeline) { write(path, pipeline); });
 }
 
@@ -151,9 +151,9 @@ void Viewer::Export(const std::string& path) {
   if (!files.exports_mesh || !files.export_file) throw InputError("there is nobody who exports");
   const bool wants_mesh = files.exports_mesh(path);
   if (wants_mesh && !snapshot_->light) throw InputError("nothing is solved yet: iterate first");
-  if (wants_mesh) session_.BuildMesh(MeshKind::kInterpolant);
-  session_.Run("export", [path, wants_mesh, write = files.export_file, camera = view_.camera](
-                             const Snapshot& now, const ExecutionContext& context) {
+  if (wants_mesh) Begin().BuildMesh(MeshKind::kInterpolant);
+  Begin().Run("export", [path, wants_mesh, write = files.export_file, camera = view_.camera](
+                            const Snapshot& now, const ExecutionContext& context) {
     const auto& mesh = now.Mesh(MeshKind::kInterpolant);
     if (context.Cancelled() || (wants_mesh && !mesh)) return;
     write(path, *now.scene, wants_mesh ? &mesh->mesh() : nullptr, camera);

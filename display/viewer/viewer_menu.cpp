@@ -91,23 +91,23 @@ void Viewer::AddMenus() {
   toggle("Geometry/Draw only what is selected", "z", "isolate");
   toggle("Geometry/Parameters", "ctrl+d", "parameters");
 
-  add("Iteration/Link", "", "Start over: links between patches", [this] { session_.Link(); });
+  add("Iteration/Link", "", "Start over: links between patches", [this] { Begin().Link(); });
   add("Iteration/Iterate", "i", "Gather until little changes, then refine, once",
-      [this] { session_.Iterate(); });
+      [this] { Begin().Iterate(); });
   add("Iteration/Iterate to convergence", "c", "Iterate until it is done, then correct", [this] {
     declined_.clear();
     asked_.clear();
-    session_.Converge();
+    Begin().Converge();
   });
   add("Iteration/Correct", "y", "One pass of exact irradiance over the leaves",
-      [this] { session_.Correct(); });
+      [this] { Begin().Correct(); });
   add("Iteration/Build interpolants", "", "Discontinuities, triangles and interpolants", [this] {
     declined_.clear();
-    session_.BuildMesh(MeshKind::kInterpolant);
+    Begin().BuildMesh(MeshKind::kInterpolant);
   });
   add("Iteration/Measure", "", "Energy balance, and errors at random points", [this] {
     panels_.report = true;
-    session_.Measure();
+    Begin().Measure();
   });
   add("Iteration/Cancel", "backspace", "End what is being computed after its last whole step", [this] {
     if (picture_.Busy()) {

@@ -422,6 +422,35 @@ TEST(Viewer, SavesAndExportsWhatIsSolved) {
   EXPECT_EQ(viewer.message(), "the disk is full");
 }
 
+// What went wrong last is what is told, whether here or in the solver; a scene that opens ends it.
+TEST(Viewer, TellsTheNewestComplaint) {
+  ViewerOptions options = Options(false);
+  options.files.exports_mesh = [](const std::string&) { return false; };
+  options.files.export_file = [](const std::string&, const Scene&, const IrradianceMesh*, const Camera&) {
+    throw InputError("the disk is full");
+  };
+  Viewer viewer(ShadowScene(), options);
+  for (int i = 0; i < 2; ++i) {
+    viewer.Complain("first");
+    EXPECT_EQ(viewer.message(), "first");
+    viewer.Set("export", "a.obj");
+    ASSERT_TRUE(Settle(viewer));
+    EXPECT_EQ(viewer.message(), "the disk is full");
+  }
+  viewer.Complain("last");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.message(), "last");
+  viewer.Set("export", "a.obj");
+  ASSERT_TRUE(Settle(viewer));
+  viewer.Dismiss();
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.message(), "");
+  viewer.Complain("no such scene");
+  viewer.Set("open", "floating-cube");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.message(), "");
+}
+
 TEST_F(SolvedViewer, ASceneThatFailsToLoadLeavesTheOldOne) {
   EXPECT_THROW(viewer.Set("open", "no/such/file.obj"), InputError);
   ASSERT_TRUE(Settle(viewer));
