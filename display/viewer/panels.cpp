@@ -57,6 +57,11 @@ constexpr std::string_view kControlGroups[] = {"Drawing", "Exposure", "Visualisa
 constexpr std::string_view kParameterGroups[] = {"Scene", "Solving"};
 constexpr float kControlField = 120, kParameterField = 150;
 
+// The menus of the bar stand side by side where they leave room for so much of what is being computed.
+constexpr float kPhaseLetters = 24;
+
+float WidthOf(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
+
 // How much larger than plain everything is.
 float Scale() { return ImGui::GetFontSize() / kPlainFontSize; }
 
@@ -114,9 +119,9 @@ void Panels::Draw(Viewer& viewer) {
 void Panels::MenuBar(Viewer& viewer) {
   if (!ImGui::BeginMainMenuBar()) return;
   std::string run;
-  float width = 0;
+  float width = WidthOf("Cancel") + kPhaseLetters * WidthOf("m");
   for (const std::string& top : TopMenus(viewer.menu()))
-    width += ImGui::CalcTextSize(top.c_str()).x + 2 * ImGui::GetStyle().ItemSpacing.x;
+    width += WidthOf(top) + 2 * ImGui::GetStyle().ItemSpacing.x;
   if (width <= ImGui::GetIO().DisplaySize.x) {
     Menus(viewer, &run);
   } else if (ImGui::BeginMenu("Menu")) {  // in a window without room for all of them
@@ -151,11 +156,20 @@ void Panels::Status(Viewer& viewer) {
   if (!status.busy) text = viewer.activity();
   const double fps = viewer.seconds_a_frame() > 0 ? 1 / viewer.seconds_a_frame() : 0;
   const std::string rate = fmt::format("{:.0f} fps", fps);
-  const float bar = 90 * Scale(), width = ImGui::CalcTextSize(text.c_str()).x +
-                                          ImGui::CalcTextSize(rate.c_str()).x +
-                                          (status.busy ? bar + 80 * Scale() : 0) + 4 * kGap;
-  ImGui::SameLine(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width));
-  if (status.busy) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float bar = 90 * Scale(), gap = style.ItemSpacing.x;
+  // What there is no room for is left out, the button last.
+  float room = ImGui::GetWindowWidth() - ImGui::GetCursorPosX() - kGap, width = 0;
+  const auto fits = [&](float part) {
+    if (width + part + gap > room) return false;
+    width += part + gap;
+    return true;
+  };
+  if (status.busy) room -= WidthOf("Cancel") + 2 * style.FramePadding.x + gap;
+  const bool shows_text = fits(WidthOf(text)), shows_rate = shows_text && fits(WidthOf(rate)),
+             shows_bar = status.busy && shows_rate && fits(bar);
+  ImGui::SameLine(ImGui::GetCursorPosX() + std::max(room - width, 0.0F));
+  if (shows_bar) {
     // Where a phase does not say how far it is, the bar shows that it moves.
     const double time = ImGui::GetTime();
     const double moving = 0.5 + 0.5 * std::sin(2 * time);
@@ -163,9 +177,9 @@ void Panels::Status(Viewer& viewer) {
                        status.fraction > 0 ? nullptr : "");
     if (ImGui::SmallButton("Cancel")) viewer.RunMenu("Iteration/Cancel");
   }
-  Text(text);
-  ImGui::SameLine();
-  ImGui::TextDisabled("%s", rate.c_str());
+  if (status.busy && ImGui::SmallButton("Cancel")) viewer.RunMenu("Iteration/Cancel");
+  if (shows_text) Text(text);
+  if (shows_rate) ImGui::TextDisabled("%s", rate.c_str());
 }
 
 void Panels::Widget(Viewer& viewer, const Setting& setting) {

@@ -6,9 +6,12 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <thread>
 #include <tuple>
 #include <utility>
 
@@ -190,6 +193,35 @@ TEST(Panels, ASliderFollowsThePointer) {
     ImGui::GetIO().MouseDown[0] = false;
     stage.Frames();
     EXPECT_EQ(value(), first) << name;
+  }
+}
+
+// While something is being computed, the button that ends it can be reached in a window of any width, and
+// what is done and the rate stand inside where there is any room for them.
+TEST(Panels, TheStatusFitsBesideTheMenus) {
+  for (const float width : {1280.0F, 800.0F, 700.0F, 500.0F, 300.0F, 150.0F}) {
+    ViewerOptions options = Options(false);
+    std::atomic<bool> done = false;
+    options.files.exports_mesh = [](const std::string&) { return false; };
+    options.files.export_file = [&](const std::string&, const Scene&, const IrradianceMesh*, const Camera&) {
+      while (!done) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    };
+    Stage stage(width, 400, 1, options);
+    struct AtEnd {
+      std::atomic<bool>& flag;
+      ~AtEnd() { flag = true; }
+    } const at_end{done};
+    stage.viewer().Set("export", "a.obj");
+    stage.Frames();
+    ASSERT_TRUE(stage.viewer().status().busy);
+    ImGuiWindow* bar = ImGui::FindWindowByName("##MainMenuBar");
+    const ImGuiID button = ImHashStr("Cancel", 0, bar->GetIDNoKeepAlive("##menubar"));
+    const auto cancel = stage.Find(button, ImVec2(0, 9), {4, 0});
+    ASSERT_TRUE(cancel) << width;
+    EXPECT_LE(cancel->x + ImGui::CalcTextSize("Cancel").x, width) << width;
+    if (width >= 300) {
+      EXPECT_LE(bar->DC.MenuBarOffset.x - ImGui::GetStyle().ItemSpacing.x, width) << width;
+    }
   }
 }
 
