@@ -19,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t kMostRecent = 10;
+constexpr const char* kPanelSettings = "Panels";  // the group of those that say which are open
 
 // What is remembered of a scene goes by this: paths are absolute.
 std::string KeyOf(const std::string& scene) {
@@ -120,6 +121,25 @@ void UserFiles::AddRecent(const std::string& scene) const {
   std::string text;
   for (std::size_t i = 0; i < std::min(names.size(), kMostRecent); ++i) text += names[i] + "\n";
   Write("recent", text);
+}
+
+void UserFiles::KeepPanels(const Viewer& viewer) const {
+  std::string text;
+  for (const Setting& setting : viewer.settings().all())
+    if (setting.group == kPanelSettings) text += setting.name + " " + setting.get() + "\n";
+  Write("panels", text);
+}
+
+void UserFiles::OpenPanels(Viewer* viewer) const {
+  std::istringstream lines(Read("panels"));
+  for (std::string name, value; lines >> name >> value;) {
+    const Setting* setting = viewer->settings().Find(name);
+    if (!setting || setting->group != kPanelSettings) continue;
+    try {
+      viewer->Set(name, value);
+    } catch (const InputError&) {  // someone wrote something else into it
+    }
+  }
 }
 
 std::vector<Camera> UserFiles::Cameras(const std::string& scene) const {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "display/viewer/viewer.h"
 #include "solver/scene/scene.h"
 
 namespace penumbra::viewer {
@@ -25,6 +26,10 @@ class UserFiles {
   std::vector<std::string> Recent() const;
   // Puts a scene first. A path is kept absolute.
   void AddRecent(const std::string& scene) const;
+
+  // Which panels are open, and what opens and closes them so again.
+  void KeepPanels(const Viewer& viewer) const;
+  void OpenPanels(Viewer* viewer) const;
 
   // The cameras that were named in a scene, oldest first; the scene as in AddRecent.
   std::vector<Camera> Cameras(const std::string& scene) const;

@@ -222,6 +222,7 @@ void Window::SetUpImGui(std::optional<double> scale) {
   if (files_) {
     const std::string layout = files_->Read("layout.ini");
     ImGui::LoadIniSettingsFromMemory(layout.data(), layout.size());
+    files_->OpenPanels(&viewer_);
   }
   ImGui_ImplOpenGL3_Init("#version 330");
 }
@@ -434,6 +435,7 @@ void Window::Remember() const {
   glfwGetWindowSize(window_, &w, &h);
   files_->Write("size", fmt::format("{}x{}", w, h));
   files_->Write("layout.ini", ImGui::SaveIniSettingsToMemory());
+  files_->KeepPanels(viewer_);
 }
 
 void Window::Run() {

@@ -387,6 +387,34 @@ TEST(UserFiles, KeepCameras) {
   EXPECT_EQ(named, std::vector<std::string>{"shadow/new"});
 }
 
+// Which panels are open is as it was the last time; what else stands in the file changes nothing.
+TEST(UserFiles, KeepWhichPanelsAreOpen) {
+  const std::filesystem::path state = std::filesystem::path(testing::TempDir()) / "penumbra_panels_test";
+  const char* before = std::getenv("XDG_STATE_HOME");
+  const std::string old = before ? before : "";
+  setenv("XDG_STATE_HOME", state.c_str(), 1);
+  Viewer first(ShadowScene(), Options(false)), then(ShadowScene(), Options(false));
+  UserFiles().OpenPanels(&first);  // nothing is kept yet
+  EXPECT_FALSE(first.panels().report);
+  EXPECT_TRUE(first.panels().details);
+  for (const char* name : {"report", "control-panel"}) first.Set(name, "on");
+  first.Set("details", "off");
+  UserFiles().KeepPanels(first);
+  std::ofstream(state / "penumbra" / "panels", std::ios::app) << "mode flat\nno-such on\nhelp ?\nhelp";
+  UserFiles().OpenPanels(&then);
+  if (before)
+    setenv("XDG_STATE_HOME", old.c_str(), 1);
+  else
+    unsetenv("XDG_STATE_HOME");
+  std::filesystem::remove_all(state);
+  EXPECT_TRUE(then.panels().report);
+  EXPECT_TRUE(then.panels().control);
+  EXPECT_FALSE(then.panels().details);
+  EXPECT_FALSE(then.panels().parameters);
+  EXPECT_FALSE(then.panels().help);
+  EXPECT_EQ(then.view().mode, DrawMode::kInterpolant);
+}
+
 // Solutions and exports go to whoever writes them, once they are solved for.
 TEST(Viewer, SavesAndExportsWhatIsSolved) {
   ViewerOptions options = Options(true);
