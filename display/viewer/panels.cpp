@@ -350,6 +350,7 @@ void Panels::Help(Viewer& viewer) {
         {"right click", "irradiance at a point; with shift its backprojection on every source"},
         {"walk: w a s d q e, arrows", "forward, left, back, right, down, up"},
         {"walk: left, right held", "forward, back; middle held: turn towards the pointer"},
+        {"walk: mouse look", "the pointer is held; escape lets it go"},
         {"walk: alt+click", "as a click otherwise"}};
     if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) {
       ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed);

@@ -83,6 +83,10 @@ class Viewer {
   const std::string& scene_name() const { return options_.scene_name; }
   const PipelineOptions& solving() const { return options_.solving; }
   double seconds_a_frame() const { return seconds_a_frame_; }
+  // The mouse turns the view as it moves, and is for nothing else: no dialog is to be answered.
+  bool Looking() const {
+    return view_.navigation == Navigation::kWalk && view_.mouse_look && panels_.dialog.empty();
+  }
 
   // Scenes opened before, the latest first.
   void SetRecent(const std::vector<std::string>& names);

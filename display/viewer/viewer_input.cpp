@@ -60,6 +60,11 @@ void Viewer::KeyDown(const InputEvent& event) {
     held_.insert(event.key);
     return;
   }
+  // Who does not see the pointer may not know how to get it back.
+  if (Looking() && event.key == "escape") {
+    view_.mouse_look = false;
+    return;
+  }
   if (const MenuItem* item = menu_.FindKey({event.key, event.modifiers})) RunMenu(std::string(item->path));
 }
 
@@ -80,7 +85,7 @@ void Viewer::Move(const InputEvent& event) {
   const double dx = event.x - x_, dy = event.y - y_;
   x_ = event.x;
   y_ = event.y;
-  if (view_.navigation == Navigation::kWalk && view_.mouse_look) {
+  if (Looking()) {
     view_.camera = Look(view_.camera, kLookPicture * dx / size_.height, -kLookPicture * dy / size_.height,
                         view_.up_axis);
     return;

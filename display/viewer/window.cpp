@@ -8,6 +8,7 @@
 #include <imgui.h>
 #include <imgui_impl_opengl3.h>
 
+#include <cfloat>
 #include <chrono>
 #include <cmath>
 #include <deque>
@@ -124,6 +125,7 @@ class Window final : public ScriptStage {
   void TypeCharacter(unsigned text);
   void SetUpImGui(std::optional<double> scale);
   void FeedEvents();
+  void CapturePointer();
   void Feed(const InputEvent& event);
   void DrawFrame(double seconds);
   void WriteScreenshot(int width, int height);
@@ -146,6 +148,7 @@ class Window final : public ScriptStage {
   double x_ = 0, y_ = 0;              // of the pointer, in pixels
   double scale_x_ = 1, scale_y_ = 1;  // pixels a unit of the window's coordinates
   bool pressed_in_picture_[3] = {};
+  bool captured_ = false;  // the pointer, which then is nowhere for ImGui
   std::string screenshot_;
 };
 
@@ -347,7 +350,7 @@ void Window::Feed(const InputEvent& event) {
   }
   x_ = event.x;
   y_ = event.y;
-  io.MousePos = ImVec2(static_cast<float>(x_ / scale_x_), static_cast<float>(y_ / scale_y_));
+  if (!captured_) io.MousePos = ImVec2(static_cast<float>(x_ / scale_x_), static_cast<float>(y_ / scale_y_));
   if (event.kind == InputEvent::Kind::kMove) {
     viewer_.Handle(event);
     return;
@@ -379,6 +382,15 @@ void Window::FeedEvents() {
   }
 }
 
+// While the mouse looks around, the pointer goes on for ever and is not seen.
+void Window::CapturePointer() {
+  if (captured_ == viewer_.Looking()) return;
+  captured_ = !captured_;
+  // A script leaves the user his pointer.
+  if (!player_) glfwSetInputMode(window_, GLFW_CURSOR, captured_ ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+  if (captured_) ImGui::GetIO().MousePos = ImVec2(-FLT_MAX, -FLT_MAX);
+}
+
 void Window::DrawFrame(double seconds) {
   int width = 0, height = 0, w = 0, h = 0;
   glfwGetFramebufferSize(window_, &width, &height);
@@ -387,6 +399,7 @@ void Window::DrawFrame(double seconds) {
   scale_x_ = static_cast<double>(width) / w;
   scale_y_ = static_cast<double>(height) / h;
   FeedEvents();
+  CapturePointer();
 
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = ImVec2(static_cast<float>(w), static_cast<float>(h));

@@ -450,6 +450,32 @@ TEST(Viewer, SavesAndExportsWhatIsSolved) {
   EXPECT_EQ(viewer.message(), "the disk is full");
 }
 
+// The mouse turns a walking view wherever it goes, until Escape, or a dialog that needs it.
+TEST(Viewer, TheMouseLooksAroundWhileItMay) {
+  Viewer viewer(ShadowScene(), Options(false));
+  const auto turns = [&](double x) {
+    const Vec3 before = viewer.view().camera.look_at;
+    viewer.Handle(viewer_test::Button(InputEvent::Kind::kMove, MouseButton::kLeft, x, 0));
+    return viewer.view().camera.look_at != before;
+  };
+  viewer.Set("mouse-look", "on");
+  EXPECT_FALSE(viewer.Looking());  // in an arcball
+  viewer.Set("navigation", "walk");
+  EXPECT_TRUE(viewer.Looking());
+  EXPECT_TRUE(turns(1e5));
+  viewer.RunMenu("File/Open...");
+  EXPECT_FALSE(viewer.Looking());
+  EXPECT_FALSE(turns(2e5));
+  viewer.panels().dialog.clear();
+  EXPECT_TRUE(viewer.Looking());
+  InputEvent escape;
+  escape.kind = InputEvent::Kind::kKeyDown;
+  escape.key = "escape";
+  viewer.Handle(escape);
+  EXPECT_FALSE(viewer.Looking());
+  EXPECT_FALSE(viewer.view().mouse_look);
+}
+
 // What went wrong last is what is told, whether here or in the solver; a scene that opens ends it.
 TEST(Viewer, TellsTheNewestComplaint) {
   ViewerOptions options = Options(false);

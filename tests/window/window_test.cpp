@@ -208,6 +208,29 @@ screenshot message.png
     EXPECT_GT(Load(std::string(name) + ".png").Different(plain), 1000U) << name;
 }
 
+// While the mouse looks around it is for nothing else: no panel hears it, wherever it would be.
+TEST_F(Window, TheMouseThatLooksAroundOpensNoMenu) {
+  const Outcome run = Play(R"(
+resize 640x480
+wait idle
+mouse move 300 300
+screenshot plain.png
+set navigation walk
+set mouse-look on
+mouse click left 20 8
+set navigation arcball
+menu Viewing/Home
+screenshot after.png
+set mouse-look off
+mouse click left 20 8
+screenshot menu.png
+)");
+  EXPECT_EQ(run.status, 0) << run.err;
+  const Shot plain = Load("plain.png");
+  EXPECT_LT(Load("after.png").Different(plain), 100U);
+  EXPECT_GT(Load("menu.png").Different(plain), 1000U);
+}
+
 TEST_F(Window, ProbesPrintWhatTheProbeCommandMeasures) {
   const Outcome run = Play("resize 400x300\nwait idle\nmouse click right 200 240\nwait idle\n");
   EXPECT_EQ(run.status, 0) << run.err;
