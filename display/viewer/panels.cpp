@@ -114,6 +114,7 @@ void Panels::Draw(Viewer& viewer) {
   Dialog(viewer);
   Message(viewer);
   Legend(viewer);
+  if (!ImGui::IsAnyItemActive()) EndEdit(viewer);  // of a field that is not shown any more
 }
 
 void Panels::MenuBar(Viewer& viewer) {
@@ -175,11 +176,16 @@ void Panels::Status(Viewer& viewer) {
     const double moving = 0.5 + 0.5 * std::sin(2 * time);
     ImGui::ProgressBar(static_cast<float>(status.fraction > 0 ? status.fraction : moving), ImVec2(bar, 0),
                        status.fraction > 0 ? nullptr : "");
-    if (ImGui::SmallButton("Cancel")) viewer.RunMenu("Iteration/Cancel");
   }
   if (status.busy && ImGui::SmallButton("Cancel")) viewer.RunMenu("Iteration/Cancel");
   if (shows_text) Text(text);
   if (shows_rate) ImGui::TextDisabled("%s", rate.c_str());
+}
+
+// Takes what was typed into a field, however the user left it; Escape has put back what was there.
+void Panels::EndEdit(Viewer& viewer) {
+  const std::string name = std::exchange(edited_, {});
+  if (!name.empty() && edit_ != unedited_) Try(viewer, [&] { viewer.Set(name, edit_); });
 }
 
 void Panels::Widget(Viewer& viewer, const Setting& setting) {
@@ -202,7 +208,8 @@ void Panels::Widget(Viewer& viewer, const Setting& setting) {
     case SettingKind::kInteger:
     case SettingKind::kNumber:
       if (setting.logarithmic && !setting.automatic) {
-        // Sliders reach a thousandfold either way of where they are.
+        // Sliders reach a thousandfold either way of where they are. While one is held its ends stay: they
+        // would run away from under the pointer.
         auto number = static_cast<float>(NumberFrom(value, -1e30, 1e30));
         float low = std::max(number / 1000, static_cast<float>(setting.low));
         float high = std::min(number * 1000, static_cast<float>(setting.high));
@@ -226,15 +233,18 @@ void Panels::Widget(Viewer& viewer, const Setting& setting) {
       // The field is the user's while he types, and shows the value otherwise.
       char shown[sizeof edit_];
       Copy(edited_ == setting.name ? std::string(edit_) : value, shown, sizeof shown);
-      const bool entered =
-          ImGui::InputText(label.c_str(), shown, sizeof shown, ImGuiInputTextFlags_EnterReturnsTrue);
+      ImGui::InputText(label.c_str(), shown, sizeof shown);
+      if (edited_ == setting.name) std::memcpy(edit_, shown, sizeof shown);
       if (ImGui::IsItemActive()) {
-        edited_ = setting.name;
-        std::memcpy(edit_, shown, sizeof shown);
+        if (edited_ != setting.name) {
+          EndEdit(viewer);  // of another field, which Tab leaves
+          edited_ = setting.name;
+          unedited_ = value;
+          std::memcpy(edit_, shown, sizeof shown);
+        }
       } else if (edited_ == setting.name) {
-        edited_.clear();
+        EndEdit(viewer);
       }
-      if (entered) chosen = shown;
       break;
     }
   }

@@ -28,6 +28,7 @@ class Panels {
   void Status(Viewer& viewer);
   void Group(Viewer& viewer, std::string_view group);
   void Widget(Viewer& viewer, const Setting& setting);
+  void EndEdit(Viewer& viewer);
   void ControlPanel(Viewer& viewer);
   void Parameters(Viewer& viewer);
   void Details(Viewer& viewer);
@@ -43,8 +44,9 @@ class Panels {
   std::string asked_;     // the dialog that is open
   char text_[1024] = {};  // in its field
   std::string edited_;    // the setting whose field is being edited
-  char edit_[128] = {};
-  std::string slid_;  // the setting whose slider is held
+  char edit_[128] = {};   // in that field
+  std::string unedited_;  // what it showed before
+  std::string slid_;      // the setting whose slider is held
   float slid_low_ = 0, slid_high_ = 1;
 };
 

@@ -196,6 +196,37 @@ TEST(Panels, ASliderFollowsThePointer) {
   }
 }
 
+// What is typed into a field is taken when editing ends, by a click elsewhere as by Enter; Escape takes
+// nothing.
+TEST(Panels, FieldsTakeWhatIsTyped) {
+  Stage stage(1400, 1000, 1);
+  stage.viewer().Set("parameters", "on");
+  stage.Frames();
+  const Setting& setting = stage.Option("error-samples");
+  const ImVec2 field = stage.FindField("Parameters", setting);
+  const auto type = [&](const char* text) {
+    stage.DoubleClick(field);  // chooses all of it
+    EXPECT_TRUE(Panels::Typing());
+    stage.Type(text);
+  };
+  const auto leave = [&] { stage.Click(1300, 900); };
+  type("7");
+  leave();
+  EXPECT_EQ(setting.get(), "7");
+  type("9");
+  stage.Press(Stage::kEscape);
+  leave();
+  EXPECT_EQ(setting.get(), "7");
+  type("11");
+  stage.Press(Stage::kEnter);
+  EXPECT_EQ(setting.get(), "11");
+  EXPECT_EQ(stage.viewer().message(), "");
+  type("0");
+  leave();
+  EXPECT_EQ(setting.get(), "11");
+  EXPECT_NE(stage.viewer().message(), "");
+}
+
 // While something is being computed, the button that ends it can be reached in a window of any width, and
 // what is done and the rate stand inside where there is any room for them.
 TEST(Panels, TheStatusFitsBesideTheMenus) {
