@@ -12,6 +12,12 @@ namespace {
 // Part of the smaller side of the picture that the ball fills.
 constexpr double kBallOfPicture = 0.9;
 
+// How far away from look_at zooming goes [m]: as far as coordinates may be given.
+constexpr double kFarthestZoom = 1e12;
+// And how near, as part of look_at's largest coordinate: of the 53 digits of the view's direction, rounding
+// of the eye leaves 20, a pixel of a million.
+constexpr double kNearestZoom = 0x1p-32;
+
 // Columns: right, up, backward, as the display takes them.
 Eigen::Matrix3d ViewerAxes(const Camera& camera) {
   const PixelRays rays = MakePixelRays(camera, 1, 1);
@@ -84,9 +90,14 @@ Camera Pan(const Camera& camera, PictureSize size, double dx, double dy) {
 }
 
 Camera Zoom(const Camera& camera, double factor) {
+  const Vec3 back = camera.eye - camera.look_at;
+  const double distance = back.norm();
+  const double nearest = std::max(kNearestZoom * camera.look_at.lpNorm<Eigen::Infinity>(), 1 / kFarthestZoom);
   Camera moved = camera;
-  moved.eye = camera.look_at + (camera.eye - camera.look_at) / factor;
-  return (moved.eye - moved.look_at).norm() > 0 ? moved : camera;
+  moved.eye = camera.look_at + back * (std::clamp(distance / factor, std::min(nearest, distance),
+                                                  std::max(kFarthestZoom, distance)) /
+                                       distance);
+  return moved;
 }
 
 Camera Warp(const Camera& camera, double vertical_fov) {

@@ -42,7 +42,7 @@ class ArcballDrag {
 // The camera and what it looks at, moved with what lies at look_at's depth under the pointer, which went
 // (dx, dy) [pixels].
 Camera Pan(const Camera& camera, PictureSize size, double dx, double dy);
-// The distance to look_at divided by `factor`.
+// The distance to look_at divided by `factor`, as near and as far as numbers keep the direction.
 Camera Zoom(const Camera& camera, double factor);
 // Another field of view [degrees, clamped to kMinFov .. kMaxFov] and distance, so that what lies at look_at
 // keeps its size: the perspective alone changes.

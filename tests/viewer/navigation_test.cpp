@@ -72,6 +72,23 @@ TEST(Arcball, WarpKeepsTheSizeOfWhatItLooksAt) {
     EXPECT_NEAR(Seen(Warp(before, fov), beside).x, Seen(before, beside).x, 1e-7);
 }
 
+// However far the wheel is turned, the camera sees along the line that it saw along, and finds back.
+TEST(Arcball, ZoomEndsWhereNumbersDo) {
+  for (const Vec3& centre : {Somewhere().look_at, Vec3(Vec3::Zero())})
+    for (const double notches : {-8000.0, -500.0, 500.0, 8000.0}) {
+      Camera camera = Somewhere();
+      camera.look_at = centre;
+      const Vec3 before = (camera.eye - camera.look_at).normalized();
+      for (int i = 0; i < 3; ++i) {
+        camera = Zoom(camera, std::pow(1.1, notches));
+        ASSERT_NO_THROW(ValidateCamera(camera)) << notches;
+        EXPECT_LT(((camera.eye - camera.look_at).normalized() - before).norm(), 1e-5) << notches;
+      }
+      const double far = (camera.eye - camera.look_at).norm();
+      EXPECT_NEAR((Zoom(camera, far / 5).eye - camera.look_at).norm(), 5, 1e-4);
+    }
+}
+
 TEST(Arcball, PanMovesWhatItLooksAtByThePointersWay) {
   const Camera before = Somewhere();
   const Camera after = Pan(before, kSize, 12, -7);

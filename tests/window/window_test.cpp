@@ -251,6 +251,8 @@ TEST_F(Window, ProbesPrintWhatTheProbeCommandMeasures) {
 TEST_F(Window, SurvivesAnySizeAndAnEndAtAnyTime) {
   for (const char* script :
        {"resize 1x1\nwait idle\nscreenshot a.png\n", "quit", "", "wait frames 3\nquit",
+        "wait idle\nmouse scroll -8000\nwait frames 3\nmouse scroll 8000\nwait frames 3\nmouse scroll 9e99\n"
+        "wait frames 3\nset navigation walk\nmouse scroll -9e99\nwait frames 3\nmouse scroll 9e99\nkey w",
         "resize 1400x3\nkey d\nwait frames 3\nresize 3x1000\nwait frames 3\n",
         "wait frames 5\nkey backspace\nwait idle\nkey c\nwait idle\nkey ctrl+q\nwait seconds 60"}) {
     const Outcome run = Play(script);
