@@ -90,19 +90,30 @@ TEST_F(PictureOfAViewer, HasAScaleWhereItsColoursAreFalse) {
   EXPECT_EQ(viewer.picture().scale(), ColourScale::kNone);
 }
 
-// A mesh that was cancelled is not begun again by itself; the meshes of other modes are, and so are all after
-// another step.
-TEST(Picture, OtherModesGetTheirMeshesAfterACancel) {
-  ViewerOptions options = Options(false);
-  options.solving.error = 0.005;
-  Viewer viewer(ShadowScene(), options);
-  viewer.Set("mode", "flat");
-  viewer.RunMenu("Iteration/Iterate to convergence");
-  ASSERT_TRUE(Settle(viewer));
-  viewer.Set("mode", "interpolant");
-  viewer.Frame(96, 64, 0.02);
-  viewer.RunMenu("Iteration/Cancel");
-  ASSERT_TRUE(Settle(viewer));
+// Solved, and cancelled while the first mesh was under way.
+class CancelledMesh : public testing::Test {
+ protected:
+  CancelledMesh() : viewer(ShadowScene(), Slow()) {
+    viewer.Set("mode", "flat");
+    viewer.RunMenu("Iteration/Iterate to convergence");
+    EXPECT_TRUE(Settle(viewer));
+    viewer.Set("mode", "interpolant");
+    viewer.Frame(96, 64, 0.02);
+    viewer.RunMenu("Iteration/Cancel");
+    EXPECT_TRUE(Settle(viewer));
+  }
+
+  static ViewerOptions Slow() {
+    ViewerOptions options = Options(false);
+    options.solving.error = 0.02;
+    return options;
+  }
+
+  Viewer viewer;
+};
+
+// It is not begun again by itself; the meshes of other modes are.
+TEST_F(CancelledMesh, LeavesTheOtherModesTheirs) {
   EXPECT_EQ(viewer.picture().drawn_kind(), MeshKind::kFlat);
   EXPECT_THAT(viewer.activity(), HasSubstr("cancelled"));
   viewer.Set("mode", "gouraud");
@@ -111,15 +122,7 @@ TEST(Picture, OtherModesGetTheirMeshesAfterACancel) {
   EXPECT_EQ(viewer.activity(), "ready");
 }
 
-TEST(Picture, MeshesAreMadeOnceItIsAskedToConvergeAgain) {
-  Viewer viewer(ShadowScene(), Options(false));
-  viewer.Set("mode", "flat");
-  viewer.RunMenu("Iteration/Iterate to convergence");
-  ASSERT_TRUE(Settle(viewer));
-  viewer.Set("mode", "interpolant");
-  viewer.Frame(96, 64, 0.02);
-  viewer.RunMenu("Iteration/Cancel");
-  ASSERT_TRUE(Settle(viewer));
+TEST_F(CancelledMesh, IsMadeOnceItIsAskedToConvergeAgain) {
   viewer.RunMenu("Iteration/Iterate to convergence");
   ASSERT_TRUE(Settle(viewer));
   EXPECT_EQ(viewer.picture().drawn_kind(), MeshKind::kInterpolant);
