@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -295,6 +296,11 @@ struct Pipeline::Impl {
     return done;
   }
 
+  // What was missed before is told again if it is missed again.
+  void DropUnmet(std::string_view stage) {
+    std::erase_if(report.unmet, [&](const std::string& line) { return line.starts_with(stage); });
+  }
+
   // What was made of a solution that is no more.
   void Forget() {
     irradiance.reset();
@@ -450,6 +456,8 @@ void Pipeline::CountLimits() { impl_->begun = RunLimits::Clock::now(); }
 void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is) {
   if (impl_->mesh_kind == kind && (as_it_is || !impl_->mesh_unrefined)) return;
   const RunLimits limits = impl_->LimitsSinceSolve(context);
+  if (!impl_->stored)
+    for (const char* stage : {"mesh: ", "discontinuities: ", "interpolants: "}) impl_->DropUnmet(stage);
   MeshReport report;
   // What needs no irradiance at points is quick, and made whatever the limits say.
   const bool flat = kind == MeshKind::kFlat;
@@ -504,6 +512,7 @@ void Pipeline::Measure(const ExecutionContext& context) {
   PENUMBRA_CHECK(impl_->triangulations.size() == impl_->scene.patches.size());
   context.Report("measure", 0);
   Diagnose();
+  impl_->DropUnmet("error: ");
   PipelineReport& report = impl_->report;
   const RunLimits limits = impl_->LimitsSinceSolve(context);
   if (impl_->solver && !impl_->solver->SeenFromLeaves(limits.context())) {

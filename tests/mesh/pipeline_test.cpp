@@ -62,6 +62,32 @@ TEST(Pipeline, StepByStepIsTheSame) {
   EXPECT_GT(steps.report().interpolant_error.points, 0U);
 }
 
+// What a mesh or a measurement missed is told of the last one, once.
+TEST(Pipeline, TellsWhatIsMissedOnce) {
+  const Scene scene = FurnishedRoom();
+  PipelineOptions options;
+  options.error = 1e-4;
+  options.refine = RefineBy::kTransport;
+  options.eps = 1;
+  options.max_leaf_dsets = 0;
+  options.error_points = 50;
+  Pipeline pipeline(scene, options);
+  pipeline.Link({});
+  const auto lines = [&](const char* stage) {
+    const std::vector<std::string>& unmet = pipeline.report().unmet;
+    return std::count_if(unmet.begin(), unmet.end(),
+                         [&](const std::string& line) { return line.starts_with(stage); });
+  };
+  for (int step = 0; step < 2; ++step) {
+    ASSERT_TRUE(pipeline.Iterate({}));
+    pipeline.BuildMesh(MeshKind::kInterpolant, {}, /*as_it_is=*/true);
+    pipeline.Measure({});
+    pipeline.Measure({});
+    EXPECT_EQ(lines("discontinuities: "), 1) << step;
+    EXPECT_EQ(lines("error: "), 1) << step;
+  }
+}
+
 // A step that is cancelled leaves solution and report as they were, and the pipeline can go on.
 TEST(Pipeline, CancelledStepsLeaveWhatWas) {
   const Scene scene = FurnishedRoom();
