@@ -118,8 +118,8 @@ class ViewedScene {
     const auto changes = [](const std::vector<MaterialChange>& of) {
       return [&of] {
         std::vector<std::string> texts;
-        for (const auto& [name, rgb] : of)
-          texts.push_back(fmt::format("{}={},{},{}", name, rgb[0], rgb[1], rgb[2]));
+        for (const MaterialChange& change : of)
+          texts.push_back(MaterialChangeText(change.material, change.value));
         return of.empty() ? kNone : fmt::format("{}", fmt::join(texts, " "));
       };
     };
@@ -128,7 +128,7 @@ class ViewedScene {
         {kRadiance, "Ke is radiance", true, flag(reading.emission_is_radiance)},
         {kMaxReflectance, "Clamp larger reflectances to", false,
          [&reading] {
-           return reading.max_reflectance ? fmt::format("{}", *reading.max_reflectance) : std::string(kNone);
+           return reading.max_reflectance ? fmt::format("{}", *reading.max_reflectance) : kNone;
          }},
         {kEmittanceOption, "Another emittance, MATERIAL=r,g,b", false, changes(arguments_.emittance)},
         {kReflectanceOption, "Another reflectance, MATERIAL=r,g,b", false, changes(arguments_.reflectance)}};

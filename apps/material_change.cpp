@@ -25,6 +25,10 @@ CLI::Option* AddMaterialChange(CLI::App& app, const std::string& name, std::vect
       ->take_all();
 }
 
+std::string MaterialChangeText(const std::string& material, const Rgb& value) {
+  return fmt::format("{}={},{},{}", material, value[0], value[1], value[2]);
+}
+
 void ChangeMaterials(const std::vector<MaterialChange>& changes, Rgb Material::*member,
                      std::vector<Material>& materials) {
   for (const MaterialChange& change : changes) {

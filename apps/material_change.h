@@ -23,6 +23,9 @@ struct MaterialChange {
 CLI::Option* AddMaterialChange(CLI::App& app, const std::string& name, std::vector<MaterialChange>* changes,
                                const NumberRule& rule, const std::string& help);
 
+// `MATERIAL=r,g,b`, as it is given.
+std::string MaterialChangeText(const std::string& material, const Rgb& value);
+
 // Gives materials other values; of several changes of one material the last holds. Throws UsageError for one
 // that the scene does not have.
 void ChangeMaterials(const std::vector<MaterialChange>& changes, Rgb Material::*member,

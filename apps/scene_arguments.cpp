@@ -406,8 +406,8 @@ std::string OptionText(const std::string& name, const nlohmann::ordered_json& va
     std::string text;
     for (const auto& [material, rgb] : value.items())
       text += fmt::format("   --{} {}\n", name,
-                          ShellWord(fmt::format("{}={},{},{}", material, rgb[0].get<double>(),
-                                                rgb[1].get<double>(), rgb[2].get<double>())));
+                          ShellWord(MaterialChangeText(
+                              material, {rgb[0].get<double>(), rgb[1].get<double>(), rgb[2].get<double>()})));
     return text;
   }
   return fmt::format("   --{} {}\n", name,

@@ -59,12 +59,31 @@ ProbeResult ProbeIrradiance(const LightState& light, const MeshState* mesh, cons
   if (mesh)
     if (const auto place = mesh->Locator().Find(at.patch, at.position))
       result.interpolated = Rgb(IrradianceAt(mesh->mesh(), *place).max(0.0));
-  result.sources = std::move(parts.contributions);
-  std::stable_sort(result.sources.begin(), result.sources.end(),
-                   [](const PatchContribution& a, const PatchContribution& b) {
-                     return a.irradiance.sum() > b.irradiance.sum();
-                   });
+  result.sources = JoinFaces(scene, parts.contributions);
   return result;
+}
+
+std::int32_t FirstFace(const Scene& scene, PatchId patch) {
+  const std::vector<std::int32_t>& faces = scene.patches[static_cast<std::size_t>(patch)].faces;
+  return faces.empty() ? -1 : faces.front();
+}
+
+std::vector<PatchContribution> JoinFaces(const Scene& scene, const std::vector<PatchContribution>& sources) {
+  std::vector<PatchContribution> joined;
+  for (const PatchContribution& source : sources) {
+    const std::int32_t face = FirstFace(scene, source.source);
+    const auto same = std::find_if(joined.begin(), joined.end(), [&](const PatchContribution& other) {
+      return face >= 0 && FirstFace(scene, other.source) == face;
+    });
+    if (same == joined.end())
+      joined.push_back(source);
+    else
+      same->irradiance += source.irradiance;
+  }
+  std::stable_sort(joined.begin(), joined.end(), [](const PatchContribution& a, const PatchContribution& b) {
+    return a.irradiance.sum() > b.irradiance.sum();
+  });
+  return joined;
 }
 
 std::string ProbeLine(const ProbeResult& probe) {

@@ -21,9 +21,16 @@ struct ProbeResult {
   std::int32_t face = -1;                  // as users count
   Rgb exact = Rgb::Zero();                 // [W/m^2]
   std::optional<Rgb> interpolated;         // [W/m^2]; by the mesh that was given
-  std::vector<PatchContribution> sources;  // the brightest first
+  std::vector<PatchContribution> sources;  // JoinFaces()
 };
 ProbeResult ProbeIrradiance(const LightState& light, const MeshState* mesh, const ProbedPoint& at);
+
+// The face that names a patch, as users count: of several that it was merged of, the first; -1 without any.
+std::int32_t FirstFace(const Scene& scene, PatchId patch);
+
+// The contributions of the patches that a face was cut into as one, which names the first; the brightest
+// first.
+std::vector<PatchContribution> JoinFaces(const Scene& scene, const std::vector<PatchContribution>& sources);
 
 // A line for standard output: x,y,z,patch, then exact, interpolated and their difference, a value a channel.
 std::string ProbeLine(const ProbeResult& probe);

@@ -14,12 +14,6 @@ namespace {
 std::string Text(const Vec3& v) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x(), v.y(), v.z()); }
 std::string Text(const Rgb& c) { return fmt::format("{:.5g} {:.5g} {:.5g}", c[0], c[1], c[2]); }
 
-// By the face, as users count patches: of several that a patch was merged of, the first.
-std::int32_t FaceOf(const Scene& scene, PatchId patch) {
-  const Patch& p = scene.patches[static_cast<std::size_t>(patch)];
-  return p.faces.empty() ? -1 : p.faces.front();
-}
-
 std::string FaceName(const Scene& scene, std::int32_t face, PatchId patch) {
   const Patch& p = scene.patches[static_cast<std::size_t>(patch)];
   return fmt::format("{} ({})", face,
@@ -28,26 +22,7 @@ std::string FaceName(const Scene& scene, std::int32_t face, PatchId patch) {
 }
 
 std::string PatchName(const Scene& scene, PatchId patch) {
-  return patch == kNoPatch ? "none" : FaceName(scene, FaceOf(scene, patch), patch);
-}
-
-// The patches that a face was cut into send as one.
-std::vector<PatchContribution> ByFace(const Scene& scene, const std::vector<PatchContribution>& sources) {
-  std::vector<PatchContribution> joined;
-  for (const PatchContribution& source : sources) {
-    const auto same = std::find_if(joined.begin(), joined.end(), [&](const PatchContribution& other) {
-      const std::int32_t face = FaceOf(scene, source.source);
-      return face >= 0 && FaceOf(scene, other.source) == face;
-    });
-    if (same == joined.end())
-      joined.push_back(source);
-    else
-      same->irradiance += source.irradiance;
-  }
-  std::stable_sort(joined.begin(), joined.end(), [](const PatchContribution& a, const PatchContribution& b) {
-    return a.irradiance.sum() > b.irradiance.sum();
-  });
-  return joined;
+  return patch == kNoPatch ? "none" : FaceName(scene, FirstFace(scene, patch), patch);
 }
 
 const Link& SelectedLink(const OverlayContext& context) {
@@ -260,7 +235,7 @@ std::vector<std::string> DescribeProbe(const ProbeResult& probe, const Scene& sc
     lines.push_back(fmt::format("interpolated {} W/m^2", Text(*probe.interpolated)));
     lines.push_back(fmt::format("difference {} W/m^2", Text(Rgb(*probe.interpolated - probe.exact))));
   }
-  const std::vector<PatchContribution> sources = ByFace(scene, probe.sources);
+  const std::vector<PatchContribution>& sources = probe.sources;
   lines.push_back(fmt::format("from {} sources:", sources.size()));
   Rgb others = Rgb::Zero();
   for (std::size_t i = 0; i < sources.size(); ++i)

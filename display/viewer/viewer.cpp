@@ -66,15 +66,8 @@ OverlayContext Viewer::Context() const {
 }
 
 void Viewer::Want(MeshKind kind) {
-  const std::pair mesh(snapshot_->number, kind);
-  if (!snapshot_->light || snapshot_->Mesh(kind) || declined_.contains(mesh)) return;
-  if (asked_.insert(mesh).second) session_.BuildMesh(kind);
-}
-
-// What is under way, and what the mode wants, is not asked for again unless the solution changes.
-void Viewer::Decline() {
-  declined_ = asked_;
-  declined_.emplace(session_.snapshot()->number, MeshOf(view_.mode));
+  if (!snapshot_->light || snapshot_->Mesh(kind)) return;
+  if (asked_.emplace(snapshot_->number, kind).second) session_.BuildMesh(kind);
 }
 
 // Meshes are built when the solver rests: the picture follows it with the leaves until then.
@@ -92,7 +85,7 @@ std::string Viewer::activity() {
   if (picture_.Busy()) return fmt::format("casting rays, {:.0f} %", 100 * picture_.RayFraction());
   if (analyses_.Busy()) return "analysing";
   if (!snapshot_->light) return "not solved";
-  return snapshot_->Mesh(MeshOf(view_.mode)) ? "ready" : "the leaves, since the mesh was cancelled";
+  return snapshot_->Mesh(MeshOf(view_.mode)) ? "ready" : "the leaves: no mesh was made";
 }
 
 // What goes wrong in the session is told once.

@@ -127,7 +127,6 @@ class Viewer {
 
   void Unselect();
   void Want(MeshKind kind);
-  void Decline();
   std::shared_ptr<const MeshState> ToolsMesh() const;
   OverlayContext Context() const;
   void AskForMeshes();
@@ -156,10 +155,8 @@ class Viewer {
   std::string heard_;  // the session's message, once it was told
   std::size_t printed_ = 0;
   std::shared_ptr<const ProbeResult> printed_probe_;
-  // Meshes that were asked for, with the snapshot's number; those that the user did not want after all.
+  // Meshes that were asked for, with the snapshot's number: each is once, whether it was cancelled or not.
   std::set<std::pair<std::uint64_t, MeshKind>> asked_;
-  std::set<std::pair<std::uint64_t, MeshKind>> declined_;
-  std::uint64_t scene_number_ = 0;
 
   // The drawing of the overlays, and what it was made of.
   OverlayDrawing drawing_;

@@ -95,16 +95,13 @@ void Viewer::AddMenus() {
   add("Iteration/Iterate", "i", "Gather until little changes, then refine, once",
       [this] { Begin().Iterate(); });
   add("Iteration/Iterate to convergence", "c", "Iterate until it is done, then correct", [this] {
-    declined_.clear();
     asked_.clear();
     Begin().Converge();
   });
   add("Iteration/Correct", "y", "One pass of exact irradiance over the leaves",
       [this] { Begin().Correct(); });
-  add("Iteration/Build interpolants", "", "Discontinuities, triangles and interpolants", [this] {
-    declined_.clear();
-    Begin().BuildMesh(MeshKind::kInterpolant);
-  });
+  add("Iteration/Build interpolants", "", "Discontinuities, triangles and interpolants",
+      [this] { Begin().BuildMesh(MeshKind::kInterpolant); });
   add("Iteration/Measure", "", "Energy balance, and errors at random points", [this] {
     panels_.report = true;
     Begin().Measure();
@@ -114,7 +111,7 @@ void Viewer::AddMenus() {
       picture_.CancelRays();
       return;
     }
-    Decline();
+    asked_.emplace(session_.snapshot()->number, MeshOf(view_.mode));  // nor is it begun now
     session_.Cancel();
   });
   toggle("Iteration/Report", "ctrl+r", "report");

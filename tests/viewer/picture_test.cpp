@@ -115,7 +115,7 @@ class CancelledMesh : public testing::Test {
 // It is not begun again by itself; the meshes of other modes are.
 TEST_F(CancelledMesh, LeavesTheOtherModesTheirs) {
   EXPECT_EQ(viewer.picture().drawn_kind(), MeshKind::kFlat);
-  EXPECT_THAT(viewer.activity(), HasSubstr("cancelled"));
+  EXPECT_THAT(viewer.activity(), HasSubstr("no mesh was made"));
   viewer.Set("mode", "gouraud");
   ASSERT_TRUE(Settle(viewer));
   EXPECT_EQ(viewer.picture().drawn_kind(), MeshKind::kGouraud);
@@ -141,7 +141,9 @@ TEST(Probe, TellsFacesAndEverySource) {
   ProbeResult probe;
   probe.at.patch = 0;
   probe.face = 21;
-  for (std::int32_t k = 1; k < kSquares; ++k) probe.sources.push_back({k, Rgb::Constant(k == 2 ? 20 : k)});
+  std::vector<PatchContribution> sources;
+  for (std::int32_t k = 1; k < kSquares; ++k) sources.push_back({k, Rgb::Constant(k == 2 ? 20 : k)});
+  probe.sources = JoinFaces(scene, sources);
   const std::vector<std::string> lines = DescribeProbe(probe, scene);
   EXPECT_THAT(lines, Contains(HasSubstr("on patch 21 (")));
   EXPECT_THAT(lines, Contains("from 14 sources:"));
