@@ -28,6 +28,10 @@ Clipper& ThreadClipper() {
 // however little it gives.
 constexpr double kOneOfMany = 0.2;
 
+// The last sources may together give this share of the tolerance at most to be left out. They only ever take
+// light away, where what is seen as one errs to both sides.
+constexpr double kLeftOut = 0.25;
+
 // Polygons whose form factors are still to be added.
 struct Listed {
   PolygonBatch polygons;
@@ -64,8 +68,9 @@ Gathering::Gathering(const Scene& scene, const SourceSet& sources, const Receive
       occluders_(view_.occluder_stack()),
       clipper_(ThreadClipper()) {}
 
-void Gathering::SeeAsOne(double tolerance) {
+void Gathering::SeeAsOne(double tolerance, const Rgb& known) {
   tolerance_ = tolerance;
+  known_ = known;
   ThreadListed().Clear();
 }
 
@@ -131,7 +136,8 @@ void Gathering::Gather(PatchId source, const DirectionPolygon& seen, std::span<c
   if (tolerance_ > 0) {
     source_normal_ = scene_.patches[static_cast<std::size_t>(source)].normal;
     whole_ = FormFactor(seen, at_.normal, CancellationAllowed());
-    tolerance_here_ = tolerance_ * std::max(1.0, kOneOfMany * Outshone(tree[0].radiosity * whole_));
+    tolerance_here_ = ToleranceFor(tree[0].radiosity * whole_);
+    unhindered_ += tree[0].radiosity * whole_;
   }
   if (occluders_.empty()) {
     GatherVisible(tree);
@@ -239,12 +245,21 @@ void Gathering::GatherVisible(Tree nodes) {
   for (std::size_t i = 0; i < count; ++i) Add(static_cast<std::int32_t>(first + i), factor[i]);
 }
 
-// How often the light so far holds this light, in the channel where it does so least.
-double Gathering::Outshone(const Rgb& light) const {
-  double times = std::numeric_limits<double>::infinity();
-  for (int c = 0; c < 3; ++c)
-    if (light[c] > 0) times = std::min(times, so_far_[c] / light[c]);
-  return times;
+bool Gathering::IsNegligible(const Rgb& light) const {
+  return (light <= kLeftOut * tolerance_ * so_far_).all();
+}
+
+// What errors of a source may be, beside the light that it would send unhindered.
+double Gathering::ToleranceFor(const Rgb& light) const {
+  // How often that light is held by the other, in the channel where it is so least.
+  const auto held = [&](const Rgb& by) {
+    double times = std::numeric_limits<double>::infinity();
+    for (int c = 0; c < 3; ++c)
+      if (light[c] > 0) times = std::min(times, by[c] / light[c]);
+    return times;
+  };
+  const double of_many = kOneOfMany * held(so_far_.max(known_));
+  return tolerance_ * ((known_ > 0).any() ? of_many : std::max(1.0, of_many));
 }
 
 // Whether a subtree may be seen as one: where nothing hides it with its radiosity's moment, and else by the

@@ -63,8 +63,13 @@ class Gathering {
 
   // From here on parts of trees may be seen as one of their mean radiosity where that costs at most about
   // this share of the light that they send, or a part of that share of all light of the sources before. So
-  // the brightest should come first.
-  void SeeAsOne(double tolerance);
+  // the brightest should come first. If what the point receives is known, about, the light beside which all
+  // of this counts is a part of that.
+  void SeeAsOne(double tolerance, const Rgb& known = Rgb::Zero());
+  // What the sources so far would have brought without what hides them in part.
+  const Rgb& unhindered() const { return unhindered_; }
+  // Whether light beside that of the sources before is less than a small part of that share.
+  bool IsNegligible(const Rgb& light) const;
 
   const Rgb& irradiance() {
     AddListed();
@@ -83,7 +88,7 @@ class Gathering {
   void GatherNode(Tree tree, std::size_t i, const ImageFrame& frame, const Clipper::Candidates& candidates);
   void GatherVisible(Tree nodes);
   void GatherAsOne(Tree nodes);
-  double Outshone(const Rgb& light) const;
+  double ToleranceFor(const Rgb& light) const;
   bool IsOne(const SourceSet::Node& node, bool visible) const;
   void AddMoment(const SourceSet::Node& node);
   void AddListed();
@@ -105,6 +110,7 @@ class Gathering {
   std::vector<Occluder>& occluders_;  // of the source at hand
   Clipper& clipper_;
   double tolerance_ = 0;
+  Rgb known_ = Rgb::Zero(), unhindered_ = Rgb::Zero();
   Rgb so_far_ = Rgb::Zero();  // with a tolerance: the light of the sources that are done, about
   // Of the source at hand, with a tolerance: what holds for it, its normal, and the form factor of all that
   // is above the horizon.

@@ -22,6 +22,10 @@ constexpr std::size_t kManySources = 16;
 constexpr std::size_t kMostScreens = 16;
 constexpr double kLeastScreen = 0.02;
 
+// Where sources would send this many times the light that arrives, were it not for what hides them, errors
+// beside what they would send are too large: a bright source of which a dark corner is seen.
+constexpr double kMostlyHidden = 4;
+
 }  // namespace
 
 PointIrradiance::PointIrradiance(const RadiositySolution& solution, const PatchVisibility& visibility,
@@ -79,34 +83,46 @@ PointIrradiance PointIrradiance::WithSources(SourceSet sources) const {
 }
 
 // The same as GatherOnPatch(), the sources in the order of about the light that they would give unhindered.
+// The last are left out where all of them together cannot matter.
 void PointIrradiance::GatherBrightestFirst(PatchId patch, const ReceiverPoint& at,
                                            Gathering& gathering) const {
   struct Ranked {
-    double light;
+    double light;  // in the brightest channel
+    Rgb rest;      // at most, of this source and of those after it
     const PatchPair* pair;
   };
   thread_local std::vector<Ranked> ranked;
   ranked.clear();
   for (const PatchPair& pair : leaves_->SourcesOf(forest_->LeafAt(patch, at.position))) {
     const std::span<const SourceSet::Node> tree = sources_.Tree(pair.source);
-    if (!tree.empty()) ranked.push_back({LightUnhindered(tree[0], pair.source, at), &pair});
+    if (tree.empty()) continue;
+    const UnhinderedFactor factor = FactorUnhindered(tree[0], pair.source, at);
+    const Rgb& radiosity = tree[0].radiosity;
+    ranked.push_back({radiosity.maxCoeff() * factor.about, radiosity * factor.most, &pair});
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const Ranked& a, const Ranked& b) { return a.light > b.light; });
-  for (const auto& [light, pair] : ranked) gathering.AddSource(pair->source, leaves_->Blockers(*pair), patch);
+  for (std::size_t i = ranked.size(); i-- > 1;) ranked[i - 1].rest += ranked[i].rest;
+  for (const auto& [light, rest, pair] : ranked) {
+    if (gathering.IsNegligible(rest)) return;
+    gathering.AddSource(pair->source, leaves_->Blockers(*pair), patch);
+  }
 }
 
-// About the irradiance from a source that nothing hides, in its brightest channel [W/m^2].
-double PointIrradiance::LightUnhindered(const SourceSet::Node& source, PatchId patch,
-                                        const ReceiverPoint& at) const {
+PointIrradiance::UnhinderedFactor PointIrradiance::FactorUnhindered(const SourceSet::Node& source,
+                                                                    PatchId patch,
+                                                                    const ReceiverPoint& at) const {
   const Vec3 to = source.centre - at.position;
-  const double distance = std::max(to.norm(), source.radius);
-  const double high = std::min(1.0, (at.normal.dot(to) + source.radius) / distance);
+  const double high = std::max(0.0, at.normal.dot(to) + source.radius);
   const Vec3& normal = scene_.patches[static_cast<std::size_t>(patch)].normal;
-  const double deep = std::min(1.0, (source.radius - normal.dot(to)) / distance);
-  const double factor =
-      source.area * std::max(0.0, high) * std::max(0.0, deep) / (std::numbers::pi * distance * distance);
-  return source.radiosity.maxCoeff() * std::min(1.0, factor);
+  const double deep = std::max(0.0, source.radius - normal.dot(to));
+  const auto at_distance = [&](double d) {
+    if (d <= 0) return 1.0;
+    return std::min(
+        1.0, source.area * std::min(1.0, high / d) * std::min(1.0, deep / d) / (std::numbers::pi * d * d));
+  };
+  const double distance = to.norm();
+  return {at_distance(std::max(distance, source.radius)), at_distance(distance - source.radius)};
 }
 
 void PointIrradiance::GatherOnPatch(PatchId patch, const ReceiverPoint& at, Gathering& gathering) const {
@@ -131,13 +147,18 @@ PointIrradianceResult PointIrradiance::NearlyOnPatch(PatchId patch, const Receiv
                                                      double tolerance) const {
   const ReceiverPoint at = Nudged(given);
   Gathering gathering(scene_, sources_, at, options_, nullptr);
-  if (options_.method == nullptr && forest_ != nullptr) {
-    gathering.SeeAsOne(tolerance);
-    GatherBrightestFirst(patch, at, gathering);
-  } else {
+  if (options_.method != nullptr || forest_ == nullptr) {
     GatherOnPatch(patch, at, gathering);
+    return {gathering.irradiance(), gathering.one_sided()};
   }
-  return {gathering.irradiance(), gathering.one_sided()};
+  gathering.SeeAsOne(tolerance);
+  GatherBrightestFirst(patch, at, gathering);
+  const Rgb light = gathering.irradiance();
+  if ((gathering.unhindered() <= kMostlyHidden * light).all()) return {light, gathering.one_sided()};
+  Gathering closer(scene_, sources_, at, options_, nullptr);
+  closer.SeeAsOne(tolerance, light);
+  GatherBrightestFirst(patch, at, closer);
+  return {closer.irradiance(), closer.one_sided()};
 }
 
 Rgb PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given, std::span<double> factors) const {

@@ -71,7 +71,12 @@ class PointIrradiance {
   void ChooseMethod();
   void GatherOnPatch(PatchId patch, const ReceiverPoint& at, Gathering& gathering) const;
   void GatherBrightestFirst(PatchId patch, const ReceiverPoint& at, Gathering& gathering) const;
-  double LightUnhindered(const SourceSet::Node& source, PatchId patch, const ReceiverPoint& at) const;
+  // The form factor of a source of that patch that nothing hides.
+  struct UnhinderedFactor {
+    double about, most;
+  };
+  UnhinderedFactor FactorUnhindered(const SourceSet::Node& source, PatchId patch,
+                                    const ReceiverPoint& at) const;
   ReceiverPoint Nudged(const ReceiverPoint& at) const;
 
   const Scene& scene_;

@@ -265,8 +265,8 @@ Eigen::Matrix3d Slope(const Eigen::Matrix3d& moment, const Moments& leaves) {
 
 // Means and spreads, from the leaves.
 void SourceSet::MeasureSubtrees() {
-  // In dark places radiosities count relative to this share of the reflected light's mean.
-  constexpr double kDark = 0.5;
+  // Darker than this share of the mean of reflected light nothing counts by itself (RelativeErrors).
+  constexpr double kDark = 0.01;
   const Rgb dark = kDark * MeanReflected();
   std::vector<Moments> moments(nodes_.size());
   for (std::size_t p = 0; p + 1 < first_.size(); ++p)
