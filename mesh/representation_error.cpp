@@ -56,7 +56,8 @@ double Quantile(std::vector<double> values, double q) {
 }
 
 MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
-                           const IrradianceSampler& better, std::size_t points, std::uint64_t seed) {
+                           const IrradianceSampler& better, std::size_t points, std::uint64_t seed,
+                           double bound) {
   MeasuredError error;
   if (scene.patches.empty() || points == 0) return error;
   const std::vector<SurfacePoint> at = SpreadPoints(scene, points, seed);
@@ -77,13 +78,17 @@ MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const
   if (!better) return error;
   error.sources = Summarise(at, exact, truth);
   error.whole = Summarise(at, shown, truth);
+  const std::vector<double> errors = RelativeErrors(shown, truth);
+  error.above =
+      static_cast<double>(std::count_if(errors.begin(), errors.end(), [&](double e) { return e > bound; })) /
+      static_cast<double>(errors.size());
   return error;
 }
 
 RepresentationError MeasureRepresentationError(const Scene& scene, const IrradianceMesh& mesh,
                                                const IrradianceSampler& sampler, std::size_t points,
                                                std::uint64_t seed) {
-  return MeasureError(scene, mesh, sampler, {}, points, seed).interpolant;
+  return MeasureError(scene, mesh, sampler, {}, points, seed, 0).interpolant;
 }
 
 }  // namespace penumbra

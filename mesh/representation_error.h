@@ -34,13 +34,15 @@ struct MeasuredError {
   RepresentationError interpolant;  // of the interpolants, against exact irradiance under the same sources
   RepresentationError sources;      // of that, against exact irradiance under better sources
   RepresentationError whole;        // of the interpolants, against the latter
+  double above = 0;                 // the share of the latter's values that are above `bound`
 };
 
 // Measures at `points` random points that spread evenly by area over the fronts of all patches. The same seed
 // gives the same points. Points are offset from all interpolation nodes with probability one. Without
-// `better` sources the other two are left empty.
+// `better` sources the others are left empty.
 MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
-                           const IrradianceSampler& better, std::size_t points, std::uint64_t seed);
+                           const IrradianceSampler& better, std::size_t points, std::uint64_t seed,
+                           double bound);
 
 // The first of these.
 RepresentationError MeasureRepresentationError(const Scene& scene, const IrradianceMesh& mesh,

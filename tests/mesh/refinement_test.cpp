@@ -212,6 +212,70 @@ TEST(Refinement, SourcesSeenAsOneCostLittle) {
   }
 }
 
+// A hut on the floor of a room, with a slit under one wall.
+Scene Hut() {
+  Scene scene;
+  const std::int32_t grey = AddMaterial(scene, 0.5, 0), lamp = AddMaterial(scene, 0, 40);
+  AddBox(scene, Vec3::Zero(), {4, 3, 2.5}, true, grey);
+  AddBox(scene, {1, 1, 0}, {1.1, 2, 1}, false, grey);
+  AddBox(scene, {1.9, 1, 0.05}, {2, 2, 1}, false, grey);
+  AddBox(scene, {1, 0.9, 0}, {2, 1, 1}, false, grey);
+  AddBox(scene, {1, 2, 0}, {2, 2.1, 1}, false, grey);
+  AddBox(scene, {1, 0.9, 1}, {2, 2.1, 1.1}, false, grey);
+  Add(scene, {{2.5, 1, 2.25}, {2.5, 2, 2.25}, {3.5, 2, 2.25}, {3.5, 1, 2.25}}, lamp);
+  return scene;
+}
+
+// Where walls hide all that is bright, sources seen as one are judged beside the little light that arrives.
+TEST(Refinement, SourcesSeenAsOneCostLittleInTheDark) {
+  const Scene scene = Hut();
+  Pipeline pipeline(scene, Options(0.05));
+  pipeline.Solve({});
+  pipeline.BuildMesh(MeshKind::kInterpolant, {});
+  constexpr double kTolerance = 0.005;
+  std::vector<Rgb> near, exact;
+  std::vector<bool> in_hut;
+  for (const SurfacePoint& p : SpreadPoints(scene, 3000, 11)) {
+    ReceiverPoint at;
+    at.position = p.position;
+    at.normal = scene.patches[static_cast<std::size_t>(p.patch)].normal;
+    near.push_back(pipeline.irradiance().NearlyOnPatch(p.patch, at, kTolerance).irradiance);
+    exact.push_back(pipeline.irradiance().OnPatch(p.patch, at).irradiance);
+    constexpr double kSlack = 1e-9;
+    in_hut.push_back(
+        ((p.position - Vec3(1.5, 1.5, 0.5)).cwiseAbs().array() <= Eigen::Array3d(0.4, 0.5, 0.5) + kSlack)
+            .all());
+  }
+  const std::vector<double> all = RelativeErrors(near, exact);
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (in_hut[i / 3]) errors.push_back(all[i]);
+  ASSERT_GE(errors.size(), 300U);
+  const double p99 = Quantile(errors, 0.99);
+  std::printf("%zu values in the hut: p99 %.2g\n", errors.size(), p99);
+  EXPECT_LE(p99, kTolerance);
+}
+
+// A block that stands near a wall: light goes to and fro between the two, and the mean of what is there comes
+// to rest only after many passes.
+TEST(Refinement, ReachesTheErrorInASlot) {
+  Scene scene;
+  const std::int32_t white = AddMaterial(scene, 0.8, 0), lamp = AddMaterial(scene, 0, 40);
+  AddBox(scene, Vec3::Zero(), {3, 3, 2.5}, true, white);
+  AddBox(scene, {0.06, 0.6, 0}, {1, 2.4, 1.8}, false, white);
+  Add(scene, {{1.5, 1, 2.4}, {1.5, 2, 2.4}, {2.5, 2, 2.4}, {2.5, 1, 2.4}}, lamp);
+  constexpr double kError = 0.05;
+  Pipeline pipeline(scene, Options(kError));
+  pipeline.Solve({});
+  pipeline.BuildMesh(MeshKind::kInterpolant, {});
+  pipeline.Measure({});
+  const PipelineReport& report = pipeline.report();
+  std::printf("interpolants %.3g, sources %.3g, whole %.3g\n", report.interpolant_error.p99,
+              report.solution_error_estimate, report.whole_error.p99);
+  EXPECT_TRUE(report.error_met);
+  EXPECT_LE(report.whole_error.p99, kError);
+}
+
 // Dividing leaves for the mesh evaluates new nodes only, leaves the solution alone, and lowers the share of
 // the area that errs.
 TEST(Refinement, KeepsSamplesAndSolution) {
