@@ -62,12 +62,13 @@ std::vector<Candidate> FindCandidates(const RefinedMesh& refined, double error) 
 RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolution& solution,
                        const IrradianceSampler& sampler, const MeshOptions& mesh_options,
                        const MeshRefinementOptions& options, const ExecutionContext& context,
-                       LocalPassCache* local_pass, const ElementForest* start) {
+                       LocalPassCache* local_pass, const ElementForest* start, SampleCache* samples) {
   PENUMBRA_CHECK(mesh_options.order != InterpolantOrder::kConstant);
   const Scene& scene = solution.forest.scene();
   double area = 0;
   for (const Patch& patch : scene.patches) area += patch.area;
-  SampleCache cache;
+  SampleCache own_samples;
+  if (!samples) samples = &own_samples;
   std::optional<LocalPassCache> own;
   if (!local_pass) local_pass = &own.emplace(scene, visibility);
   RefinedMesh refined;
@@ -84,7 +85,7 @@ RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolutio
     const Stopwatch interpolating;
     if (context.Cancelled()) return {};
     BuiltMesh built =
-        BuildIrradianceMesh(scene, refined.triangulations, mesh_options.order, sampler, context, &cache);
+        BuildIrradianceMesh(scene, refined.triangulations, mesh_options.order, sampler, context, samples);
     if (context.Cancelled()) return {};
     refined.mesh = std::move(built.mesh);
     evaluations += built.point_evaluations;
@@ -95,13 +96,13 @@ RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolutio
     for (std::uint32_t t = 0; t < guess.size(); ++t)
       if (guess[t] > kSuspicion * options.error) suspects.push_back(t);
     MeasuredTriangles measured =
-        MeasureTriangles(scene, refined.mesh, suspects, options.samples, mean, sampler, &cache);
+        MeasureTriangles(scene, refined.mesh, suspects, options.samples, mean, sampler, samples);
     refined.errors = std::move(measured.errors);
     evaluations += measured.point_evaluations;
     std::vector<std::uint32_t> doubtful;
     for (const std::uint32_t t : suspects)
       if (refined.errors[t].max <= options.error && guess[t] > kDoubt * options.error) doubtful.push_back(t);
-    measured = MeasureTriangles(scene, refined.mesh, doubtful, options.samples + 1, mean, sampler, &cache);
+    measured = MeasureTriangles(scene, refined.mesh, doubtful, options.samples + 1, mean, sampler, samples);
     for (const std::uint32_t t : doubtful)
       if (measured.errors[t].max > refined.errors[t].max) refined.errors[t] = measured.errors[t];
     evaluations += measured.point_evaluations;

@@ -48,10 +48,12 @@ struct RefinedMesh {
 // Refines until the share is small enough, nothing is left to divide, or the most rounds are done. A round
 // divides the leaves that promise most for what they cost, and no more than it takes. Cancelled, it returns
 // an empty mesh. Begins with the leaves of `start`, which was grown from the solution's quadtrees; with these
-// if it is null. REQUIRES: they are balanced.
+// if it is null. `samples` keeps what was evaluated, for a call with the same sampler. REQUIRES: the leaves
+// are balanced.
 RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolution& solution,
                        const IrradianceSampler& sampler, const MeshOptions& mesh_options,
                        const MeshRefinementOptions& options, const ExecutionContext& context,
-                       LocalPassCache* local_pass = nullptr, const ElementForest* start = nullptr);
+                       LocalPassCache* local_pass = nullptr, const ElementForest* start = nullptr,
+                       SampleCache* samples = nullptr);
 
 }  // namespace penumbra

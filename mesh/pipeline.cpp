@@ -33,6 +33,12 @@ constexpr double kFirstWeight = 2;
 // fro. They end sooner where two passes leave more than this of a change. The first choose how finely.
 constexpr double kSettledShare = 0.6, kStill = 0.95;
 constexpr int kMostSourcePasses = 40, kCutChoices = 2;
+// Centroids can overlook what random points see. Once the mesh is refined these look, one for so many
+// evaluations of the refinement, and while one in a hundred errs by more than this share of the error it is
+// refined on, towards this of what was asked before.
+constexpr std::size_t kEvaluationsALook = 20, kFewestLooks = 1000, kMostLooks = 3000;
+constexpr double kOverlooked = 0.8, kOnward = 0.6;
+constexpr int kMostTurns = 3;
 // Cells of sources are divided while their score is above this times the error.
 constexpr double kFinestScore = 1;
 // Random points that choose the sources, and that measure them. More measure them where the share of values
@@ -162,7 +168,9 @@ struct Pipeline::Impl {
       if (settled || still || pass == kMostSourcePasses) return true;
       before = *change;
       ratio_before = ratio;
-      if (!Refine(first, resolved.solver.correction_tolerance, done, context)) return false;
+      if (!Refine(first, kInterpolantShare * options.error, resolved.solver.correction_tolerance, nullptr,
+                  done, context))
+        return false;
     }
   }
 
@@ -200,27 +208,47 @@ struct Pipeline::Impl {
   void RefineShown(const MeshOptions& mesh_options, const MeshOptions& first, MeshReport& done,
                    const ExecutionContext& context) {
     if (resolved.solver.source_error == 0 && !SettleSources(first, done, context)) return;
-    const std::optional<RefinedMesh> refined =
-        Refine(mesh_options, kNearShare * options.error, done, context);
-    if (!refined || refined->share_above <= kShareAbove) return;
+    const double error = kInterpolantShare * options.error, tolerance = kNearShare * options.error;
+    SampleCache samples;
+    std::optional<RefinedMesh> refined = Refine(mesh_options, error, tolerance, &samples, done, context);
+    double onward = error;
+    for (int turn = 1; refined && turn <= kMostTurns && refined->share_above <= kShareAbove; ++turn) {
+      const std::size_t points =
+          std::clamp(refined->report.counts.point_evaluations / kEvaluationsALook, kFewestLooks, kMostLooks);
+      if (!Overlooks(points, options.seed + 1 + static_cast<std::uint64_t>(turn), tolerance, done)) return;
+      onward *= kOnward;
+      refined = Refine(mesh_options, onward, tolerance, &samples, done, context);
+    }
+    if (!refined || onward < error) return;  // what is left is measured
     double area = 0;
     for (const ElementId leaf : refined->unmet) area += mesh_forest[leaf].area;
     report.unmet.push_back(fmt::format(
         "interpolants: triangles on {:.2g} of the area err by more than {:.3g}; {} leaves of {:.3g} m^2 "
         "together have the smallest area",
-        refined->share_above, kInterpolantShare * options.error, refined->unmet.size(), area));
+        refined->share_above, error, refined->unmet.size(), area));
   }
 
-  // Refines the leaves of the present mesh by the error of their interpolants, and makes it anew. Adds to the
-  // report. What is returned has given its mesh away; nothing if it was cancelled.
-  std::optional<RefinedMesh> Refine(const MeshOptions& mesh_options, double tolerance, MeshReport& done,
-                                    const ExecutionContext& context) {
+  // Whether so many random points see more of the interpolants err than those did that refined the mesh.
+  bool Overlooks(std::size_t points, std::uint64_t seed, double tolerance, MeshReport& done) {
+    const Stopwatch stopwatch;
+    const RepresentationError seen =
+        MeasureRepresentationError(scene, mesh, NearSampler(tolerance), points, seed);
+    done.counts.point_evaluations += points;
+    done.seconds.interpolate += stopwatch.Seconds();
+    return seen.p99 > kOverlooked * options.error;
+  }
+
+  // Refines the leaves of the present mesh until their interpolants err by no more than `error`, and makes it
+  // anew. `samples` are those of the same sources and tolerance, or null. Adds to the report. What is
+  // returned has given its mesh away; nothing if it was cancelled.
+  std::optional<RefinedMesh> Refine(const MeshOptions& mesh_options, double error, double tolerance,
+                                    SampleCache* samples, MeshReport& done, const ExecutionContext& context) {
     MeshRefinementOptions refinement;
-    refinement.error = kInterpolantShare * options.error;
+    refinement.error = error;
     refinement.min_area = resolved.solver.min_area;
     refinement.samples = options.error_samples;
     RefinedMesh refined = RefineMesh(visibility, solver->solution(), NearSampler(tolerance), mesh_options,
-                                     refinement, context, &LocalPass(), &mesh_forest);
+                                     refinement, context, &LocalPass(), &mesh_forest, samples);
     if (context.Cancelled()) return std::nullopt;
     mesh = std::move(refined.mesh);
     triangulations = std::move(refined.triangulations);
