@@ -550,6 +550,8 @@ void Pipeline::Measure(const ExecutionContext& context) {
   Diagnose();
   impl_->DropUnmet("error: ");
   PipelineReport& report = impl_->report;
+  report.interpolant_error = report.whole_error = {};
+  report.solution_error_estimate = 0;
   const RunLimits limits = impl_->LimitsSinceSolve(context);
   if (impl_->solver && !impl_->solver->SeenFromLeaves(limits.context())) {
     report.error_met = false;
@@ -586,6 +588,8 @@ void Pipeline::Measure(const ExecutionContext& context) {
         report.interpolant_error.p99, error.sources.p99, error.whole.p99, error.whole.worst_point.x(),
         error.whole.worst_point.y(), error.whole.worst_point.z()));
 }
+
+void Pipeline::SetErrorPoints(std::size_t points) { impl_->options.error_points = points; }
 
 const Scene& Pipeline::scene() const { return impl_->scene; }
 const PipelineOptions& Pipeline::options() const { return impl_->options; }

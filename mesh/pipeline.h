@@ -195,6 +195,8 @@ class Pipeline {
   void Diagnose();
   // That, and the error at random points. REQUIRES: the same; the mesh was made here.
   void Measure(const ExecutionContext& context);
+  // PipelineOptions::error_points of what is measured from here on.
+  void SetErrorPoints(std::size_t points);
 
   const RadiositySolution& solution() const;  // REQUIRES: Link()
   const PatchVisibility& visibility() const;

@@ -80,6 +80,11 @@ void SolverSession::SetOptions(const PipelineOptions& options) {
   stale_links_ = true;
 }
 
+void SolverSession::SetErrorPoints(std::size_t points) {
+  const std::lock_guard lock(mutex_);
+  options_.error_points = points;
+}
+
 void SolverSession::SetScene(const OpenedScene& opened) {
   Cancel();
   Enqueue("load", [this, opened](const ExecutionContext&) { DoLoad(opened); });
@@ -106,7 +111,11 @@ void SolverSession::BuildMesh(MeshKind kind) {
 }
 
 void SolverSession::Measure() {
-  Enqueue("measure", [this](const ExecutionContext& context) { DoMeasure(context); });
+  Enqueue("measure", [this](const ExecutionContext& context) {
+    DoMeasure(context);
+    if (stored_ && pipeline_->options().error_points != options().error_points)
+      throw InputError("a solution is measured when it is solved: iterate, to solve and measure it anew");
+  });
 }
 
 void SolverSession::Save(std::function<void(const Pipeline&)> write) {
@@ -318,9 +327,12 @@ void SolverSession::DoInterpolants(const ExecutionContext& context) {
 
 void SolverSession::DoMeasure(const ExecutionContext& context) {
   if (!pipeline_) throw InputError("nothing is solved yet: iterate first");
-  if (snapshot()->measured) return;
+  // What a file brought was measured when it was solved.
+  const std::size_t points = stored_ ? pipeline_->options().error_points : options().error_points;
+  if (snapshot()->measured && pipeline_->options().error_points == points) return;
   DoInterpolants(context);
   if (context.Cancelled()) return;
+  pipeline_->SetErrorPoints(points);
   pipeline_->Measure(context);
   auto next = std::make_shared<Snapshot>(*snapshot());
   next->measured = pipeline_->report();

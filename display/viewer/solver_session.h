@@ -46,6 +46,8 @@ class SolverSession {
   void SetScene(const OpenedScene& opened);
   // For what is done from now on. Where options of the links change, the next iteration starts over.
   void SetOptions(const PipelineOptions& options);
+  // PipelineOptions::error_points of what is measured from now on: nothing else starts over for them.
+  void SetErrorPoints(std::size_t points);
   PipelineOptions options() const;
 
   void Link();      // from the beginning
@@ -55,7 +57,8 @@ class SolverSession {
   // For a display mode, from the state then. Once the solver has settled, interpolants refine the solution as
   // well, as they do for Pipeline::BuildMesh.
   void BuildMesh(MeshKind kind);
-  void Measure();  // energy and errors of the interpolants, built where they are not there
+  // Energy and errors of the interpolants, built where they are not there. Of a solution, what it brought.
+  void Measure();
   // Writes what is solved, after Measure().
   void Save(std::function<void(const Pipeline&)> write);
   // Anything else that takes long and reads the latest state. What it throws as InputError is shown.

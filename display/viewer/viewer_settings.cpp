@@ -206,10 +206,10 @@ void Viewer::AddSolveSettings() {
                  {},
                  {}};
   points.get = [&o] { return std::to_string(o.error_points); };
-  points.set = [&o, changed](const std::string& text) {
+  points.set = [this, &o](const std::string& text) {
     if (WholeNumber(text) > 100'000'000) throw InputError(fmt::format("'{}' are too many", text));
     o.error_points = WholeNumber(text);
-    changed();
+    session_.SetErrorPoints(o.error_points);
   };
   s.Add(points);
   Setting seed = points;

@@ -120,6 +120,37 @@ TEST(SolverSession, MeasuresWhatThePipelineMeasures) {
   EXPECT_DOUBLE_EQ(session.snapshot()->measured->energy.emitted, pipeline.report().energy.emitted);
 }
 
+// Asked for another number of points it counts those, over the light and the mesh that there are.
+TEST(SolverSession, MeasuresAnewAtAnotherNumberOfPoints) {
+  const auto scene = viewer_test::ShadowScene();
+  SolverSession session(scene, Loose());
+  session.Converge();
+  session.Measure();
+  ASSERT_TRUE(Rest(session));
+  const auto before = session.snapshot();
+  for (const std::size_t points : {std::size_t{70}, std::size_t{0}}) {
+    session.SetErrorPoints(points);
+    session.Measure();
+    session.Converge();  // is done already
+    ASSERT_TRUE(Rest(session));
+    PipelineOptions options = Loose();
+    options.error_points = points;
+    Pipeline pipeline(*scene, options);
+    pipeline.Solve(ExecutionContext());
+    pipeline.BuildMesh(MeshKind::kInterpolant, ExecutionContext());
+    pipeline.Measure(ExecutionContext());
+    const auto now = session.snapshot();
+    EXPECT_EQ(now->light, before->light);
+    ASSERT_TRUE(now->measured);
+    const PipelineReport& report = *now->measured;
+    EXPECT_EQ(report.interpolant_error.points, points);
+    EXPECT_EQ(report.interpolant_error.p99, pipeline.report().interpolant_error.p99);
+    EXPECT_EQ(report.whole_error.p99, pipeline.report().whole_error.p99);
+    EXPECT_EQ(report.solution_error_estimate, pipeline.report().solution_error_estimate);
+    EXPECT_EQ(report.unmet, pipeline.report().unmet);
+  }
+}
+
 // A step that is measured and saved is the one that was shown, not what refining would make of it.
 TEST(SolverSession, MeasuringLeavesAStepAsItIs) {
   PipelineOptions options = Loose();
@@ -232,6 +263,12 @@ TEST(SolverSession, ShowsWhatAnotherSolved) {
   session.BuildMesh(MeshKind::kGouraudMesh);
   ASSERT_TRUE(Rest(session));
   EXPECT_NE(saved, nullptr);
+  EXPECT_EQ(session.status().message, "");
+  session.SetErrorPoints(7);
+  session.Measure();
+  ASSERT_TRUE(Rest(session));
+  EXPECT_NE(session.status().message, "");
+  EXPECT_EQ(session.snapshot()->measured->interpolant_error.points, Loose().error_points);
   EXPECT_TRUE(session.snapshot()->Mesh(MeshKind::kGouraudMesh));
   session.Converge();
   ASSERT_TRUE(Rest(session));
