@@ -24,6 +24,7 @@
 #include "display/viewer/viewer.h"
 #include "display/viewer/window.h"
 #include "solver/base/check.h"
+#include "solver/base/parallel.h"
 
 namespace penumbra {
 namespace {
@@ -70,8 +71,7 @@ class ViewedScene {
 
   // Another scene is read as this one was; changes of materials were made to this one alone.
   viewer::OpenedScene Open(const std::string& name) {
-    SceneArguments other = arguments_;
-    other.app = nullptr;
+    SceneArguments other = Again();
     other.scene = name;
     other.emittance.clear();
     other.reflectance.clear();
@@ -85,7 +85,7 @@ class ViewedScene {
 
   // The scene that was opened last, with one option changed, in the words of the command line.
   viewer::OpenedScene ReadWith(const std::string& option, const std::string& value) {
-    SceneArguments changed = arguments_;
+    SceneArguments changed = Again();
     CLI::App app;
     AddSceneArguments(app, &changed);
     std::vector<std::string> words = {changed.scene};
@@ -146,6 +146,14 @@ class ViewedScene {
   }
 
  private:
+  // To read with once more: by as many threads as there are now, for the window may have been told so.
+  SceneArguments Again() const {
+    SceneArguments again = arguments_;
+    again.app = nullptr;
+    again.threads = ThreadCount();
+    return again;
+  }
+
   static void LeaveOut(const std::string& option, SceneArguments& arguments) {
     if (option == kTwoSided) arguments.reading.two_sided = false;
     if (option == kRadiance) arguments.reading.emission_is_radiance = false;

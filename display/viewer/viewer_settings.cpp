@@ -6,9 +6,12 @@
 
 #include "display/viewer/viewer.h"
 #include "solver/base/check.h"
+#include "solver/base/parallel.h"
 
 namespace penumbra::viewer {
 namespace {
+
+constexpr std::uint64_t kMostThreads = 1024;  // as --threads
 
 // A setting of the solver that follows from others unless it is given.
 Setting Optional(const std::string& name, const std::string& help, std::optional<double>* value, double low,
@@ -221,6 +224,17 @@ void Viewer::AddSolveSettings() {
     changed();
   };
   s.Add(seed);
+  // No part of the solution: whatever comes next is done by so many, and what there is stays.
+  Setting threads = points;
+  threads.name = "threads";
+  threads.help = "Threads, 0: all";
+  threads.get = [] { return std::to_string(ThreadCount()); };
+  threads.set = [](const std::string& text) {
+    const std::uint64_t count = WholeNumber(text);
+    if (count > kMostThreads) throw InputError(fmt::format("'{}' are too many", text));
+    SetThreadCount(static_cast<int>(count));
+  };
+  s.Add(threads);
 }
 
 // Settings that are done rather than kept: dialogs and scripts name a file or a camera.

@@ -7,9 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <new>
+#include <vector>
 
 #include "display/viewer/deferred.h"
 #include "display/viewer/selection.h"
+#include "solver/base/parallel.h"
 #include "tests/viewer/viewer_test_scenes.h"
 
 namespace penumbra::viewer {
@@ -163,6 +165,36 @@ TEST(Picture, OptionsOfASolveAreSettings) {
   EXPECT_FALSE(viewer.solving().source_error);
   EXPECT_THROW(viewer.Set("seed", "-1"), InputError);
   EXPECT_THROW(viewer.Set("divisions", "128"), InputError);
+}
+
+// The number of threads holds from the next loop on, of a solver that is under way too: nothing starts over,
+// and the light is the same to the bit.
+TEST(Picture, TheNumberOfThreadsChangesNoResult) {
+  const int before = ThreadCount();
+  std::vector<std::vector<Rgb>> light;
+  for (const bool changes : {false, true}) {
+    Viewer viewer(ShadowScene(), Options(true));
+    for (int i = 0; changes && i < 200 && !viewer.Idle(); ++i) {
+      viewer.Set("threads", i % 2 == 0 ? "1" : "3");
+      EXPECT_EQ(ThreadCount(), i % 2 == 0 ? 1 : 3);
+      viewer.Frame(32, 24, 0.02);
+    }
+    ASSERT_TRUE(Settle(viewer));
+    const auto solved = viewer.snapshot().light;
+    viewer.Set("threads", "2");
+    EXPECT_EQ(viewer.settings().Find("threads")->get(), "2");
+    viewer.RunMenu("Iteration/Iterate to convergence");
+    ASSERT_TRUE(Settle(viewer));
+    EXPECT_EQ(viewer.snapshot().light, solved);
+    light.push_back(solved->solution().irradiance);
+  }
+  SetThreadCount(before);
+  ASSERT_EQ(light[0].size(), light[1].size());
+  for (std::size_t i = 0; i < light[0].size(); ++i) EXPECT_TRUE((light[0][i] == light[1][i]).all()) << i;
+  Viewer viewer(ShadowScene(), Options(false));
+  EXPECT_THROW(viewer.Set("threads", "1025"), InputError);
+  EXPECT_THROW(viewer.Set("threads", "-1"), InputError);
+  EXPECT_EQ(ThreadCount(), before);
 }
 
 TEST(Deferred, WhatThereIsNoMemoryForHasNoValue) {
