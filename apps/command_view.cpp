@@ -17,6 +17,7 @@
 #include "apps/material_change.h"
 #include "apps/option_values.h"
 #include "apps/output.h"
+#include "apps/restart.h"
 #include "apps/scene_arguments.h"
 #include "apps/solve_run.h"
 #include "display/viewer/script.h"
@@ -34,6 +35,7 @@ constexpr const char* kRadiance = "emission-is-radiance";
 constexpr const char* kMaxReflectance = "max-reflectance";
 constexpr const char* kEmittanceOption = "emittance";
 constexpr const char* kReflectanceOption = "reflectance";
+constexpr const char* kRestart = "restart";
 // Values of flags that are given and are not, and of other options that are not.
 constexpr const char *kOn = "on", *kOff = "off";
 const std::string kNone = "none";
@@ -66,15 +68,21 @@ class ViewedScene {
       opened.solving = loaded.stored->solving;
       opened.stored = std::make_shared<PipelineState>(std::move(loaded.stored->state));
     }
+    if (loaded.restart) {
+      opened.solving = loaded.restart->solving;
+      opened.restart = std::make_shared<const PipelineState>(std::move(loaded.restart->state));
+    }
     return opened;
   }
 
-  // Another scene is read as this one was; changes of materials were made to this one alone.
+  // Another scene is read as this one was; changes of materials were made to this one alone, and links are of
+  // this one.
   viewer::OpenedScene Open(const std::string& name) {
     SceneArguments other = Again();
     other.scene = name;
     other.emittance.clear();
     other.reflectance.clear();
+    other.restart.reset();
     LoadedScene loaded = LoadScene(other);
     {
       const std::lock_guard lock(mutex_);
@@ -88,6 +96,7 @@ class ViewedScene {
     SceneArguments changed = Again();
     CLI::App app;
     AddSceneArguments(app, &changed);
+    AddRestartOption(app, &changed);
     std::vector<std::string> words = {changed.scene};
     if (value == kOff || value == kNone) {
       LeaveOut(option, changed);
@@ -98,7 +107,7 @@ class ViewedScene {
     std::reverse(words.begin(), words.end());  // as CLI11 takes them
     try {
       app.parse(std::move(words));
-      LoadedScene loaded = LoadScene(changed);
+      LoadedScene loaded = LoadToSolve(changed);
       changed.app = nullptr;
       {
         const std::lock_guard lock(mutex_);
@@ -131,7 +140,9 @@ class ViewedScene {
            return reading.max_reflectance ? fmt::format("{}", *reading.max_reflectance) : kNone;
          }},
         {kEmittanceOption, "Another emittance, MATERIAL=r,g,b", false, changes(arguments_.emittance)},
-        {kReflectanceOption, "Another reflectance, MATERIAL=r,g,b", false, changes(arguments_.reflectance)}};
+        {kReflectanceOption, "Another reflectance, MATERIAL=r,g,b", false, changes(arguments_.reflectance)},
+        {kRestart, "Over the links of a solution, its file", false,
+         [this] { return arguments_.restart.value_or(kNone); }}};
   }
 
   // Called from the solver's thread.
@@ -160,6 +171,7 @@ class ViewedScene {
     if (option == kMaxReflectance) arguments.reading.max_reflectance.reset();
     if (option == kEmittanceOption) arguments.emittance.clear();
     if (option == kReflectanceOption) arguments.reflectance.clear();
+    if (option == kRestart) arguments.restart.reset();
   }
 
   mutable std::mutex mutex_;
@@ -191,10 +203,11 @@ viewer::ViewerFiles FilesOf(ViewedScene& viewed) {
   return files;
 }
 
-void View(const ViewArguments& arguments) {
+void View(ViewArguments arguments) {
   std::optional<viewer::Script> script;
   if (arguments.script) script = viewer::ReadScript(*arguments.script);
-  LoadedScene loaded = LoadScene(arguments.scene);
+  const PipelineOptions solving = arguments.scene.solving;  // as they are without --restart
+  LoadedScene loaded = LoadToSolve(arguments.scene);
   // Chosen before the window opens: a camera that is not there is a usage error.
   const Camera camera = ChooseCamera(loaded.scene, arguments.camera);
   if (arguments.scene.verbose) {
@@ -209,7 +222,7 @@ void View(const ViewArguments& arguments) {
   viewer::ViewerOptions options;
   options.scene_name = arguments.scene.scene;
   options.files = FilesOf(viewed);
-  options.solving = arguments.scene.solving;
+  options.solving = solving;
   options.solve = !arguments.no_solve;
   options.print = &PrintLine;
   viewer::Viewer* opened_in = nullptr;
@@ -281,6 +294,7 @@ Command AddViewCommand(CLI::App& program) {
       ->group("Window");
   AddCameraOptions(*app, &arguments->camera);
   AddSolveOptions(*app, &arguments->scene);
+  AddRestartOption(*app, &arguments->scene);
   app->footer(std::string(viewer::kScriptHelp) +
               "\n`penumbra view --help-script` lists all options and menus.");
   return {app, [arguments] { View(*arguments); }};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "mesh/link_options.h"
 #include "mesh/solution_check.h"
 #include "solver/base/check.h"
 #include "solver/scene/geometry_difference.h"
@@ -15,20 +16,15 @@
 namespace penumbra {
 namespace {
 
-void TakeLinkOptions(const PipelineOptions& from, PipelineOptions& to) {
-  to.eps = from.eps;
-  to.max_iterations = from.max_iterations;
-  to.oracle = from.oracle;
-  to.multigrid = from.multigrid;
-  to.form_factors = from.form_factors;
-}
-
 LoadedScene LoadRestart(SceneArguments& arguments, const std::string& from) {
-  for (const char* name : kLinkOptions)
-    if (arguments.app && arguments.app->get_option(name)->count() > 0)
+  for (const char* name : kLinkOptions) {
+    const CLI::Option* option =
+        arguments.app ? arguments.app->get_option_no_throw(fmt::format("--{}", name)) : nullptr;
+    if (option && option->count() > 0)
       throw UsageError(fmt::format(
-          "{} says how links are made, but --restart keeps those of '{}'; leave one of the two out", name,
+          "--{} says how links are made, but --restart keeps those of '{}'; leave one of the two out", name,
           from));
+  }
   LoadedScene loaded = LoadScene(arguments);
   PENUMBRA_CHECK(!loaded.stored);  // such options are refused beside a solution
   LoadedScene solved = LoadSolution(from);
@@ -46,7 +42,7 @@ LoadedScene LoadRestart(SceneArguments& arguments, const std::string& from) {
   // The same elements, of patches with other materials.
   ElementForest& forest = run.state.solution.forest;
   forest = RestoreForest(loaded.scene, forest.elements());
-  TakeLinkOptions(run.solving, arguments.solving);
+  TakeLinkOptions(run.solving, &arguments.solving);
   loaded.restart = std::move(run);
   return loaded;
 }

@@ -15,7 +15,7 @@
 #include "apps/commands.h"
 #include "apps/option_values.h"
 #include "apps/report.h"
-#include "apps/restart.h"
+#include "mesh/link_options.h"
 #include "mesh/solution_file.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
@@ -380,6 +380,7 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
       options["divisions"] = arguments.solving.divisions;
     }
     options["error_points"] = arguments.solving.error_points;
+    if (arguments.restart) options["restart"] = *arguments.restart;
   }
   return options;
 }
@@ -417,7 +418,7 @@ std::string OptionText(const std::string& name, const nlohmann::ordered_json& va
 // Whether the option may not be given again: the links of a restart were made with it.
 bool IsOfRestart(const std::string& name, const nlohmann::ordered_json& options) {
   return options.contains("restart") &&
-         std::find(kLinkOptions.begin(), kLinkOptions.end(), "--" + name) != kLinkOptions.end();
+         std::find(kLinkOptions.begin(), kLinkOptions.end(), name) != kLinkOptions.end();
 }
 
 }  // namespace

@@ -65,7 +65,6 @@ SolveRun::SolveRun(const SceneArguments& arguments, LoadedScene& loaded,
       restarts_(loaded.restart.has_value()),
       pipeline_(StartPipeline(arguments, loaded)),
       options_(StartOptions(arguments, loaded, pipeline_)) {
-  if (restarts_) options_["restart"] = *arguments.restart;
   options_.update(command_options);
   if (arguments_.verbose) PrintOptionsUsed(options_);
 }

@@ -20,9 +20,11 @@ struct OpenedScene {
   OpenedScene(std::shared_ptr<const Scene> the_scene) : scene(std::move(the_scene)) {}
 
   std::shared_ptr<const Scene> scene;
-  // Of a solution file, with how it was solved; refers to the scene. Null: not solved.
+  // Of a solution file; refers to the scene. Null: not solved.
   std::shared_ptr<PipelineState> stored;
-  PipelineOptions solving;
+  // Of another solution of the same geometry, over whose links the scene is lit. Null: it gets its own.
+  std::shared_ptr<const PipelineState> restart;
+  PipelineOptions solving;  // of either, as it was solved
 };
 
 // What says how a scene is read.

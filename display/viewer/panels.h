@@ -44,7 +44,7 @@ class Panels {
   std::string asked_;     // the dialog that is open
   char text_[1024] = {};  // in its field
   std::string edited_;    // the setting whose field is being edited
-  char edit_[128] = {};   // in that field
+  char edit_[1024] = {};  // in that field: a path, say
   std::string unedited_;  // what it showed before
   std::string slid_;      // the setting whose slider is held
   float slid_low_ = 0, slid_high_ = 1;

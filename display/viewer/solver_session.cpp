@@ -46,7 +46,7 @@ std::shared_ptr<Snapshot> LightOf(const Pipeline& pipeline, const Snapshot& befo
 
 SolverSession::SolverSession(const OpenedScene& opened, const PipelineOptions& options)
     : snapshot_(DarkSnapshot(opened.scene)), options_(options), thread_([this] { Work(); }) {
-  if (opened.stored) SetScene(opened);
+  if (opened.stored || opened.restart) SetScene(opened);
 }
 
 SolverSession::~SolverSession() {
@@ -199,6 +199,7 @@ void SolverSession::DoLoad(const OpenedScene& opened) {
   pipeline_.reset();
   visibility_.reset();
   settled_ = stored_ = opened.stored != nullptr;
+  restart_ = opened.restart;
   const std::shared_ptr<Snapshot> dark = DarkSnapshot(opened.scene);
   if (!opened.stored) {
     Publish(dark);
@@ -222,14 +223,20 @@ void SolverSession::DoLoad(const OpenedScene& opened) {
 std::shared_ptr<Snapshot> SolverSession::NextLight(std::size_t corrections) const {
   std::shared_ptr<Snapshot> next = LightOf(*pipeline_, *snapshot(), visibility_);
   next->corrections = corrections;
-  next->converged = pipeline_->Converged();
+  next->converged = Converged();
   return next;
+}
+
+// Links that were given are not judged: over them the light has to settle, and that is all.
+bool SolverSession::Converged() const {
+  if (!restart_) return pipeline_->Converged();
+  return pipeline_->report().iterations.back().residual <= pipeline_->resolved().solver.relative_cutoff;
 }
 
 void SolverSession::PublishLight(std::size_t corrections) { Publish(NextLight(corrections)); }
 
 void SolverSession::DoLink(const ExecutionContext& context) {
-  context.Report("link", 0);
+  context.Report(restart_ ? "iterate" : "link", 0);
   PipelineOptions options;
   {
     const std::lock_guard lock(mutex_);
@@ -237,8 +244,14 @@ void SolverSession::DoLink(const ExecutionContext& context) {
     stale_links_ = false;
   }
   const std::shared_ptr<const Snapshot> before = snapshot();
-  auto pipeline = std::make_unique<Pipeline>(*before->scene, options);
-  pipeline->Link(context);
+  std::unique_ptr<Pipeline> pipeline;
+  if (restart_) {
+    pipeline = std::make_unique<Pipeline>(*before->scene, options, PipelineState(*restart_));
+    pipeline->Relight(context);
+  } else {
+    pipeline = std::make_unique<Pipeline>(*before->scene, options);
+    pipeline->Link(context);
+  }
   if (context.Cancelled()) return;
   pipeline_ = std::move(pipeline);
   stored_ = false;
@@ -254,8 +267,8 @@ bool SolverSession::MustLink() const {
 
 void SolverSession::DoIterate(const ExecutionContext& context) {
   if (MustLink()) DoLink(context);
-  // A dense system is solved with its links.
-  if (!pipeline_ || context.Cancelled() || pipeline_->options().dense) return;
+  // A dense system is solved with its links, and those that were given are lit with the first step.
+  if (!pipeline_ || context.Cancelled() || pipeline_->options().dense || restart_) return;
   context.Report("iterate", 0);
   const std::optional<IterationReport> report = pipeline_->Iterate(context);
   if (!report) return;
@@ -270,7 +283,7 @@ void SolverSession::DoConverge(const ExecutionContext& outer) {
   const bool must_link = MustLink();
   if (!must_link && settled_ && snapshot()->corrections > 0) return;  // done is done
   if (must_link) DoLink(context);
-  for (int i = 0; i < options.max_iterations && !context.Cancelled() && !options.dense; ++i) {
+  for (int i = 0; i < options.max_iterations && !context.Cancelled() && !options.dense && !restart_; ++i) {
     if (pipeline_->Converged()) break;
     DoIterate(context);
   }

@@ -42,7 +42,9 @@ class SolverSession {
   std::shared_ptr<const Snapshot> snapshot() const;
   SessionStatus status() const;
 
-  // Starts over with another scene, or goes on from a solution.
+  // Starts over with another scene, or goes on from a solution. Where the links are given, linking and
+  // iterating are lighting the scene over them; the options that say how links are made (kLinkOptions) have
+  // to be those of the links.
   void SetScene(const OpenedScene& opened);
   // For what is done from now on. Where options of the links change, the next iteration starts over.
   void SetOptions(const PipelineOptions& options);
@@ -73,6 +75,7 @@ class SolverSession {
 
   void Work();
   bool MustLink() const;
+  bool Converged() const;
   void Enqueue(const std::string& phase, Task task);
   void DoLink(const ExecutionContext& context);
   void DoIterate(const ExecutionContext& context);
@@ -99,8 +102,9 @@ class SolverSession {
   // Of the solver's thread alone.
   std::shared_ptr<const PatchVisibility> visibility_;
   std::unique_ptr<Pipeline> pipeline_;
-  bool settled_ = false;  // its iterations have come to their end
-  bool stored_ = false;   // it shows what a file brought, and cannot go on from there
+  std::shared_ptr<const PipelineState> restart_;  // whose links the scene is lit over; null: its own
+  bool settled_ = false;                          // its iterations have come to their end
+  bool stored_ = false;                           // it shows what a file brought, and cannot go on from there
 
   std::thread thread_;
 };

@@ -7,6 +7,7 @@
 
 #include "display/viewer/selection.h"
 #include "display/viewer/walk.h"
+#include "mesh/link_options.h"
 #include "solver/base/check.h"
 
 namespace penumbra::viewer {
@@ -18,7 +19,7 @@ constexpr const char* kNoMemory = "out of memory for what is drawn over the pict
 
 Viewer::Viewer(const OpenedScene& opened, ViewerOptions options)
     : options_(std::move(options)), session_(opened, options_.solving) {
-  if (opened.stored) options_.solving = opened.solving;
+  TakeOptions(opened);
   view_.mode = DrawMode::kInterpolant;
   snapshot_ = session_.snapshot();
   tools_ = ToolsMesh();
@@ -190,6 +191,9 @@ void Viewer::Set(const std::string& name, const std::string& value) {
   fresh_ = false;
   const Setting* setting = settings_.Find(name);
   if (!setting) throw InputError(fmt::format("there is no option '{}'", name));
+  if (own_links_ && std::find(kLinkOptions.begin(), kLinkOptions.end(), name) != kLinkOptions.end())
+    throw InputError(
+        fmt::format("{}: it says how links are made, but restart keeps those of a solution", name));
   try {
     setting->set(value);
   } catch (const InputError& error) {

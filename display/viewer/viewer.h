@@ -116,6 +116,7 @@ class Viewer {
   // viewer_files.cpp
   void AddSceneSettings();
   void Take(const OpenedScene& opened);
+  void TakeOptions(const OpenedScene& opened);
   void Open(const std::string& name);
   void SaveCamera(const std::string& name);
   void SavePicture(const std::string& path);
@@ -139,7 +140,8 @@ class Viewer {
   void SolvingChanged() { session_.SetOptions(options_.solving); }
 
   ViewerOptions options_;
-  DenseOptions dense_;  // of the dense solver, whether it is chosen or not
+  std::optional<PipelineOptions> own_links_;  // while links are given: as one's own would be made
+  DenseOptions dense_;                        // of the dense solver, whether it is chosen or not
   SolverSession session_;
   std::shared_ptr<const Snapshot> snapshot_;
   std::shared_ptr<const MeshState> tools_;

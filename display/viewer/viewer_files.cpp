@@ -8,6 +8,7 @@
 #include "display/image_io.h"
 #include "display/ray_display.h"
 #include "display/viewer/viewer.h"
+#include "mesh/link_options.h"
 #include "solver/base/check.h"
 #include "solver/scene/named_scene.h"
 
@@ -44,8 +45,23 @@ void Viewer::Open(const std::string& name) {
   if (options_.opened) options_.opened(name);
 }
 
+// A solution brings all of its options. Links bring those that say how they were made, until there are none
+// any more.
+void Viewer::TakeOptions(const OpenedScene& opened) {
+  PipelineOptions& solving = options_.solving;
+  const std::optional<PipelineOptions> own = std::exchange(own_links_, std::nullopt);
+  if (opened.stored) {
+    solving = opened.solving;
+    return;
+  }
+  if (opened.restart) own_links_ = own.value_or(solving);
+  if (!opened.restart && !own) return;
+  TakeLinkOptions(opened.restart ? opened.solving : *own, &solving);
+  SolvingChanged();
+}
+
 void Viewer::Take(const OpenedScene& opened) {
-  if (opened.stored) options_.solving = opened.solving;
+  TakeOptions(opened);
   Begin().SetScene(opened);
   if (options_.solve && !opened.stored) Begin().Converge();
 }

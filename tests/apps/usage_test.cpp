@@ -46,7 +46,7 @@ TEST(Help, ListsEveryOption) {
         "--opengl-coordinates", "--supersampling", "--samples", "--restart"}},
       {"probe", {"--points", "--direct", "--output", "--report", "--restart"}},
       {"export", {"--output", "--exposure", "--camera", "--report", "--restart"}},
-      {"view", {"--script", "--no-solve", "--help-script", "--camera", "--eye"}},
+      {"view", {"--script", "--no-solve", "--help-script", "--camera", "--eye", "--restart"}},
       {"info", {"--json", "--report", "--restart"}}};
   const Outcome form_factor = sandbox.Run({"form-factor", "--help"});
   EXPECT_EQ(form_factor.status, 0);

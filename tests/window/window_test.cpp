@@ -343,6 +343,60 @@ wait idle
   EXPECT_EQ(Play("wait idle\nset two-sided maybe\n").status, 1);
 }
 
+// Links of a solution are gone on with, and materials changed over them: as by `solve --restart`, to the
+// byte, whether the window began so or not; without them the scene is solved anew by the options of before.
+TEST_F(Window, LightsItsSceneOverTheLinksOfASolution) {
+  const std::vector<std::string> solve = {"solve", "floating-cube", "--error", "0.2"};
+  const auto with = [](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  const std::vector<std::string> light = {"--emittance", "left_light=0,0,9"};
+  const std::vector<std::string> over = with(light, {"--restart", "links.h5"});
+  ASSERT_EQ(sandbox.Run(with(solve, {"--eps", "0.5", "-o", "links.h5"})).status, 0);
+  ASSERT_EQ(sandbox.Run(with(with(solve, over), {"-o", "over.h5"})).status, 0);
+  ASSERT_EQ(sandbox.Run(with(with(solve, light), {"-o", "anew.h5"})).status, 0);
+  const Outcome changed = Play(R"(
+resize 64x48
+wait idle
+set restart links.h5
+wait frames 2
+set emittance left_light=0,0,9
+wait idle
+set save-solution a.h5
+wait idle
+menu Iteration/Iterate
+menu Iteration/Correct
+wait idle
+set error-points 10
+menu Iteration/Link
+wait idle
+menu Iteration/Iterate to convergence
+wait idle
+set error-points 1000
+set save-solution b.h5
+wait idle
+set restart none
+wait idle
+set save-solution c.h5
+wait idle
+)");
+  EXPECT_EQ(changed.status, 0) << changed.err;
+  const Outcome begun = Play("resize 64x48\nwait idle\nset save-solution d.h5\nwait idle\n", over);
+  EXPECT_EQ(begun.status, 0) << begun.err;
+  for (const char* name : {"a.h5", "b.h5", "d.h5"})
+    EXPECT_TRUE(ReadBytes(sandbox.Path(name)) == ReadBytes(sandbox.Path("over.h5"))) << name;
+  EXPECT_TRUE(ReadBytes(sandbox.Path("c.h5")) == ReadBytes(sandbox.Path("anew.h5")));
+  for (const auto& [script, says] :
+       {std::pair("set eps 1", "eps: it says how links are made"),
+        {"set two-sided on", "it is no solution of"},
+        {"set restart nowhere.h5", "restart: nowhere.h5:0: error: there is no"}}) {
+    const Outcome wrong = Play(script, over);
+    EXPECT_EQ(wrong.status, 1) << script;
+    EXPECT_THAT(wrong.err, HasSubstr(says));
+  }
+}
+
 // A solution is saved, exported and opened again: as another program run, and in the window.
 TEST_F(Window, SavesOpensAndExportsSolutions) {
   const Outcome saved = Play(R"(
