@@ -65,18 +65,29 @@ float WidthOf(const std::string& text) { return ImGui::CalcTextSize(text.c_str()
 // How much larger than plain everything is.
 float Scale() { return ImGui::GetFontSize() / kPlainFontSize; }
 
-// Where a panel opens the first time: there, in plain pixels, as far as the window has room.
-void PlaceNext(float x, float y, float width, float height) {
-  const float scale = Scale();
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const auto fit = [scale](float at, float size, float room) {
-    const float length = std::min(scale * size, std::max(room - 2 * kGap, 1.0F));
-    return std::pair(std::max(std::min(scale * at, room - kGap - length), kGap), length);
-  };
-  const auto [left, across] = fit(x, width, display.x);
-  const auto [top, down] = fit(y, height, display.y - 22 * scale);  // below the menus
-  ImGui::SetNextWindowPos(ImVec2(left, std::max(top, 22 * scale + kGap)), ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize(ImVec2(across, down), ImGuiCond_FirstUseEver);
+// An interval, moved and shortened as little as it takes to lie between `low` and `high`.
+std::pair<float, float> Within(float at, float length, float low, float high) {
+  length = std::min(length, std::max(high - low, 1.0F));
+  return {std::max(std::min(at, high - length), low), length};
+}
+
+// The same for a panel: into the window, below the menus.
+PanelRect InWindow(const PanelRect& panel) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const auto [left, width] = Within(panel.left, panel.width, kGap, window.x - kGap);
+  const auto [top, height] = Within(panel.top, panel.height, ImGui::GetFrameHeight() + kGap, window.y - kGap);
+  return {left, top, width, height};
+}
+
+// Of the panel that is being drawn.
+PanelRect RectNow() {
+  const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  return {at.x, at.y, size.x, size.y};
+}
+
+void Place(const PanelRect& panel, ImGuiCond when) {
+  ImGui::SetNextWindowPos(ImVec2(panel.left, panel.top), when);
+  ImGui::SetNextWindowSize(ImVec2(panel.width, panel.height), when);
 }
 
 // The width of a panel that shows all labels of these groups whole, in plain pixels.
@@ -115,6 +126,32 @@ void Panels::Draw(Viewer& viewer) {
   Message(viewer);
   Legend(viewer);
   if (!ImGui::IsAnyItemActive()) EndEdit(viewer);  // of a field that is not shown any more
+}
+
+// Begins a panel, which opens there the first time, in plain pixels. When the window's size has changed it is
+// put inside, from where the user had it: it goes back as the window grows. End() has to follow.
+bool Panels::BeginPanel(const char* name, const PanelRect& first, bool* open) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const float scale = Scale();
+  const auto known = places_.find(name);
+  const bool moves = known != places_.end() && known->second.window != std::pair(window.x, window.y);
+  if (moves)
+    Place(InWindow(known->second.wanted), ImGuiCond_Always);
+  else
+    Place(InWindow({scale * first.left, scale * first.top, scale * first.width, scale * first.height}),
+          ImGuiCond_FirstUseEver);
+  const bool shows = ImGui::Begin(name, open);
+  if (moves) known->second.window = {window.x, window.y};
+  if (ImGui::IsWindowCollapsed()) return shows;
+  const PanelRect now = RectNow();
+  if (known == places_.end()) {
+    places_[name] = {now, now, {}};
+    return shows;
+  }
+  PanelPlace& place = known->second;
+  if (!moves && now != place.shown && ImGui::IsMouseDown(ImGuiMouseButton_Left)) place.wanted = now;
+  place.shown = now;
+  return shows;
 }
 
 void Panels::MenuBar(Viewer& viewer) {
@@ -259,8 +296,8 @@ void Panels::Group(Viewer& viewer, std::string_view group) {
 
 void Panels::ControlPanel(Viewer& viewer) {
   if (!viewer.panels().control) return;
-  PlaceNext(kGap, 30, PanelWidth(viewer, kControlGroups, kControlField), 620);
-  if (ImGui::Begin("Drawing Control Panel", &viewer.panels().control)) {
+  if (BeginPanel("Drawing Control Panel", {kGap, 30, PanelWidth(viewer, kControlGroups, kControlField), 620},
+                 &viewer.panels().control)) {
     ImGui::PushItemWidth(kControlField * Scale());
     for (const std::string_view group : kControlGroups)
       if (ImGui::CollapsingHeader(group.data(), ImGuiTreeNodeFlags_DefaultOpen)) Group(viewer, group);
@@ -271,10 +308,9 @@ void Panels::ControlPanel(Viewer& viewer) {
 
 void Panels::Parameters(Viewer& viewer) {
   if (!viewer.panels().parameters) return;
-  // Beside the control panel.
-  PlaceNext(PanelWidth(viewer, kControlGroups, kControlField) + 2 * kGap, 30,
-            PanelWidth(viewer, kParameterGroups, kParameterField), 360);
-  if (ImGui::Begin("Parameters", &viewer.panels().parameters)) {
+  const float beside = PanelWidth(viewer, kControlGroups, kControlField) + 2 * kGap;
+  if (BeginPanel("Parameters", {beside, 30, PanelWidth(viewer, kParameterGroups, kParameterField), 360},
+                 &viewer.panels().parameters)) {
     ImGui::PushItemWidth(kParameterField * Scale());
     for (const std::string_view group : kParameterGroups) Group(viewer, group);
     ImGui::PopItemWidth();
@@ -295,9 +331,8 @@ void Panels::Details(Viewer& viewer) {
   if (ImGui::Begin("Details", nullptr, ImGuiWindowFlags_AlwaysAutoResize))
     for (const std::string& line : lines) Text(line);
   // It grows with what it tells: back into the window where it stands out.
-  const ImVec2 at = ImGui::GetWindowPos();
-  const float room = ImGui::GetIO().DisplaySize.x - kGap - ImGui::GetWindowSize().x;
-  if (at.x > room) ImGui::SetWindowPos(ImVec2(std::max(room, 0.0F), at.y));
+  const PanelRect now = RectNow(), inside = InWindow(now);
+  if (inside.left != now.left || inside.top != now.top) ImGui::SetWindowPos(ImVec2(inside.left, inside.top));
   ImGui::End();
 }
 
@@ -306,8 +341,8 @@ void Panels::Report(Viewer& viewer) {
   // In the lower right corner, below the details and the parameters.
   constexpr float kWidth = 480, kHeight = 360;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  PlaceNext((display.x - kGap) / Scale() - kWidth, (display.y - kGap) / Scale() - kHeight, kWidth, kHeight);
-  if (ImGui::Begin("Report", &viewer.panels().report)) {
+  if (BeginPanel("Report", {display.x / Scale() - kWidth, display.y / Scale() - kHeight, kWidth, kHeight},
+                 &viewer.panels().report)) {
     const Snapshot& now = viewer.snapshot();
     Text(fmt::format("{} patches, {} iterations{}, {} corrections", now.scene->patches.size(),
                      now.iterations.size(), now.converged ? ", converged" : "", now.corrections));
@@ -349,8 +384,7 @@ void Panels::Report(Viewer& viewer) {
 
 void Panels::Help(Viewer& viewer) {
   if (!viewer.panels().help) return;
-  PlaceNext(120, 40, 620, 560);
-  if (ImGui::Begin("Keyboard and mouse", &viewer.panels().help)) {
+  if (BeginPanel("Keyboard and mouse", {120, 40, 620, 560}, &viewer.panels().help)) {
     constexpr const char* kMouse[][2] = {
         {"left drag", "arcball: rotate; with shift about an axis of the view, with ctrl about x, y or z"},
         {"middle drag", "arcball: move; with shift zoom, with ctrl change the perspective"},

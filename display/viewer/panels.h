@@ -2,8 +2,10 @@
 
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "display/viewer/viewer.h"
 
@@ -11,6 +13,12 @@ namespace penumbra::viewer {
 
 // The letters' height where nothing is enlarged [pixels]; panels grow with them.
 inline constexpr float kPlainFontSize = 13;
+
+// Where a panel is [pixels].
+struct PanelRect {
+  float left = 0, top = 0, width = 0, height = 0;
+  bool operator==(const PanelRect&) const = default;
+};
 
 // Draws menus and panels with Dear ImGui, and runs what the user does with them.
 class Panels {
@@ -23,6 +31,7 @@ class Panels {
   static bool Typing();
 
  private:
+  bool BeginPanel(const char* name, const PanelRect& first, bool* open);
   void MenuBar(Viewer& viewer);
   static void Menus(const Viewer& viewer, std::string* run);
   void Status(Viewer& viewer);
@@ -41,12 +50,18 @@ class Panels {
   template <class Action>
   void Try(Viewer& viewer, const Action& action);
 
-  std::string asked_;     // the dialog that is open
-  char text_[1024] = {};  // in its field
-  std::string edited_;    // the setting whose field is being edited
-  char edit_[1024] = {};  // in that field: a path, say
-  std::string unedited_;  // what it showed before
-  std::string slid_;      // the setting whose slider is held
+  struct PanelPlace {
+    PanelRect wanted;                // where the user had it
+    PanelRect shown;                 // where it was in the last frame
+    std::pair<float, float> window;  // the window's size when it was put there; 0: never yet
+  };
+  std::map<std::string, PanelPlace> places_;  // by the panel's name
+  std::string asked_;                         // the dialog that is open
+  char text_[1024] = {};                      // in its field
+  std::string edited_;                        // the setting whose field is being edited
+  char edit_[1024] = {};                      // in that field: a path, say
+  std::string unedited_;                      // what it showed before
+  std::string slid_;                          // the setting whose slider is held
   float slid_low_ = 0, slid_high_ = 1;
 };
 

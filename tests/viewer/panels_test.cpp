@@ -14,6 +14,7 @@
 #include <thread>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "tests/viewer/viewer_test_scenes.h"
 
@@ -63,6 +64,14 @@ class Stage {
     Point(x, y);
     ImGui::GetIO().MouseDown[0] = true;
     Frames(2);
+    ImGui::GetIO().MouseDown[0] = false;
+    Frames();
+  }
+  void Drag(ImVec2 from, ImVec2 to) {
+    Point(from.x, from.y);
+    ImGui::GetIO().MouseDown[0] = true;
+    Frames(2);
+    Point(to.x, to.y);
     ImGui::GetIO().MouseDown[0] = false;
     Frames();
   }
@@ -147,7 +156,21 @@ TEST(Panels, OpenBesideOneAnother) {
     }
 }
 
-// Whatever the size of the window and the letters, a panel opens where all of it is seen, below the menus.
+constexpr const char* kPanels[] = {kControl, "Parameters", "Report", "Keyboard and mouse"};
+
+ImRect RectOf(const char* panel) { return ImGui::FindWindowByName(panel)->Rect(); }
+
+// All of it is seen, below the menus.
+void ExpectInside(const char* panel) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const ImRect rect = RectOf(panel);
+  EXPECT_GE(rect.Min.x, 0) << panel << ", " << window.x << " x " << window.y;
+  EXPECT_GE(rect.Min.y, ImGui::GetFrameHeight()) << panel << ", " << window.x << " x " << window.y;
+  EXPECT_LE(rect.Max.x, window.x) << panel << ", " << window.x << " x " << window.y;
+  EXPECT_LE(rect.Max.y, window.y) << panel << ", " << window.x << " x " << window.y;
+}
+
+// Whatever the size of the window and the letters, a panel opens inside.
 TEST(Panels, OpenInsideTheWindow) {
   for (const auto& [width, height, scale] : {std::tuple{1280.0F, 800.0F, 1.0F},
                                              {1280.0F, 800.0F, 3.0F},
@@ -157,14 +180,43 @@ TEST(Panels, OpenInsideTheWindow) {
     OpenPanels(stage);
     stage.viewer().Set("help", "on");
     stage.Frames();
-    for (const char* name : {kControl, "Parameters", "Report", "Keyboard and mouse"}) {
-      const ImRect panel = ImGui::FindWindowByName(name)->Rect();
-      EXPECT_GE(panel.Min.x, 0) << name << ", " << width << " x " << height;
-      EXPECT_GE(panel.Min.y, ImGui::GetFrameHeight()) << name << ", " << width << " x " << height;
-      EXPECT_LE(panel.Max.x, width) << name << ", " << width << " x " << height;
-      EXPECT_LE(panel.Max.y, height) << name << ", " << width << " x " << height;
-    }
+    for (const char* panel : kPanels) ExpectInside(panel);
   }
+}
+
+// Panels stay inside when the window shrinks, and are where the user had them once it has grown again.
+TEST(Panels, FollowTheWindow) {
+  Stage stage(1280, 800, 1);
+  OpenPanels(stage);
+  stage.viewer().Set("help", "on");
+  stage.Frames();
+  const ImRect parameters = RectOf("Parameters");
+  stage.Drag(ImVec2(parameters.GetCenter().x, parameters.Min.y + 8), ImVec2(1000, 400));
+  EXPECT_NE(RectOf("Parameters").Min.y, parameters.Min.y);
+  std::vector<ImRect> before;
+  for (const char* panel : kPanels) before.push_back(RectOf(panel));
+  for (const auto& [width, height] :
+       {std::pair(900.0F, 700.0F), {400.0F, 300.0F}, {1.0F, 1.0F}, {640.0F, 480.0F}, {1280.0F, 800.0F}}) {
+    ImGui::GetIO().DisplaySize = ImVec2(width, height);
+    stage.Frames();
+    if (width > 1)
+      for (const char* panel : kPanels) ExpectInside(panel);
+  }
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const ImRect now = RectOf(kPanels[i]);
+    EXPECT_EQ(now.Min.x, before[i].Min.x) << kPanels[i];
+    EXPECT_EQ(now.Min.y, before[i].Min.y) << kPanels[i];
+    EXPECT_EQ(now.Max.x, before[i].Max.x) << kPanels[i];
+    EXPECT_EQ(now.Max.y, before[i].Max.y) << kPanels[i];
+  }
+  // One that is closed while the window shrinks opens inside, too.
+  stage.viewer().Set("report", "off");
+  stage.Frames();
+  ImGui::GetIO().DisplaySize = ImVec2(500, 400);
+  stage.Frames();
+  stage.viewer().Set("report", "on");
+  stage.Frames();
+  ExpectInside("Report");
 }
 
 // A slider shows what the pointer is at for as long as it is held, at one scale from end to end of the drag.
