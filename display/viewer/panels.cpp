@@ -422,7 +422,12 @@ void Panels::Dialog(Viewer& viewer) {
     return;
   }
   const Setting* setting = viewer.settings().Find(name);
-  ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x / 2, 120), ImGuiCond_Always, ImVec2(0.5F, 0));
+  // A question, a field and a row of buttons.
+  const float height = ImGui::GetTextLineHeightWithSpacing() + 2 * ImGui::GetFrameHeightWithSpacing() +
+                       2 * ImGui::GetStyle().WindowPadding.y;
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const float top = InWindow({0, 120, window.x, height}).top;
+  ImGui::SetNextWindowPos(ImVec2(window.x / 2, top), ImGuiCond_Always, ImVec2(0.5F, 0));
   if (ImGui::Begin("##dialog", nullptr,
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
                        ImGuiWindowFlags_NoSavedSettings)) {
@@ -432,7 +437,7 @@ void Panels::Dialog(Viewer& viewer) {
       text_[0] = '\0';
       ImGui::SetKeyboardFocusHere();
     }
-    ImGui::PushItemWidth(std::min(460 * Scale(), std::max(ImGui::GetIO().DisplaySize.x - 60, 60.0F)));
+    ImGui::PushItemWidth(std::min(460 * Scale(), std::max(window.x - 60, 60.0F)));
     const bool entered =
         ImGui::InputText("##value", text_, sizeof text_, ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::PopItemWidth();

@@ -184,6 +184,19 @@ TEST(Panels, OpenInsideTheWindow) {
   }
 }
 
+// So does a dialog, in a window that is high enough for one.
+TEST(Panels, DialogsOpenInsideTheWindow) {
+  for (const auto& [width, height, scale] :
+       {std::tuple{1280.0F, 800.0F, 1.0F}, {640.0F, 260.0F, 2.0F}, {300.0F, 120.0F, 1.0F}}) {
+    Stage stage(width, height, scale);
+    for (const char* item : {"File/Open...", "Cameras/Save as..."}) {
+      stage.viewer().RunMenu(item);
+      stage.Frames();
+      ExpectInside("##dialog");
+    }
+  }
+}
+
 // Panels stay inside when the window shrinks, and are where the user had them once it has grown again.
 TEST(Panels, FollowTheWindow) {
   Stage stage(1280, 800, 1);
