@@ -131,7 +131,11 @@ void SolverSession::Run(const std::string& phase,
                         std::function<void(const Snapshot&, const ExecutionContext&)> work) {
   Enqueue(phase, [this, work = std::move(work)](const ExecutionContext& context) {
     const std::shared_ptr<const Snapshot> now = snapshot();
-    work(*now, context);
+    try {
+      work(*now, context);
+    } catch (const std::bad_alloc&) {  // which says nothing of the solution
+      throw InputError("out of memory; ask for a smaller picture or less supersampling");
+    }
   });
 }
 

@@ -63,7 +63,8 @@ class SolverSession {
   void Measure();
   // Writes what is solved, after Measure().
   void Save(std::function<void(const Pipeline&)> write);
-  // Anything else that takes long and reads the latest state. What it throws as InputError is shown.
+  // Anything else that takes long and reads the latest state: pictures, say. What it throws as InputError is
+  // shown.
   void Run(const std::string& phase,
            std::function<void(const Snapshot&, const ExecutionContext& context)> work);
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <new>
 #include <thread>
 
 #include "display/viewer/leaf_mesh.h"
@@ -304,6 +305,14 @@ TEST(SolverSession, SavesNothingUnsolved) {
   session.Save([](const Pipeline&) { FAIL(); });
   ASSERT_TRUE(Rest(session));
   EXPECT_NE(session.status().message, "");
+}
+
+// Where memory ends while a picture is drawn, no other solution is asked for.
+TEST(SolverSession, TellsWhatTheMemoryWasFor) {
+  SolverSession session(viewer_test::ShadowScene(), Loose());
+  session.Run("render", [](const Snapshot&, const ExecutionContext&) { throw std::bad_alloc(); });
+  ASSERT_TRUE(Rest(session));
+  EXPECT_NE(session.status().message.find("picture"), std::string::npos) << session.status().message;
 }
 
 TEST(LeafMesh, CoversEveryPatch) {
