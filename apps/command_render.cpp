@@ -59,7 +59,7 @@ void WriteImage(const RenderArguments& arguments, const RgbImage& linear, std::s
   if (arguments.false_colour) {
     PaintFalseColoursOf(arguments, linear, kinds, across, down, tone, &screen);
   } else {
-    EncodeSrgb(Downsample(Expose(linear, kinds, tone.exposure), across, down), tone.dither, &screen);
+    EncodeSrgb(Expose(linear, kinds, tone.exposure, across, down), tone.dither, &screen);
   }
   WritePng(*arguments.output, screen);
 }
@@ -138,9 +138,8 @@ void RenderByRays(const RenderArguments& arguments, const Camera& camera, SolveR
                   times.evaluate = 1e3 * casting.Seconds();
                   const Stopwatch mapping;
                   Srgb8Image screen;
-                  EncodeSrgb(
-                      Downsample(Expose(picture.linear, picture.kind, tone.exposure), picture.samples, 1),
-                      tone.dither, &screen);
+                  EncodeSrgb(Expose(picture.linear, picture.kind, tone.exposure, picture.samples),
+                             tone.dither, &screen);
                   times.tone_map = 1e3 * mapping.Seconds();
                   return times;
                 }));

@@ -25,6 +25,23 @@ void ForEachPixelRun(int width, int height, bool dither, const Body& body) {
   });
 }
 
+// What Downsample() makes of a picture whose rows are computed when they are needed: fill(y, rows) gives
+// those from y on.
+template <class Fill>
+RgbImage AverageRows(int width, int height, int across, int down, const Fill& fill) {
+  PENUMBRA_CHECK(across > 0 && width % across == 0 && down > 0 && height % down == 0);
+  RgbImage means(width / across, height / down);
+  ParallelFor(static_cast<std::size_t>(means.height), 1, [&](std::size_t row) {
+    RgbImage rows(width, down);
+    fill(static_cast<int>(row) * down, &rows);
+    const RgbImage mean = Downsample(rows, across, down);
+    for (std::size_t c = 0; c < 3; ++c)
+      std::copy(mean.channel[c].begin(), mean.channel[c].end(),
+                means.channel[c].data() + means.Index(0, static_cast<int>(row)));
+  });
+  return means;
+}
+
 // Encodes three planes of n <= kRun values into interleaved bytes.
 void EncodeRun(const std::array<const float*, 3>& exposed, const float* dither, std::size_t n,
                std::uint8_t* out) {
@@ -78,15 +95,15 @@ double MeterExposure(const RgbImage& image, std::span<const PixelKind> kinds) {
   return metered > 0 && std::isfinite(exposure) ? exposure : 1;
 }
 
-RgbImage Expose(const RgbImage& image, std::span<const PixelKind> kinds, double exposure) {
+RgbImage Expose(const RgbImage& image, std::span<const PixelKind> kinds, double exposure, int across,
+                int down) {
   PENUMBRA_CHECK(kinds.size() == image.PixelCount());
-  RgbImage exposed(image.width, image.height);
-  ForEachPixelRun(image.width, image.height, false, [&](std::size_t at, std::size_t n, const float*) {
+  return AverageRows(image.width, image.height, across, down, [&](int y, RgbImage* rows) {
+    const std::size_t first = image.Index(0, y);
     for (std::size_t c = 0; c < 3; ++c)
-      ExposeRow(image.channel[c].data() + at, kinds.data() + at, static_cast<float>(exposure), kBackground, n,
-                exposed.channel[c].data() + at);
+      ExposeRow(image.channel[c].data() + first, kinds.data() + first, static_cast<float>(exposure),
+                kBackground, rows->PixelCount(), rows->channel[c].data());
   });
-  return exposed;
 }
 
 void EncodeSrgb(const RgbImage& exposed, bool dither, Srgb8Image* out) {
@@ -114,14 +131,17 @@ void ToneMap(const RgbImage& image, std::span<const PixelKind> kinds, const Tone
 }
 
 Srgb8Image ShrinkScreen(const Srgb8Image& screen, int k) {
-  RgbImage linear(screen.width, screen.height);
   std::array<float, 256> value;
   for (std::size_t code = 0; code < value.size(); ++code)
     value[code] = static_cast<float>(LinearFromSrgb(static_cast<double>(code) / 255));
-  for (std::size_t i = 0; i < linear.PixelCount(); ++i)
-    for (std::size_t c = 0; c < 3; ++c) linear.channel[c][i] = value[screen.pixels[3 * i + c]];
   Srgb8Image out;
-  EncodeSrgb(Downsample(linear, k, k), false, &out);
+  EncodeSrgb(AverageRows(screen.width, screen.height, k, k,
+                         [&](int y, RgbImage* rows) {
+                           const std::uint8_t* pixel = screen.pixels.data() + 3 * screen.Index(0, y);
+                           for (std::size_t i = 0; i < rows->PixelCount(); ++i, pixel += 3)
+                             for (std::size_t c = 0; c < 3; ++c) rows->channel[c][i] = value[pixel[c]];
+                         }),
+             false, &out);
   return out;
 }
 

@@ -36,8 +36,10 @@ inline constexpr double kMeteredFraction = 0.97;
 inline constexpr double kMeteredValue = 0.9;
 
 // The image exposed, emitters white, background grey: linear, in [0, 1]. Supersampled pictures are averaged
-// here, between exposure and transfer, so that the edges of lights are smooth.
-RgbImage Expose(const RgbImage& image, std::span<const PixelKind> kinds, double exposure);
+// here, between exposure and transfer, so that the edges of lights are smooth: then a pixel is the mean of
+// across x down, and no memory is taken for them. REQUIRES: across > 0 divides width, down > 0 height.
+RgbImage Expose(const RgbImage& image, std::span<const PixelKind> kinds, double exposure, int across = 1,
+                int down = 1);
 
 // The dither's 8 x 8 offsets in (0, 1), row by row: what is added to 255 times the encoded value before it is
 // rounded down. Pixel (x, y) takes row y % 8, column x % 8.

@@ -149,8 +149,7 @@ void Viewer::SaveRayPicture(const std::string& path) {
           PaintFalseColours(Downsample(picture.linear, picture.samples, 1), first, top, &screen);
           PaintLegend(top, UnitOf(ColourScale::kIrradiance), &screen);
         } else {
-          EncodeSrgb(Downsample(Expose(picture.linear, picture.kind, exposure), picture.samples, 1), true,
-                     &screen);
+          EncodeSrgb(Expose(picture.linear, picture.kind, exposure, picture.samples), true, &screen);
         }
         WritePng(path, screen);
       });

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <iostream>
+#include <utility>
 
 #include "display/vector_kernels.h"
 
@@ -82,6 +83,35 @@ TEST(ToneMapping, ExposesSurfacesOnly) {
   EXPECT_EQ(exposed.At(1, 0), (std::array<float, 3>{1, 1, 1}));
   EXPECT_EQ(exposed.At(2, 0), (std::array<float, 3>{kBackground, kBackground, kBackground}));
   EXPECT_EQ(exposed.At(3, 0), (std::array<float, 3>{0, 0, 0}));
+}
+
+// A supersampled picture is the mean of its samples exposed, to the bit; one that was encoded before is
+// shrunk in the same way.
+TEST(ToneMapping, AveragesWhatIsExposed) {
+  constexpr int kWidth = 600, kHeight = 42;
+  RgbImage image(kWidth, kHeight);
+  std::vector<PixelKind> kinds(image.PixelCount(), PixelKind::kSurface);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const auto at = static_cast<float>(x + 7 * y);
+      image.Set(x, y, {0.01f * at, 1 / (1 + at), 0.5f + 0.4f * std::sin(at)});
+      if ((x + y) % 13 == 0) kinds[image.Index(x, y)] = PixelKind::kEmitter;
+      if ((x - y) % 17 == 0) kinds[image.Index(x, y)] = PixelKind::kBackground;
+    }
+  for (const auto& [across, down] : {std::pair(2, 2), {3, 7}, {1, 1}, {6, 1}}) {
+    const RgbImage means = Expose(image, kinds, 0.8, across, down);
+    EXPECT_EQ(means.width, kWidth / across);
+    EXPECT_EQ(means.height, kHeight / down);
+    EXPECT_EQ(means.channel, Downsample(Expose(image, kinds, 0.8), across, down).channel);
+  }
+  Srgb8Image screen, shrunk;
+  EncodeSrgb(Expose(image, kinds, 0.8), true, &screen);
+  RgbImage linear(kWidth, kHeight);
+  for (std::size_t i = 0; i < screen.pixels.size(); ++i)
+    linear.channel[i % 3][i / 3] =
+        static_cast<float>(LinearFromSrgb(static_cast<double>(screen.pixels[i]) / 255));
+  EncodeSrgb(Downsample(linear, 3, 3), false, &shrunk);
+  EXPECT_EQ(ShrinkScreen(screen, 3).pixels, shrunk.pixels);
 }
 
 // Three bytes a pixel, whatever the number of pixels.
