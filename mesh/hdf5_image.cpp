@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <mutex>
 #include <utility>
 
 #include "solver/base/check.h"
@@ -17,6 +18,19 @@ constexpr std::size_t kWorthCompressing = std::size_t{1} << 12;  // [bytes]
 // Of an office of 13,551 triangles: 3.41 MB without, 1.60 in 0.04 s with level 1, 1.57 with 6, 1.56 in 0.25 s
 // with 9.
 constexpr unsigned kDeflateLevel = 1;
+
+// Held during every call of the library, which serves one thread at a time.
+std::unique_lock<std::recursive_mutex> HoldLibrary() {
+  static std::recursive_mutex library;
+  return std::unique_lock(library);
+}
+
+// For a file in memory. Of one name there is one file: to open it again is to share it. Called with the
+// library held.
+std::string NewName() {
+  static std::uint64_t count = 0;
+  return "solution " + std::to_string(count++);
+}
 
 // An identifier of the library, closed when it goes out of scope.
 class Handle {
@@ -124,17 +138,22 @@ struct Hdf5Writer::Impl {
 };
 
 Hdf5Writer::Hdf5Writer() {
+  const auto held = HoldLibrary();
   Silence();
   const Handle access = MemoryAccess(), creation = WithoutTimes(H5P_FILE_CREATE);
-  impl_.reset(
-      new Impl{Handle(H5Fcreate("solution", H5F_ACC_TRUNC, creation, access), H5Fclose, "no file in memory"),
-               Handle(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "no property list")});
+  impl_.reset(new Impl{
+      Handle(H5Fcreate(NewName().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, "no file in memory"),
+      Handle(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "no property list")});
 }
 
-Hdf5Writer::~Hdf5Writer() = default;
+Hdf5Writer::~Hdf5Writer() {
+  const auto held = HoldLibrary();
+  impl_.reset();
+}
 
 void Hdf5Writer::Write(const std::string& path, ScalarType type, const ArrayShape& shape, const void* data) {
   PENUMBRA_CHECK(!shape.empty());
+  const auto held = HoldLibrary();
   std::vector<hsize_t> extent(shape.begin(), shape.end());
   std::size_t row = H5Tget_size(FileType(type));
   for (std::size_t i = 1; i < shape.size(); ++i) row *= shape[i];
@@ -152,6 +171,7 @@ void Hdf5Writer::Write(const std::string& path, ScalarType type, const ArrayShap
 }
 
 void Hdf5Writer::WriteText(const std::string& path, const std::string& text) {
+  const auto held = HoldLibrary();
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, path);
   Succeed(H5Tset_size(type, std::max<std::size_t>(1, text.size())), path);
   Succeed(H5Tset_strpad(type, H5T_STR_NULLPAD), path);
@@ -161,6 +181,7 @@ void Hdf5Writer::WriteText(const std::string& path, const std::string& text) {
 }
 
 std::string Hdf5Writer::Finish() {
+  const auto held = HoldLibrary();
   Succeed(H5Fflush(impl_->file, H5F_SCOPE_GLOBAL), "the file in memory cannot be finished");
   const ssize_t size = H5Fget_file_image(impl_->file, nullptr, 0);
   if (size < 0) throw Hdf5Error("the file in memory cannot be taken");
@@ -180,16 +201,22 @@ struct Hdf5Reader::Impl {
 };
 
 Hdf5Reader::Hdf5Reader(std::string_view image) {
+  const auto held = HoldLibrary();
   Silence();
   const Handle access = MemoryAccess();
   // The library copies the image, and takes it as it is.
   Succeed(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()), "it cannot be read");
-  impl_.reset(new Impl{Handle(H5Fopen("solution", H5F_ACC_RDONLY, access), H5Fclose, "it is no HDF5 file")});
+  impl_.reset(
+      new Impl{Handle(H5Fopen(NewName().c_str(), H5F_ACC_RDONLY, access), H5Fclose, "it is no HDF5 file")});
 }
 
-Hdf5Reader::~Hdf5Reader() = default;
+Hdf5Reader::~Hdf5Reader() {
+  const auto held = HoldLibrary();
+  impl_.reset();
+}
 
 ArrayShape Hdf5Reader::Shape(const std::string& path) const {
+  const auto held = HoldLibrary();
   const Handle set = impl_->Open(path);
   const Handle space(H5Dget_space(set), H5Sclose, path);
   const int dimensions = H5Sget_simple_extent_ndims(space);
@@ -201,6 +228,7 @@ ArrayShape Hdf5Reader::Shape(const std::string& path) const {
 }
 
 void Hdf5Reader::Read(const std::string& path, ScalarType type, const ArrayShape& shape, void* data) const {
+  const auto held = HoldLibrary();
   if (Shape(path) != shape) throw Hdf5Error(path + " has another shape");
   const Handle set = impl_->Open(path);
   const Handle stored(H5Dget_type(set), H5Tclose, path);
@@ -210,6 +238,7 @@ void Hdf5Reader::Read(const std::string& path, ScalarType type, const ArrayShape
 }
 
 std::string Hdf5Reader::ReadText(const std::string& path) const {
+  const auto held = HoldLibrary();
   const Handle set = impl_->Open(path);
   const Handle type(H5Dget_type(set), H5Tclose, path);
   if (!Shape(path).empty() || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)

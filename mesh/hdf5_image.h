@@ -1,7 +1,8 @@
 // mesh/hdf5_image.h
 //
 // HDF5 files as bytes in memory: typed arrays under paths such as "mesh/positions". The same arrays, written
-// in the same order, give the same bytes; nothing in them tells of time or place.
+// in the same order, give the same bytes; nothing in them tells of time or place. Several threads may write
+// and read at once, each its own file.
 
 #pragma once
 

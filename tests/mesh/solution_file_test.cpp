@@ -5,10 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <thread>
+#include <vector>
 
 #include "mesh/hdf5_image.h"
 #include "mesh/solution_check.h"
@@ -125,6 +127,40 @@ TEST(SolutionFile, ComesBackToTheBit) {
   anew.BuildMesh(MeshKind::kGouraudMesh, {});
   EXPECT_TRUE(SameMesh(pipeline.mesh(), anew.mesh()));
   EXPECT_FALSE(SameMesh(pipeline.mesh(), before.pipeline->mesh()));
+}
+
+// A window reads one solution while it saves another: threads do not come into each other's way.
+TEST(SolutionFile, SeveralAreReadAndWrittenAtOnce) {
+  const std::vector<double> values(10'000, 0.5);
+  const auto write = [&] {
+    Hdf5Writer file;
+    for (const char* path : {"a/values", "a/b/values", "c/values"})
+      file.Write(path, ScalarType::kDouble, {values.size()}, values.data());
+    file.WriteText("text", "a text");
+    return file.Finish();
+  };
+  const std::string image = write();
+  std::atomic<int> wrong = 0;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([&, writes = i % 2 == 0] {
+      for (int k = 0; k < 200; ++k) {
+        try {
+          if (writes) {
+            wrong += write() == image ? 0 : 1;
+          } else {
+            const Hdf5Reader file(image);
+            std::vector<double> read(values.size());
+            file.Read("a/b/values", ScalarType::kDouble, {read.size()}, read.data());
+            wrong += read == values && file.ReadText("text") == "a text" ? 0 : 1;
+          }
+        } catch (const Hdf5Error&) {
+          ++wrong;
+        }
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(wrong, 0);
 }
 
 // A scene without faces is valid, and names may hold anything.
