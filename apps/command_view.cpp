@@ -17,6 +17,7 @@
 #include "apps/material_change.h"
 #include "apps/option_values.h"
 #include "apps/output.h"
+#include "apps/report.h"
 #include "apps/restart.h"
 #include "apps/scene_arguments.h"
 #include "apps/solve_run.h"
@@ -62,6 +63,7 @@ class ViewedScene {
     const std::lock_guard lock(mutex_);
     viewer::OpenedScene opened;
     opened.scene = std::move(loaded.owner);
+    load_seconds_ = loaded.seconds;
     stored_options_.reset();
     if (loaded.stored) {
       stored_options_ = loaded.stored->options;
@@ -148,15 +150,25 @@ class ViewedScene {
   // Called from the solver's thread.
   void Save(const std::string& path, const Pipeline& pipeline) const {
     const std::lock_guard lock(mutex_);
-    SceneArguments told = arguments_;
-    told.solving = pipeline.options();
-    const nlohmann::ordered_json options = stored_options_
-                                               ? StoredOptions(*stored_options_, told, pipeline.resolved())
-                                               : OptionsUsed(told, &pipeline.resolved());
-    WriteResult(path, SolutionFileOf(pipeline, options));
+    WriteResult(path, SolutionFileOf(pipeline, OptionsOf(pipeline)));
+  }
+
+  // As well.
+  void SaveReport(const std::string& path, const Pipeline& pipeline) const {
+    const std::lock_guard lock(mutex_);
+    nlohmann::ordered_json options = OptionsOf(pipeline);
+    if (stored_options_) options["solution"] = arguments_.scene;
+    WriteResult(path, ReportJson({options, load_seconds_, pipeline.report()}));
   }
 
  private:
+  nlohmann::ordered_json OptionsOf(const Pipeline& pipeline) const {
+    SceneArguments told = arguments_;
+    told.solving = pipeline.options();
+    return stored_options_ ? StoredOptions(*stored_options_, told, pipeline.resolved())
+                           : OptionsUsed(told, &pipeline.resolved());
+  }
+
   // To read with once more: by as many threads as there are now, for the window may have been told so.
   SceneArguments Again() const {
     SceneArguments again = arguments_;
@@ -177,6 +189,7 @@ class ViewedScene {
   mutable std::mutex mutex_;
   SceneArguments arguments_;
   std::optional<nlohmann::ordered_json> stored_options_;
+  double load_seconds_ = 0;
 };
 
 viewer::ViewerFiles FilesOf(ViewedScene& viewed) {
@@ -188,6 +201,9 @@ viewer::ViewerFiles FilesOf(ViewedScene& viewed) {
   };
   files.save_solution = [&viewed](const std::string& path, const Pipeline& pipeline) {
     viewed.Save(path, pipeline);
+  };
+  files.save_report = [&viewed](const std::string& path, const Pipeline& pipeline) {
+    viewed.SaveReport(path, pipeline);
   };
   files.exports_mesh = [](const std::string& path) {
     if (const std::optional<std::string> error = ExportFormatError(path)) throw InputError(*error);

@@ -43,7 +43,7 @@ struct ViewerFiles {
   std::vector<ReadingOption> reading;
   std::function<OpenedScene(const std::string& option, const std::string& value)> read_with;
   // The pipeline is solved, meshed for interpolants and measured.
-  std::function<void(const std::string& path, const Pipeline& pipeline)> save_solution;
+  std::function<void(const std::string&path, const Pipeline&pipeline)> save_solution, save_report;
   // Whether the format that the path's ending names holds the mesh, and not the scene alone.
   std::function<bool(const std::string& path)> exports_mesh;
   // `mesh` is null where the format does without.

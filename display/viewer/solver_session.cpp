@@ -123,6 +123,7 @@ void SolverSession::Save(std::function<void(const Pipeline&)> write) {
     DoMeasure(context);
     if (context.Cancelled()) return;
     context.Report("save", 0);
+    if (stored_) pipeline_->Diagnose();  // what files leave out of reports
     write(*pipeline_);
   });
 }

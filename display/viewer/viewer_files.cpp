@@ -155,10 +155,9 @@ void Viewer::SaveRayPicture(const std::string& path) {
       });
 }
 
-void Viewer::SaveSolution(const std::string& path) {
-  if (!options_.files.save_solution) throw InputError("there is nobody who writes solutions");
-  Begin().Save(
-      [path, write = options_.files.save_solution](const Pipeline& pipeline) { write(path, pipeline); });
+void Viewer::SaveSolved(const std::string& path, const WriteSolved& write) {
+  if (!write) throw InputError("there is nobody who writes it");
+  Begin().Save([path, write](const Pipeline& pipeline) { write(path, pipeline); });
 }
 
 void Viewer::Export(const std::string& path) {

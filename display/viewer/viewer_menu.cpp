@@ -27,6 +27,7 @@ void Viewer::AddMenus() {
 
   ask("File/Open...", "ctrl+o", "open");
   ask("File/Save solution...", "ctrl+s", "save-solution");
+  ask("File/Save report...", "", "save-report");
   ask("File/Export...", "ctrl+e", "export");
   ask("File/Save picture...", "ctrl+p", "save-picture");
   add("File/Quit", "ctrl+q", "End the program", [this] { panels_.quit = true; });

@@ -247,7 +247,10 @@ void Viewer::AddFileSettings() {
   };
   action("open", "Open a scene, a file or the name of a built-in one, or a solution",
          [this](const std::string& v) { Open(v); });
-  action("save-solution", "Save the solution", [this](const std::string& v) { SaveSolution(v); });
+  action("save-solution", "Save the solution",
+         [this](const std::string& v) { SaveSolved(v, options_.files.save_solution); });
+  action("save-report", "Save the report, as JSON",
+         [this](const std::string& v) { SaveSolved(v, options_.files.save_report); });
   action("export", "Export as .vtu, .ply, .glb, .obj, .pbrt or .mgf",
          [this](const std::string& v) { Export(v); });
   action("save-picture", "Save the picture as .png, or .exr in W/m^2",

@@ -12,6 +12,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 
@@ -341,6 +342,25 @@ wait idle
   EXPECT_EQ(wrong.status, 1);
   EXPECT_THAT(wrong.err, HasSubstr("script:2: error: emittance: the scene has no material 'nothing'"));
   EXPECT_EQ(Play("wait idle\nset two-sided maybe\n").status, 1);
+}
+
+// The report is that of `solve --report`, but for times and memory; of a solution, that of `info --report`.
+TEST_F(Window, SavesTheReport) {
+  const auto lasting = [&](const std::string& name) {
+    nlohmann::json report = nlohmann::json::parse(ReadBytes(sandbox.Path(name)));
+    for (const char* part : {"phases", "memory_peak_bytes", "threads"}) report.erase(part);
+    for (nlohmann::json& iteration : report["iterations"]) iteration.erase("seconds");
+    return report;
+  };
+  const Outcome saved = Play("wait idle\nset save-report a.json\nset save-solution a.h5\nwait idle\n");
+  EXPECT_EQ(saved.status, 0) << saved.err;
+  EXPECT_EQ(sandbox.Run({"solve", "floating-cube", "--error", "0.2", "--report", "b.json"}).status, 0);
+  EXPECT_EQ(lasting("a.json"), lasting("b.json"));
+  const Outcome again = sandbox.Run(
+      {"view", "a.h5", "--script", sandbox.Write("s", "wait idle\nset save-report c.json\nwait idle\n")});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(sandbox.Run({"info", "a.h5", "--report", "d.json"}).status, 0);
+  EXPECT_EQ(lasting("c.json"), lasting("d.json"));
 }
 
 // Links of a solution are gone on with, and materials changed over them: as by `solve --restart`, to the
