@@ -18,7 +18,7 @@ namespace {
 // How often a mesh triangle is quartered at most.
 constexpr int kMostQuartered = 3;
 // Deviations count relative to the radiosity around; in dark places to this share of the scene's mean.
-constexpr double kDark = 0.2;
+constexpr double kDark = 0.05;
 // Of Change(): the share of the area that may have changed by more, and of the mean irradiance that counts as
 // dark.
 constexpr double kChangedArea = 0.01, kDarkest = 0.01;
