@@ -260,7 +260,7 @@ TEST(Refinement, SourcesSeenAsOneCostLittleInTheDark) {
 
 // A block that stands near a wall: light goes to and fro between the two, and the mean of what is there comes
 // to rest only after many passes.
-TEST(Refinement, ReachesTheErrorInASlot) {
+TEST(Refinement, SettlesTheLightInASlot) {
   Scene scene;
   const std::int32_t white = AddMaterial(scene, 0.8, 0), lamp = AddMaterial(scene, 0, 40);
   AddBox(scene, Vec3::Zero(), {3, 3, 2.5}, true, white);
