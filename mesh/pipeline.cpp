@@ -565,8 +565,6 @@ void Pipeline::Measure(const ExecutionContext& context) {
     return;
   }
   const std::uint64_t seed = impl_->options.seed;
-  report.interpolant_error =
-      MeasureRepresentationError(impl_->scene, impl_->mesh, impl_->Sampler(), points, seed);
   const PointIrradiance better = impl_->BetterIrradiance();
   const auto better_sampler = [&](PatchId patch, const ReceiverPoint& at) {
     return better.OnPatch(patch, at);
@@ -578,6 +576,10 @@ void Pipeline::Measure(const ExecutionContext& context) {
   MeasuredError error = measure(std::min(points, kFewSourcePoints));
   if (points > kFewSourcePoints && error.above > kClearlyMet && error.above < kClearlyMissed)
     error = measure(points);
+  report.interpolant_error =
+      error.interpolant.points == points
+          ? error.interpolant
+          : MeasureRepresentationError(impl_->scene, impl_->mesh, impl_->Sampler(), points, seed);
   report.solution_error_estimate = error.sources.p99;
   report.whole_error = error.whole;
   report.error_met = std::max(report.interpolant_error.p99, error.whole.p99) <= report.error_asked;

@@ -11,10 +11,9 @@
 namespace penumbra {
 namespace {
 
-RepresentationError Summarise(std::span<const SurfacePoint> at, std::span<const Rgb> shown,
-                              std::span<const Rgb> truth) {
+// Of the errors at these points, three each.
+RepresentationError Summarise(std::span<const SurfacePoint> at, const std::vector<double>& errors) {
   RepresentationError error;
-  const std::vector<double> errors = RelativeErrors(shown, truth);
   double squares = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     squares += errors[i] * errors[i];
@@ -74,11 +73,11 @@ MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const
     exact[i] = sampler(at[i].patch, receiver).irradiance;
     if (better) truth[i] = better(at[i].patch, receiver).irradiance;
   });
-  error.interpolant = Summarise(at, shown, exact);
+  error.interpolant = Summarise(at, RelativeErrors(shown, exact));
   if (!better) return error;
-  error.sources = Summarise(at, exact, truth);
-  error.whole = Summarise(at, shown, truth);
+  error.sources = Summarise(at, RelativeErrors(exact, truth));
   const std::vector<double> errors = RelativeErrors(shown, truth);
+  error.whole = Summarise(at, errors);
   error.above =
       static_cast<double>(std::count_if(errors.begin(), errors.end(), [&](double e) { return e > bound; })) /
       static_cast<double>(errors.size());

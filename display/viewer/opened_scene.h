@@ -37,13 +37,15 @@ struct ReadingOption {
 // Each throws InputError, a line that says what is wrong. Those that write do it beside the place, then
 // rename.
 struct ViewerFiles {
+  using WriteSolved = std::function<void(const std::string& path, const Pipeline& pipeline)>;
+
   // A scene or a solution by its path or name.
   std::function<OpenedScene(const std::string& name)> open;
   // The scene that was opened last, read anew with another value of one of these options.
   std::vector<ReadingOption> reading;
   std::function<OpenedScene(const std::string& option, const std::string& value)> read_with;
   // The pipeline is solved, meshed for interpolants and measured.
-  std::function<void(const std::string&path, const Pipeline&pipeline)> save_solution, save_report;
+  WriteSolved save_solution, save_report;
   // Whether the format that the path's ending names holds the mesh, and not the scene alone.
   std::function<bool(const std::string& path)> exports_mesh;
   // `mesh` is null where the format does without.

@@ -122,8 +122,7 @@ class Viewer {
   void SavePicture(const std::string& path);
   void SaveLargerPicture(const std::string& path, int k);
   void SaveRayPicture(const std::string& path);
-  using WriteSolved = std::function<void(const std::string& path, const Pipeline& pipeline)>;
-  void SaveSolved(const std::string& path, const WriteSolved& write);
+  void SaveSolved(const std::string& path, const ViewerFiles::WriteSolved& write);
   void Export(const std::string& path);
   void ListCameras();
 

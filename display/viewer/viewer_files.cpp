@@ -155,7 +155,7 @@ void Viewer::SaveRayPicture(const std::string& path) {
       });
 }
 
-void Viewer::SaveSolved(const std::string& path, const WriteSolved& write) {
+void Viewer::SaveSolved(const std::string& path, const ViewerFiles::WriteSolved& write) {
   if (!write) throw InputError("there is nobody who writes it");
   Begin().Save([path, write](const Pipeline& pipeline) { write(path, pipeline); });
 }

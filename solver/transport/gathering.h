@@ -110,8 +110,9 @@ class Gathering {
   std::vector<Occluder>& occluders_;  // of the source at hand
   Clipper& clipper_;
   double tolerance_ = 0;
-  Rgb known_ = Rgb::Zero(), unhindered_ = Rgb::Zero();
-  Rgb so_far_ = Rgb::Zero();  // with a tolerance: the light of the sources that are done, about
+  Rgb known_ = Rgb::Zero();       // about what the point receives; zero: not known
+  Rgb unhindered_ = Rgb::Zero();  // with a tolerance: what the sources so far would bring unhindered
+  Rgb so_far_ = Rgb::Zero();      // with a tolerance: the light of the sources that are done, about
   // Of the source at hand, with a tolerance: what holds for it, its normal, and the form factor of all that
   // is above the horizon.
   double tolerance_here_ = 0;
