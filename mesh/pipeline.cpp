@@ -25,7 +25,9 @@ constexpr double kInterpolantShare = 0.65, kSourceShare = 0.25;
 // What interpolants' samples may leave out of their sources' detail, as a share of the error. Those of the
 // looks before the last keep to SolverOptions::correction_tolerance: their means correct the sources' light,
 // so that what is off in all of them grows from bounce to bounce.
-constexpr double kNearShare = 0.1;
+constexpr double kNearShare = 0.2;
+// The same of the samples that measure: what they leave out moves the figures by no more.
+constexpr double kMeasuredShare = 0.02;
 // Looks before the last, which only sources are made of, take edges of this times the least weight.
 constexpr double kFirstWeight = 2;
 // Sources are refined again while their means will change by more than this share of the error, so many
@@ -263,12 +265,6 @@ struct Pipeline::Impl {
     return *local_pass;
   }
 
-  IrradianceSampler Sampler() {
-    const PointIrradiance& exact = Irradiance();
-    return [&exact](PatchId patch, const ReceiverPoint& at) { return exact.OnPatch(patch, at); };
-  }
-
-  // For interpolants.
   IrradianceSampler NearSampler(double tolerance) {
     const PointIrradiance& exact = Irradiance();
     return [&exact, tolerance](PatchId patch, const ReceiverPoint& at) {
@@ -566,12 +562,13 @@ void Pipeline::Measure(const ExecutionContext& context) {
   }
   const std::uint64_t seed = impl_->options.seed;
   const PointIrradiance better = impl_->BetterIrradiance();
+  const double tolerance = kMeasuredShare * report.error_asked;
+  const IrradianceSampler sampler = impl_->NearSampler(tolerance);
   const auto better_sampler = [&](PatchId patch, const ReceiverPoint& at) {
-    return better.OnPatch(patch, at);
+    return better.NearlyOnPatch(patch, at, tolerance);
   };
   const auto measure = [&](std::size_t at) {
-    return MeasureError(impl_->scene, impl_->mesh, impl_->Sampler(), better_sampler, at, seed,
-                        report.error_asked);
+    return MeasureError(impl_->scene, impl_->mesh, sampler, better_sampler, at, seed, report.error_asked);
   };
   MeasuredError error = measure(std::min(points, kFewSourcePoints));
   if (points > kFewSourcePoints && error.above > kClearlyMet && error.above < kClearlyMissed)
@@ -579,7 +576,7 @@ void Pipeline::Measure(const ExecutionContext& context) {
   report.interpolant_error =
       error.interpolant.points == points
           ? error.interpolant
-          : MeasureRepresentationError(impl_->scene, impl_->mesh, impl_->Sampler(), points, seed);
+          : MeasureRepresentationError(impl_->scene, impl_->mesh, sampler, points, seed);
   report.solution_error_estimate = error.sources.p99;
   report.whole_error = error.whole;
   report.error_met = std::max(report.interpolant_error.p99, error.whole.p99) <= report.error_asked;

@@ -175,9 +175,12 @@ void Gathering::GatherShadowed(Tree tree, std::size_t i) {
 
 // What the image shows of a node.
 ImagePolygon Gathering::ImageOf(const Node& node, const ImageFrame& frame) const {
-  if (!view_.SourceIsPlain()) return frame.Image(view_.SeeSource(Vertices(node)));
-  Kept<Vec2>& images = ThreadCornerImages();
   ImagePolygon polygon;
+  if (!view_.SourceIsPlain()) {
+    polygon = frame.Image(view_.SeeSource(Vertices(node)));
+    return polygon;
+  }
+  Kept<Vec2>& images = ThreadCornerImages();
   for (int k = node.size; k-- > 0;) {  // counter-clockwise about a normal that points to the point
     const std::int32_t corner = node.corner[static_cast<std::size_t>(k)];
     const auto [image, is_new] = images[corner];

@@ -16,7 +16,7 @@ constexpr double kMargin = 0.01, kMarginOfPatch = 1e-5;
 // A list is narrowed where the leaves below have at least so many blockers together: a tube costs as much as
 // some hundred looks of a point at a blocker, a leaf has eight points or, in a refined mesh, fifty, and few
 // blockers go.
-constexpr std::size_t kWorthwhile = 10;
+constexpr std::size_t kWorthwhile = 40;
 
 Polygon3 Widened(std::span<const Vec3> polygon, double margin) {
   const Vec3 centre = Centroid(polygon);

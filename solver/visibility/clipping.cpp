@@ -36,10 +36,17 @@ constexpr int kLanes = 4;
 
 // A group of lines or vertices, worked on at once.
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
+using LaneBits = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))));
 
 // Not by value: that would depend on the processor.
 [[gnu::always_inline]] inline void Load(const double* from, Lanes* lanes) {
   std::memcpy(lanes, from, sizeof *lanes);
+}
+
+// All bits of all lanes together.
+[[gnu::always_inline]] inline std::uint32_t AnyOf(const LaneBits& bits) {
+  static_assert(kLanes == 4);
+  return static_cast<std::uint32_t>((bits[0] | bits[1]) | (bits[2] | bits[3]));
 }
 
 // A part of a source in the image.
@@ -155,7 +162,6 @@ struct Clipper::Impl {
   std::vector<Candidate> candidates;
   std::vector<Work> stack;
   std::size_t depth = 0;  // of the stack; what lies above keeps its memory
-  Piece inside, outside;
   ImageEdges visible;
   std::span<const Occluder> occluders;
   std::int32_t owner = 0;  // of the pieces that are found
@@ -163,7 +169,8 @@ struct Clipper::Impl {
 
   bool Beside(const ImageCone& cone, const ImagePolygon& piece) const;
   Overlap Classify(Candidate& candidate, const ImagePolygon& piece, const Bounds& bounds) const;
-  void Split(const Piece& piece, const ImageLine& line, std::int32_t label);
+  void Split(const Piece& piece, const ImageLine& line, std::int32_t label, Piece* inside,
+             Piece* outside) const;
   Overlap Narrow(const ImagePolygon& piece, std::size_t first, std::size_t last);
   void Sort(const Piece& piece, std::size_t first, std::size_t last, int halvings);
   void Halve(const Work& work, int halvings);
@@ -183,16 +190,15 @@ Clipper::~Clipper() = default;
     // The edge of a piece of dust runs anywhere.
     if (std::abs(dx) + std::abs(dy) <= dust) continue;
     const double h = dy * piece.x[i] - dx * piece.y[i];
-    bool before = false;
-    for (int group = 0; group < cone.padded && !before; group += kLanes) {
+    LaneBits before{};
+    for (int group = 0; group < cone.padded; group += kLanes) {
       Lanes x, y, w;
       Load(&cone.vx[group], &x);
       Load(&cone.vy[group], &y);
       Load(&cone.vw[group], &w);
-      const Lanes height = dx * y - dy * x + h * w;
-      for (int k = 0; k < kLanes; ++k) before |= height[k] > 0;
+      before |= dx * y - dy * x + h * w > 0;
     }
-    if (!before) return true;
+    if (AnyOf(before) == 0) return true;
   }
   return false;
 }
@@ -205,7 +211,6 @@ Clipper::~Clipper() = default;
       cone.bounds.low_y >= bounds.high_y - snap || cone.bounds.high_y <= bounds.low_y + snap)
     return Overlap::kNone;
   std::uint32_t cutting = 0;
-  int count = 0;
   for (int group = 0; group < cone.padded; group += kLanes) {
     Lanes a, b, h;
     Load(&cone.a[group], &a);
@@ -217,15 +222,13 @@ Clipper::~Clipper() = default;
       lowest = height < lowest ? height : lowest;
       highest = height > highest ? height : highest;
     }
-    bool beyond = false;
-    for (int k = 0; k < kLanes; ++k) {
-      beyond |= highest[k] <= snap;
-      const bool cuts = lowest[k] < -snap;
-      cutting |= static_cast<std::uint32_t>(cuts) << (group + k);
-      count += cuts;
-    }
-    if (beyond) return Overlap::kNone;
+    constexpr std::uint32_t kCuts = (1 << kLanes) - 1;
+    const std::uint32_t bits = AnyOf(((lowest < -snap) & LaneBits{1, 2, 4, 8}) |
+                                     ((highest <= snap) & LaneBits{16, 32, 64, 128}));
+    if (bits > kCuts) return Overlap::kNone;  // beyond a line
+    cutting |= bits << group;
   }
+  const int count = std::popcount(cutting);
   candidate.lines = cutting;
   candidate.count = count;
   if (cutting == 0) return Overlap::kAll;
@@ -235,24 +238,25 @@ Clipper::~Clipper() = default;
 }
 
 // `inside` and `outside` become the parts of the piece on either side of a line; the cut gets the label.
-void Clipper::Impl::Split(const Piece& piece, const ImageLine& line, std::int32_t label) {
+void Clipper::Impl::Split(const Piece& piece, const ImageLine& line, std::int32_t label, Piece* inside,
+                          Piece* outside) const {
   std::array<double, Piece::kCapacity> height;
   for (int i = 0; i < piece.size; ++i) {
     const double h = line.a * piece.x[i] + line.b * piece.y[i] + line.h;
     height[i] = std::abs(h) <= snap ? 0 : h;
   }
-  inside.size = outside.size = 0;
+  inside->size = outside->size = 0;
   for (int i = 0; i < piece.size; ++i) {
     const int j = i + 1 == piece.size ? 0 : i + 1;
     const double ha = height[i], hb = height[j], x = piece.x[i], y = piece.y[i];
     // A vertex on the line starts the cut in the part that the next edge leaves.
-    if (ha >= 0) inside.Add(x, y, hb < 0 && ha == 0 ? label : piece.label[i]);
-    if (ha <= 0) outside.Add(x, y, hb > 0 && ha == 0 ? label : piece.label[i]);
+    if (ha >= 0) inside->Add(x, y, hb < 0 && ha == 0 ? label : piece.label[i]);
+    if (ha <= 0) outside->Add(x, y, hb > 0 && ha == 0 ? label : piece.label[i]);
     if ((ha > 0 && hb < 0) || (ha < 0 && hb > 0)) {
       const double t = ha / (ha - hb);
       const double cx = x + t * (piece.x[j] - x), cy = y + t * (piece.y[j] - y);
-      inside.Add(cx, cy, ha > 0 ? label : piece.label[i]);
-      outside.Add(cx, cy, ha > 0 ? piece.label[i] : label);
+      inside->Add(cx, cy, ha > 0 ? label : piece.label[i]);
+      outside->Add(cx, cy, ha > 0 ? piece.label[i] : label);
     }
   }
 }
@@ -302,13 +306,13 @@ void Clipper::Impl::Sort(const Piece& piece, std::size_t first, std::size_t last
 void Clipper::Impl::Halve(const Work& work, int halvings) {
   const Bounds b = BoundsOf(work.piece);
   const bool along_x = b.high_x - b.low_x > b.high_y - b.low_y;
+  Piece low, high;
   Split(work.piece,
         along_x ? ImageLine{1, 0, -0.5 * (b.low_x + b.high_x)} : ImageLine{0, 1, -0.5 * (b.low_y + b.high_y)},
-        kInnerEdge);
-  const std::size_t first = work.first, last = work.last;
-  const Piece other = outside;
-  Sort(inside, first, last, halvings);
-  Sort(other, first, last, halvings);
+        kInnerEdge, &high, &low);
+  const std::size_t first = work.first, last = work.last;  // the stack may move from here on
+  Sort(high, first, last, halvings);
+  Sort(low, first, last, halvings);
 }
 
 // Cuts one of the candidates out of the piece, and sorts what remains by the others.
@@ -321,12 +325,13 @@ void Clipper::Impl::CutOut(Work& work) {
   std::swap(candidates[first], candidates[chosen]);
   const Candidate cutter = candidates[first];
   const int halvings = work.halvings;
-  Piece rest = work.piece;  // the stack may move from here on
-  for (std::uint32_t lines = cutter.lines; lines != 0 && rest.size >= 3; lines &= lines - 1) {
+  Piece start = work.piece, inside, outside;  // the stack may move from here on
+  Piece *rest = &start, *next = &inside;
+  for (std::uint32_t lines = cutter.lines; lines != 0 && rest->size >= 3; lines &= lines - 1) {
     const int k = std::countr_zero(lines);
     const ImageCone& cone = cones[cutter.cone];
-    Split(rest, {cone.a[k], cone.b[k], cone.h[k]}, OccluderEdge(cone.occluder, k));
-    rest = inside;
+    Split(*rest, {cone.a[k], cone.b[k], cone.h[k]}, OccluderEdge(cone.occluder, k), next, &outside);
+    std::swap(rest, next);
     Sort(outside, first + 1, last, halvings);
   }
 }
@@ -336,9 +341,9 @@ void Clipper::Impl::Run() {
     Work& work = stack[--depth];
     candidates.resize(work.last);  // those above were of pieces that are done
     if (work.piece.size + kMostCuts > Piece::kCapacity) {
-      Halve(Work(work), work.halvings);  // so that cuts can never overflow a piece
+      Halve(work, work.halvings);  // so that cuts can never overflow a piece
     } else if (work.halvings > 0 && work.last - work.first > kCrowd) {
-      Halve(Work(work), work.halvings - 1);
+      Halve(work, work.halvings - 1);
     } else {
       CutOut(work);
     }

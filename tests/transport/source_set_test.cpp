@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "solver/transport/solution.h"
 #include "tests/transport/transport_test_tools.h"
@@ -111,6 +113,36 @@ TEST(SourceSet, ANarrowWallHasASlopeAlongItAlone) {
   const SourceSet::Node root = SourceSet::FromSolution(solution).Tree(0)[0];
   EXPECT_NEAR(root.slope(0, 0), 1, 1e-9);
   EXPECT_NEAR(root.slope(0, 1), 0, 1e-6);
+}
+
+// A fragment that is a whole leaf is that leaf with another radiosity, not a subtree of one, whose slope
+// would be whatever rounding makes of it.
+TEST(SourceSet, AFragmentThatIsAWholeLeafStandsForIt) {
+  const double far = 1e4;
+  const Wall wall(Vec3(far, -far, 0.5 * far), {0.7, -0.4, 0.3});
+  std::vector<Fragment> fragments;
+  for (const ElementId leaf : wall.solution.forest.Leaves(0)) {
+    const Element& element = wall.solution.forest[leaf];
+    Fragment fragment;
+    fragment.leaf = leaf;
+    fragment.polygon.assign(element.Vertices().begin(), element.Vertices().end());
+    fragment.area = element.area;
+    fragment.radiosity = 2 * wall.solution.radiosity[static_cast<std::size_t>(leaf)];
+    fragments.push_back(fragment);
+  }
+  std::sort(fragments.begin(), fragments.end(),
+            [](const Fragment& a, const Fragment& b) { return a.leaf < b.leaf; });
+  const SourceSet plain = SourceSet::FromSolution(wall.solution),
+                  other = SourceSet::FromSolution(wall.solution, fragments);
+  ASSERT_EQ(other.Tree(0).size(), plain.Tree(0).size());
+  for (std::size_t i = 0; i < plain.Tree(0).size(); ++i) {
+    const SourceSet::Node &a = plain.Tree(0)[i], &b = other.Tree(0)[i];
+    EXPECT_EQ(b.skip, a.skip);
+    EXPECT_EQ(b.vertex, a.vertex);
+    EXPECT_TRUE((b.radiosity == 2 * a.radiosity).all());
+    EXPECT_EQ(b.slope, 2 * a.slope);
+    EXPECT_EQ(b.fragment >= 0, b.skip == 1);
+  }
 }
 
 }  // namespace
