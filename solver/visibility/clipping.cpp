@@ -223,8 +223,8 @@ Clipper::~Clipper() = default;
       highest = height > highest ? height : highest;
     }
     constexpr std::uint32_t kCuts = (1 << kLanes) - 1;
-    const std::uint32_t bits = AnyOf(((lowest < -snap) & LaneBits{1, 2, 4, 8}) |
-                                     ((highest <= snap) & LaneBits{16, 32, 64, 128}));
+    const std::uint32_t bits =
+        AnyOf(((lowest < -snap) & LaneBits{1, 2, 4, 8}) | ((highest <= snap) & LaneBits{16, 32, 64, 128}));
     if (bits > kCuts) return Overlap::kNone;  // beyond a line
     cutting |= bits << group;
   }
