@@ -14,8 +14,8 @@ namespace {
 constexpr double kMargin = 0.01, kMarginOfPatch = 1e-5;
 
 // A list is narrowed where the leaves below have at least so many blockers together: a tube costs as much as
-// some hundred looks of a point at a blocker, a leaf has eight points or, in a refined mesh, fifty, and few
-// blockers go.
+// some hundred looks of a point at a blocker, and few blockers go. 40 is best where leaves have eight points,
+// 10 no better where they have fifty, in a refined mesh.
 constexpr std::size_t kWorthwhile = 40;
 
 Polygon3 Widened(std::span<const Vec3> polygon, double margin) {
