@@ -78,8 +78,9 @@ SourceCut ChooseSourceCut(const RadiositySolution& solution, const SourceCells& 
       of_cell[static_cast<std::size_t>(parent)] += of_cell[i];
       light[static_cast<std::size_t>(parent)] += light[i];
     }
+    const double gain = fine.Reverberation(at[p].patch, receiver);
     Rgb sum = truth[p];
-    for (std::size_t j = 0; j < kSteps; ++j) shown[j][p] = sum += change[j];
+    for (std::size_t j = 0; j < kSteps; ++j) shown[j][p] = sum += gain * change[j];
   });
 
   for (std::size_t j = 0; j < kSteps; ++j) {

@@ -16,7 +16,7 @@ namespace penumbra {
 struct SourceCut {
   double score = 0;  // of SourceCells::Cut()
   // The 99th percentile of the relative error that sources of these cells make, against all that the trees
-  // have (RelativeErrors).
+  // have (RelativeErrors), each as often as it comes back (PointIrradiance::Reverberation).
   double p99 = 0;
 };
 

@@ -136,6 +136,8 @@ void Gathering::Gather(PatchId source, const DirectionPolygon& seen, std::span<c
   if (tolerance_ > 0) {
     source_normal_ = scene_.patches[static_cast<std::size_t>(source)].normal;
     whole_ = FormFactor(seen, at_.normal, CancellationAllowed());
+    const Rgb back = scene_.MaterialOf(own).reflectance * scene_.MaterialOf(source).reflectance;
+    returned_ = std::max(returned_, back.maxCoeff() * whole_ * whole_);
     tolerance_here_ = ToleranceFor(tree[0].radiosity * whole_);
     unhindered_ += tree[0].radiosity * whole_;
   }
@@ -249,8 +251,12 @@ void Gathering::GatherVisible(Tree nodes) {
 }
 
 bool Gathering::IsNegligible(const Rgb& light) const {
-  return (light <= kLeftOut * tolerance_ * so_far_).all();
+  return (light <= kLeftOut * Tolerance() * so_far_).all();
 }
+
+// Errors of samples in a slot have the same sign and add up from wall to wall. Measured: with the first power
+// of what does not come back, a slot errs by 5.7 % where 5 % are asked, with the second by 3.8 %.
+double Gathering::Tolerance() const { return (1 - returned_) * (1 - returned_) * tolerance_; }
 
 // What errors of a source may be, beside the light that it would send unhindered.
 double Gathering::ToleranceFor(const Rgb& light) const {
@@ -262,7 +268,7 @@ double Gathering::ToleranceFor(const Rgb& light) const {
     return times;
   };
   const double of_many = kOneOfMany * held(so_far_.max(known_));
-  return tolerance_ * ((known_ > 0).any() ? of_many : std::max(1.0, of_many));
+  return Tolerance() * ((known_ > 0).any() ? of_many : std::max(1.0, of_many));
 }
 
 // Whether a subtree may be seen as one: where nothing hides it with its radiosity's moment, and else by the

@@ -64,7 +64,8 @@ class Gathering {
   // From here on parts of trees may be seen as one of their mean radiosity where that costs at most about
   // this share of the light that they send, or a part of that share of all light of the sources before. So
   // the brightest should come first. If what the point receives is known, about, the light beside which all
-  // of this counts is a part of that.
+  // of this counts is a part of that. Deep in a slot the share is smaller: what is off there is off as often
+  // as light goes to and fro (PointIrradiance::Reverberation). REQUIRES: the point lies on a patch.
   void SeeAsOne(double tolerance, const Rgb& known = Rgb::Zero());
   // What the sources so far would have brought without what hides them in part.
   const Rgb& unhindered() const { return unhindered_; }
@@ -88,6 +89,7 @@ class Gathering {
   void GatherNode(Tree tree, std::size_t i, const ImageFrame& frame, const Clipper::Candidates& candidates);
   void GatherVisible(Tree nodes);
   void GatherAsOne(Tree nodes);
+  double Tolerance() const;
   double ToleranceFor(const Rgb& light) const;
   bool IsOne(const SourceSet::Node& node, bool visible) const;
   void AddMoment(const SourceSet::Node& node);
@@ -113,6 +115,7 @@ class Gathering {
   Rgb known_ = Rgb::Zero();       // about what the point receives; zero: not known
   Rgb unhindered_ = Rgb::Zero();  // with a tolerance: what the sources so far would bring unhindered
   Rgb so_far_ = Rgb::Zero();      // with a tolerance: the light of the sources that are done, about
+  double returned_ = 0;  // with a tolerance: the most of the point's light that a source sends back to it
   // Of the source at hand, with a tolerance: what holds for it, its normal, and the form factor of all that
   // is above the horizon.
   double tolerance_here_ = 0;

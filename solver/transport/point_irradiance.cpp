@@ -10,6 +10,8 @@
 #include "solver/transport/gathering.h"
 #include "solver/transport/solution.h"
 #include "solver/visibility/backprojection.h"
+#include "solver/visibility/form_factor.h"
+#include "solver/visibility/point_view.h"
 
 namespace penumbra {
 
@@ -169,6 +171,20 @@ Rgb PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given, std::spa
   gathering.RecordFactors(factors);
   GatherOnPatch(patch, at, gathering);
   return gathering.irradiance();
+}
+
+double PointIrradiance::Reverberation(PatchId patch, const ReceiverPoint& at) const {
+  PointView view(scene_, at);
+  const Rgb& reflectance = scene_.MaterialOf(patch).reflectance;
+  double returned = 0;
+  for (const PatchPair& pair : visibility_.SourcesOf(patch)) {
+    const Rgb back = reflectance * scene_.MaterialOf(pair.source).reflectance;
+    if (back.maxCoeff() <= returned || !view.FaceSource(pair.source)) continue;
+    const Patch& wall = scene_.patches[static_cast<std::size_t>(pair.source)];
+    const double factor = FormFactor(view.SeeSource(wall.Vertices()), at.normal);
+    returned = std::max(returned, back.maxCoeff() * factor * factor);
+  }
+  return 1 / (1 - returned);
 }
 
 PointIrradianceResult PointIrradiance::Anywhere(const ReceiverPoint& given, IrradianceParts* parts) const {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "solver/transport/gathering.h"
@@ -215,6 +217,25 @@ TEST(PointIrradiance, NudgeAndPushOff) {
   lifted.nudge = 1e-6;
   lifted.source_push_off = 1e-3;
   EXPECT_LT(at_foot(lifted), 1e-3);
+}
+
+// Between the middles of two squares, light comes back as often as the point's form factor says. What hides
+// nothing and sends nothing back changes nothing.
+TEST(PointIrradiance, ReverberatesBetweenPlates) {
+  for (const double gap : {0.01, 0.3, 2.0}) {
+    Scene scene;
+    const std::int32_t bright = AddMaterial(scene, 0.8, 0), dark = AddMaterial(scene, 0.5, 0),
+                       black = AddMaterial(scene, 0, 1);
+    Add(scene, {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, bright);
+    Add(scene, {{-1, -1, gap}, {-1, 1, gap}, {1, 1, gap}, {1, -1, gap}}, dark);
+    Add(scene, {{3, -1, 0}, {3, 1, 0}, {3, 1, 1}, {3, -1, 1}}, black);
+    const PatchVisibility visibility(scene);
+    const PointIrradiance irradiance(scene, visibility, SourceSet::Emitters(scene));
+    const double x = 1 / gap, root = std::sqrt(1 + x * x);
+    const double factor = 4 * std::numbers::inv_pi * x / root * std::atan(x / root);
+    const double gain = irradiance.Reverberation(0, Receiver({0, 0, 0}, {0, 0, 1}));
+    EXPECT_NEAR(gain, 1 / (1 - 0.8 * 0.5 * factor * factor), 1e-12) << gap;
+  }
 }
 
 }  // namespace
