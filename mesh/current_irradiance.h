@@ -21,7 +21,7 @@ class CurrentIrradiance {
 
   explicit CurrentIrradiance(Make make) : make_(std::move(make)) {}
 
-  // The same until Reset(); null if it was cancelled. Safe from any thread.
+  // The same until Reset(); null if it was cancelled. Safe from any thread, but not beside Reset().
   const PointIrradiance* Get(const ExecutionContext& context = ExecutionContext()) {
     const std::lock_guard<std::mutex> lock(making_);
     if (!irradiance_) irradiance_ = make_(context);

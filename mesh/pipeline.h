@@ -121,8 +121,8 @@ struct PipelineReport {
   TriangleQuality quality;
   std::vector<Rgb> bounces;  // mean irradiance by bounce, if it was asked for [W/m^2]
   RepresentationError interpolant_error;
-  // The 99th percentile of the relative error of exact irradiance, from the solution's sources against that
-  // from the interpolants as sources.
+  // The 99th percentile of the relative error of irradiance, exact but for 2 % of the error asked for, from
+  // the solution's sources against that from the interpolants as sources.
   double solution_error_estimate = 0;
   RepresentationError whole_error;  // of the interpolants, against the latter
   double error_asked = 0;

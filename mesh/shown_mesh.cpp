@@ -8,14 +8,13 @@
 
 #include "mesh/representation_error.h"
 #include "mesh/source_cut.h"
-#include "solver/base/check.h"
 #include "solver/base/stopwatch.h"
 
 namespace penumbra {
 namespace {
 
 // The shares of the error that the interpolants and their sources may make, each at its 99th percentile:
-// seldom both at one point.
+// seldom both at one point, nor with the most that samples may leave out.
 constexpr double kInterpolantShare = 0.65, kSourceShare = 0.25;
 // What interpolants' samples may leave out of their sources' detail, as a share of the error. Those of the
 // looks before the last keep to SolverOptions::correction_tolerance: their means correct the sources' light,
@@ -215,6 +214,9 @@ bool ShownMesh::Overlooks(std::size_t points, std::uint64_t seed, double toleran
 std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, const MeshOptions& options,
                                              double error, double tolerance, SampleCache* samples,
                                              const ExecutionContext& context) {
+  const Stopwatch stopwatch;
+  irradiance_.Get();  // of the sources as they have become
+  seconds_of_sources_ += stopwatch.Seconds();
   MeshRefinementOptions refinement;
   refinement.error = error;
   refinement.min_area = options_.solver.min_area;

@@ -64,8 +64,8 @@ class Gathering {
   // From here on parts of trees may be seen as one of their mean radiosity where that costs at most about
   // this share of the light that they send, or a part of that share of all light of the sources before. So
   // the brightest should come first. If what the point receives is known, about, the light beside which all
-  // of this counts is a part of that. Deep in a slot the share is smaller: what is off there is off as often
-  // as light goes to and fro (PointIrradiance::Reverberation). REQUIRES: the point lies on a patch.
+  // of this counts is a part of that. From the source on that sends back the most, (1 - r)^2 of the share
+  // holds, r = rho rho' F^2 as in PointIrradiance::Reverberation(). REQUIRES: the point lies on a patch.
   void SeeAsOne(double tolerance, const Rgb& known = Rgb::Zero());
   // What the sources so far would have brought without what hides them in part.
   const Rgb& unhindered() const { return unhindered_; }

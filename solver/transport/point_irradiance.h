@@ -59,9 +59,11 @@ class PointIrradiance {
   Rgb OnPatch(PatchId patch, const ReceiverPoint& at, std::span<double> factors) const;
 
   const SourceSet& sources() const { return sources_; }
+
   // How many times light that arrives there counts by going to and fro between the patch and the wall that
-  // fills most of its view: 1 / (1 - rho rho' F^2), F the form factor to that wall, the channel where it is
-  // most. Nearly 1 in rooms; 2.8 deep in a slot between walls of reflectance 0.8.
+  // sends back the most: 1 / (1 - rho rho' F^2), F the form factor to that wall as if nothing hid it, the
+  // channel where it is most. At most 1.2 beside an edge of a room, 2.8 deep in a slot, at reflectances of
+  // 0.8.
   double Reverberation(PatchId patch, const ReceiverPoint& at) const;
 
   // The patches that a leaf of the solution sees. REQUIRES: made from a solution.

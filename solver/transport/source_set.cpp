@@ -100,7 +100,8 @@ void Append(const RadiositySolution& solution, std::span<const Fragment> fragmen
     const std::span<const Fragment> own = FragmentsOf(fragments, id);
     const std::size_t first = own.empty() ? 0 : static_cast<std::size_t>(own.data() - fragments.data());
     AppendPieces(JoinQuarters(own), own, first, nodes);
-    if (nodes.size() == at + 2) nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(at));  // the same
+    // A fragment alone is the leaf itself. As its subtree it would have a slope, by rounding.
+    if (nodes.size() == at + 2) nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(at));
     nodes[at].skip = static_cast<std::int32_t>(nodes.size() - at);
     return;
   }
@@ -251,13 +252,11 @@ struct Moments {
 };
 
 // The slope of the plane that fits radiosities with this moment best. Across what is much narrower than long,
-// or has its leaves in a row, there is none. `radius` is that of all leaves together.
-Eigen::Matrix3d Slope(const Eigen::Matrix3d& moment, const Moments& leaves, double radius) {
+// or has its leaves in a row, there is none.
+Eigen::Matrix3d Slope(const Eigen::Matrix3d& moment, const Moments& leaves) {
   constexpr double kNarrow = 1e-9;  // by the square of the width
   const Eigen::Matrix3d squares =
       leaves.squares_of_places - leaves.place * leaves.place.transpose() / leaves.area;
-  // By rounding alone, of leaves in one place: their slope could be anything.
-  if (squares.trace() <= kNarrow * leaves.area * radius * radius) return Eigen::Matrix3d::Zero();
   Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> decomposition;
   decomposition.setThreshold(kNarrow);
   decomposition.compute(squares);
@@ -285,7 +284,7 @@ void SourceSet::MeasureSubtrees() {
         own += moments[child];
       node.radiosity = own.sum / own.area;
       node.moment = own.sum_of_places - node.radiosity.matrix() * own.place.transpose();
-      node.slope = Slope(node.moment, own, node.radius);
+      node.slope = Slope(node.moment, own);
       const Rgb variance = (own.squares / own.area - node.radiosity.square()).max(0.0),
                 by_slope = node.slope.cwiseProduct(node.moment).rowwise().sum().array() / own.area;
       const Rgb around = node.radiosity.max(dark);

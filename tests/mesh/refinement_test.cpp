@@ -186,7 +186,7 @@ TEST(Refinement, ReachesTheErrorAskedFor) {
 }
 
 // Sources seen as one leave out no more than they may, at either sign: what they make of the mean is much
-// less. The default tolerance of an error of 0.05, and one that shows.
+// less. The tolerances of errors of 0.025, 0.05 and 0.1.
 TEST(Refinement, SourcesSeenAsOneCostLittle) {
   const Scene scene = Room();
   Pipeline pipeline(scene, Options(0.05));
@@ -195,7 +195,7 @@ TEST(Refinement, SourcesSeenAsOneCostLittle) {
   ASSERT_FALSE(pipeline.solution().fragments.empty());
   constexpr std::size_t kPoints = 1000;
   const std::vector<SurfacePoint> points = SpreadPoints(scene, kPoints, 11);
-  for (const double tolerance : {0.005, 0.02}) {
+  for (const double tolerance : {0.005, 0.01, 0.02}) {
     std::vector<Rgb> near, exact;
     Rgb near_sum = Rgb::Zero(), sum = Rgb::Zero();
     for (const SurfacePoint& p : points) {
@@ -235,33 +235,36 @@ TEST(Refinement, SourcesSeenAsOneCostLittleInTheDark) {
   Pipeline pipeline(scene, Options(0.05));
   pipeline.Solve({});
   pipeline.BuildMesh(MeshKind::kInterpolant, {});
-  constexpr double kTolerance = 0.005;
-  std::vector<Rgb> near, exact;
+  constexpr double kTolerances[] = {0.005, 0.01};  // of errors of 0.025 and 0.05
+  std::vector<Rgb> near[2], exact;
   std::vector<bool> in_hut;
   for (const SurfacePoint& p : SpreadPoints(scene, 3000, 11)) {
     ReceiverPoint at;
     at.position = p.position;
     at.normal = scene.patches[static_cast<std::size_t>(p.patch)].normal;
-    near.push_back(pipeline.irradiance().NearlyOnPatch(p.patch, at, kTolerance).irradiance);
+    for (int k = 0; k < 2; ++k)
+      near[k].push_back(pipeline.irradiance().NearlyOnPatch(p.patch, at, kTolerances[k]).irradiance);
     exact.push_back(pipeline.irradiance().OnPatch(p.patch, at).irradiance);
     constexpr double kSlack = 1e-9;
     in_hut.push_back(
         ((p.position - Vec3(1.5, 1.5, 0.5)).cwiseAbs().array() <= Eigen::Array3d(0.4, 0.5, 0.5) + kSlack)
             .all());
   }
-  const std::vector<double> all = RelativeErrors(near, exact);
-  std::vector<double> errors;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (in_hut[i / 3]) errors.push_back(all[i]);
-  ASSERT_GE(errors.size(), 300U);
-  const double p99 = Quantile(errors, 0.99);
-  std::printf("%zu values in the hut: p99 %.2g\n", errors.size(), p99);
-  EXPECT_LE(p99, kTolerance);
+  for (int k = 0; k < 2; ++k) {
+    const std::vector<double> all = RelativeErrors(near[k], exact);
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (in_hut[i / 3]) errors.push_back(all[i]);
+    ASSERT_GE(errors.size(), 300U);
+    const double p99 = Quantile(errors, 0.99);
+    std::printf("tolerance %.3g: %zu values in the hut, p99 %.2g\n", kTolerances[k], errors.size(), p99);
+    EXPECT_LE(p99, kTolerances[k]);
+  }
 }
 
 // A block that stands near a wall: light goes to and fro between the two, the mean of what is there comes to
 // rest only after many passes, and what is off in all samples adds up from wall to wall: at first this was
-// told to be off by 2.5 %, and was off by 8 %.
+// told to be off by 2.5 %, and was off by 9 %.
 TEST(Refinement, SettlesTheLightInASlot) {
   Scene scene;
   const std::int32_t white = AddMaterial(scene, 0.8, 0), lamp = AddMaterial(scene, 0, 40);
@@ -295,7 +298,7 @@ TEST(Refinement, SettlesTheLightInASlot) {
   }
   const double p99 = Quantile(RelativeErrors(shown, better), 0.99);
   std::printf("against a finer solution %.3g\n", p99);
-  EXPECT_LE(p99, kError + kFineError);
+  EXPECT_LE(p99, kError);
 }
 
 // Below a light in the ceiling triangles err by more than their centroids tell: random points see it, and the
