@@ -147,6 +147,12 @@ class Sampling {
 
 }  // namespace
 
+IrradianceSampler NearSampler(const PointIrradiance& exact, double tolerance) {
+  return [&exact, tolerance](PatchId patch, const ReceiverPoint& at) {
+    return exact.NearlyOnPatch(patch, at, tolerance);
+  };
+}
+
 BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangulation> patches,
                               InterpolantOrder order, const IrradianceSampler& sampler,
                               const ExecutionContext& context, SampleCache* cache) {

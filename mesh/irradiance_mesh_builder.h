@@ -25,6 +25,8 @@ namespace penumbra {
 
 // PointIrradiance::OnPatch(), or whatever stands in for it. Called from several threads at once.
 using IrradianceSampler = std::function<PointIrradianceResult(PatchId, const ReceiverPoint&)>;
+// PointIrradiance::NearlyOnPatch() with that tolerance. `exact` must outlive it.
+IrradianceSampler NearSampler(const PointIrradiance& exact, double tolerance);
 
 struct BuiltMesh {
   IrradianceMesh mesh;

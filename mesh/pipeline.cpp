@@ -377,22 +377,18 @@ void Pipeline::Measure(const ExecutionContext& context) {
   const std::uint64_t seed = impl_->options.seed;
   const IrradianceMesh& mesh = impl_->shown.mesh();
   const PointIrradiance better = impl_->shown.BetterIrradiance(impl_->Solution());
-  const auto sampler = [tolerance = kMeasuredShare * report.error_asked](const PointIrradiance& exact) {
-    return [&exact, tolerance](PatchId patch, const ReceiverPoint& at) {
-      return exact.NearlyOnPatch(patch, at, tolerance);
-    };
-  };
+  const double tolerance = kMeasuredShare * report.error_asked;
+  const IrradianceSampler sampler = NearSampler(irradiance(), tolerance);
   const auto measure = [&](std::size_t at) {
-    return MeasureError(impl_->scene, mesh, sampler(irradiance()), sampler(better), at, seed,
+    return MeasureError(impl_->scene, mesh, sampler, NearSampler(better, tolerance), at, seed,
                         report.error_asked);
   };
   MeasuredError error = measure(std::min(points, kFewSourcePoints));
   if (points > kFewSourcePoints && error.above > kClearlyMet && error.above < kClearlyMissed)
     error = measure(points);
-  report.interpolant_error =
-      error.interpolant.points == points
-          ? error.interpolant
-          : MeasureRepresentationError(impl_->scene, mesh, sampler(irradiance()), points, seed);
+  report.interpolant_error = error.interpolant.points == points
+                                 ? error.interpolant
+                                 : MeasureRepresentationError(impl_->scene, mesh, sampler, points, seed);
   report.solution_error_estimate = error.sources.p99;
   report.whole_error = error.whole;
   report.error_met = std::max(report.interpolant_error.p99, error.whole.p99) <= report.error_asked;

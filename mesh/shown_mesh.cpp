@@ -88,12 +88,7 @@ SourceCells ShownMesh::Cells(const RadiositySolution& solution) {
                      kFinestScore * options_.error);
 }
 
-IrradianceSampler ShownMesh::Sampler(double tolerance) {
-  const PointIrradiance& exact = *irradiance_.Get();
-  return [&exact, tolerance](PatchId patch, const ReceiverPoint& at) {
-    return exact.NearlyOnPatch(patch, at, tolerance);
-  };
-}
+IrradianceSampler ShownMesh::Sampler(double tolerance) { return NearSampler(*irradiance_.Get(), tolerance); }
 
 LocalPassCache& ShownMesh::LocalPass() {
   if (!local_pass_) local_pass_ = std::make_unique<LocalPassCache>(scene_, visibility_);

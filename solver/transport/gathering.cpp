@@ -57,6 +57,11 @@ Kept<Vec2>& ThreadCornerImages() {
 
 }  // namespace
 
+double SentBack(const Scene& scene, PatchId patch, PatchId source, double factor) {
+  return (scene.MaterialOf(patch).reflectance * scene.MaterialOf(source).reflectance).maxCoeff() * factor *
+         factor;
+}
+
 Gathering::Gathering(const Scene& scene, const SourceSet& sources, const ReceiverPoint& at,
                      const PointIrradianceOptions& options, IrradianceParts* parts)
     : scene_(scene),
@@ -136,8 +141,7 @@ void Gathering::Gather(PatchId source, const DirectionPolygon& seen, std::span<c
   if (tolerance_ > 0) {
     source_normal_ = scene_.patches[static_cast<std::size_t>(source)].normal;
     whole_ = FormFactor(seen, at_.normal, CancellationAllowed());
-    const Rgb back = scene_.MaterialOf(own).reflectance * scene_.MaterialOf(source).reflectance;
-    returned_ = std::max(returned_, back.maxCoeff() * whole_ * whole_);
+    returned_ = std::max(returned_, SentBack(scene_, own, source, whole_));
     tolerance_here_ = ToleranceFor(tree[0].radiosity * whole_);
     unhindered_ += tree[0].radiosity * whole_;
   }

@@ -45,6 +45,10 @@ struct IrradianceParts {
       contributions;  // of the patches that light the point, in the order asked for
 };
 
+// What share of a point's light comes back to it by way of a source that it sees with this form factor:
+// rho rho' F^2, the channel where it is most.
+double SentBack(const Scene& scene, PatchId patch, PatchId source, double factor);
+
 class Gathering {
  public:
   // Without a method, sources are clipped as whole trees, which is fastest; with one, it is asked about every

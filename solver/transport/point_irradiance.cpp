@@ -175,14 +175,12 @@ Rgb PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given, std::spa
 
 double PointIrradiance::Reverberation(PatchId patch, const ReceiverPoint& at) const {
   PointView view(scene_, at);
-  const Rgb& reflectance = scene_.MaterialOf(patch).reflectance;
   double returned = 0;
   for (const PatchPair& pair : visibility_.SourcesOf(patch)) {
-    const Rgb back = reflectance * scene_.MaterialOf(pair.source).reflectance;
-    if (back.maxCoeff() <= returned || !view.FaceSource(pair.source)) continue;
+    if (!view.FaceSource(pair.source)) continue;
     const Patch& wall = scene_.patches[static_cast<std::size_t>(pair.source)];
     const double factor = FormFactor(view.SeeSource(wall.Vertices()), at.normal);
-    returned = std::max(returned, back.maxCoeff() * factor * factor);
+    returned = std::max(returned, SentBack(scene_, patch, pair.source, factor));
   }
   return 1 / (1 - returned);
 }
