@@ -61,7 +61,13 @@ struct Discontinuity {
   std::array<IrradianceJump, kJumps> jump;  // at points spread along the segment
   double strength = 0;                      // the source's largest radiosity [W/m^2]
   double weight = 0;                        // on the receiver as a whole [W/m^2]: see Weight()
+  bool wanted = false;                      // by refinement, whatever it weighs
 };
+
+// True if both are the same trace of the same critical surface, as it was found at any time.
+inline bool SameTrace(const Discontinuity& a, const Discontinuity& b) {
+  return a.source == b.source && a.kind == b.kind && a.end[0] == b.end[0] && a.end[1] == b.end[1];
+}
 
 inline constexpr double kInfiniteWeight = std::numeric_limits<double>::infinity();
 

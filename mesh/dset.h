@@ -16,41 +16,19 @@
 #include <vector>
 
 #include "mesh/discontinuity.h"
+#include "mesh/discontinuity_line.h"
 #include "mesh/mesh_options.h"
+#include "mesh/omission_cost.h"
 #include "solver/transport/element_forest.h"
 
 namespace penumbra {
 
-// A part of a line, from t0 to t1 along it [m].
-struct LineInterval {
-  double t0 = 0, t1 = 0;
+// A discontinuity too light to be active, with its parts on those leaves that have no edge along its line.
+struct OmittedDiscontinuity {
+  std::size_t number = 0;  // of those that were found
+  std::size_t leaves = 0;  // whose inside it crosses
+  std::vector<OmittedPart> parts;
 };
-
-// A straight line with a sense.
-struct DirectedLine {
-  Vec2 origin = Vec2::Zero(), direction = Vec2::UnitX();  // direction is unit
-
-  double Along(const Vec2& p) const { return direction.dot(p - origin); }
-  // Positive to the left of the line [m].
-  double Distance(const Vec2& p) const { return Cross2(direction, p - origin); }
-  Vec2 At(double t) const { return origin + t * direction; }
-};
-
-// Collinear active discontinuities, in the frame of their patch.
-struct DiscontinuityLine : DirectedLine {
-  std::vector<LineInterval> cover;    // where any of them lies: ascending, disjoint
-  std::vector<LineInterval> contact;  // where a contact (D0) lies: ascending, disjoint
-};
-
-// True if t lies in one of the intervals or within `reach` of it.
-bool Covers(std::span<const LineInterval> intervals, double t, double reach);
-
-// A leaf's corners in the plane of its patch, counter-clockwise.
-Polygon2 LeafOutline(const Element& leaf, const Frame& frame);
-
-// The part of the line inside the convex counter-clockwise outline and at least `inset` [m] from each of its
-// sides (beyond them, for a negative inset). Empty if t0 > t1.
-LineInterval ClipLine(const Vec2& origin, const Vec2& direction, const Polygon2& outline, double inset);
 
 // The active DSets of one patch.
 struct PatchDSets {
@@ -66,15 +44,21 @@ struct PatchDSets {
   // Leaves for whose sake a discontinuity was refused everywhere: they were full, and at most as many as
   // those with room for it; or it was a contact. Ascending.
   std::vector<ElementId> crowded;
+  // What refinement may ask for, where leaving it out costs at least options.min_wanted_weight.
+  std::vector<OmittedDiscontinuity> omitted;
 };
 
 // True if the discontinuity may become an edge of the leaf; asked for contacts never.
 using LeafFilter = std::function<bool(const Discontinuity&, ElementId)>;
 
+// How many times an error on a leaf counts; once without.
+using ErrorScale = std::function<double(ElementId)>;
+
 // Activates the discontinuities in order of weight, contacts first, each for all leaves on which it impinges
 // or for none (thesis 5.5.7).
-//  (1) An active discontinuity weighs at least options.min_weight. In the irradiance weight it weighs what
-//  leaving its line out would cost beside those that are active already (OmissionCost).
+//  (1) An active discontinuity weighs at least options.min_weight, or is wanted. In the irradiance weight it
+//  weighs what leaving its line out would cost beside those that are active already (OmissionCost), on each
+//  leaf so many times as `scale` says.
 //  (2) At most options.max_leaf_dsets lines run through the inside of any leaf. Those along a leaf's border
 //  add no edge and do not count.
 //  (3) The heaviest come first; of equal weight, the one found first.
@@ -84,6 +68,6 @@ using LeafFilter = std::function<bool(const Discontinuity&, ElementId)>;
 // filter for kAdaptive.
 PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
                                    std::span<const Discontinuity> found, const DiscontinuityOptions& options,
-                                   const LeafFilter& filter = {});
+                                   const LeafFilter& filter = {}, const ErrorScale& scale = {});
 
 }  // namespace penumbra

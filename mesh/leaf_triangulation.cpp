@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "mesh/leaf_lines.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
 #include "solver/scene/tolerances.h"

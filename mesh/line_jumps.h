@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "mesh/discontinuity.h"
-#include "mesh/dset.h"
+#include "mesh/discontinuity_line.h"
 
 namespace penumbra {
 

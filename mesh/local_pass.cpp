@@ -1,6 +1,7 @@
 #include "mesh/local_pass.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -23,14 +24,70 @@ std::vector<double> SourceStrengths(const RadiositySolution& solution) {
 
 namespace {
 
+// Errors count beside the light of the solution that they are part of: in the dark, more. The thesis's weight
+// does not tell of errors, and counts alike everywhere.
+class LightBeside {
+ public:
+  LightBeside(const RadiositySolution& solution, DiscontinuityWeight weight)
+      : solution_(solution),
+        darkest_(solution.forest.scene().patches.size(), std::numeric_limits<double>::infinity()) {
+    if (weight == DiscontinuityWeight::kThesis) return;
+    double area = 0;
+    for (std::size_t i = 0; i < solution.irradiance.size(); ++i) {
+      const Element& element = solution.forest.elements()[i];
+      if (!element.IsLeaf()) continue;
+      const double light = solution.irradiance[i].maxCoeff();
+      double& darkest = darkest_[static_cast<std::size_t>(element.patch)];
+      darkest = std::min(darkest, light);
+      mean_ += element.area * light;
+      area += element.area;
+    }
+    if (area > 0) mean_ /= area;
+  }
+
+  // Over the leaves of the patch.
+  double LargestScale(PatchId patch) const { return Scale(darkest_[static_cast<std::size_t>(patch)]); }
+
+  // Of a leaf of the forest, which was grown from the solution's.
+  double ScaleOf(const ElementForest& forest, ElementId leaf) const {
+    while (static_cast<std::size_t>(leaf) >= solution_.irradiance.size()) leaf = forest[leaf].parent;
+    return Scale(solution_.irradiance[static_cast<std::size_t>(leaf)].maxCoeff());
+  }
+
+ private:
+  static constexpr double kDarkest = 0.05;  // of the mean: means of leaves are all that is known here
+
+  double Scale(double light) const { return mean_ > 0 ? mean_ / std::max(light, kDarkest * mean_) : 1; }
+
+  const RadiositySolution& solution_;
+  std::vector<double> darkest_;  // per patch [W/m^2]
+  double mean_ = 0;              // over the leaves [W/m^2]
+};
+
 PatchDSets Activate(const ElementForest& forest, const PatchVisibility& visibility, PatchId patch,
-                    std::span<const Discontinuity> found, const DiscontinuityOptions& options) {
+                    std::span<const Discontinuity> found, const DiscontinuityOptions& options,
+                    const LightBeside& light) {
+  const auto scale = [&](ElementId leaf) { return light.ScaleOf(forest, leaf); };
   if (options.choice != DiscontinuityChoice::kAdaptive)
-    return ActivateDiscontinuities(forest, patch, found, options);
+    return ActivateDiscontinuities(forest, patch, found, options, {}, scale);
   ShadowCrossing crossing(forest, visibility, patch);
-  return ActivateDiscontinuities(forest, patch, found, options, [&](const Discontinuity& d, ElementId leaf) {
+  const auto crosses = [&](const Discontinuity& d, ElementId leaf) {
     return crossing.Crosses(d.source, leaf);
-  });
+  };
+  return ActivateDiscontinuities(forest, patch, found, options, crosses, scale);
+}
+
+// The discontinuities on the patch that may become edges, those of the plan marked.
+std::vector<Discontinuity> FindOnPatch(PatchId patch, std::span<const double> strength, const MeshPlan& plan,
+                                       DiscontinuityOptions options, double largest_scale,
+                                       LocalPassCache* cache) {
+  if (options.can_want()) options.min_weight = options.min_wanted_weight;
+  options.min_weight /= largest_scale;
+  std::vector<Discontinuity> found = cache->discontinuities.Find(patch, strength, options);
+  if (static_cast<std::size_t>(patch) >= plan.wanted.size()) return found;
+  for (const Discontinuity& wanted : plan.wanted[patch])
+    for (Discontinuity& d : found) d.wanted |= SameTrace(d, wanted);
+  return found;
 }
 
 // Splits the crowded leaves of the patch, and what balance asks for. Returns how many were crowded.
@@ -50,11 +107,11 @@ std::size_t SplitCrowded(ElementForest& forest, PatchId patch, std::span<const E
 }  // namespace
 
 std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibility,
-                                                   const RadiositySolution& solution,
-                                                   const ElementForest& given,
+                                                   const RadiositySolution& solution, const MeshPlan& plan,
                                                    const DiscontinuityOptions& options,
                                                    const ExecutionContext& context, MeshReport& report,
-                                                   LocalPassCache* cache) {
+                                                   LocalPassCache* cache,
+                                                   std::vector<OmittedOfPatch>* omitted) {
   const Scene& scene = solution.forest.scene();
   const std::size_t count = scene.patches.size();
 
@@ -62,24 +119,26 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
   Stopwatch finding;
   std::vector<PatchDSets> dsets(count);
   std::vector<std::vector<Discontinuity>> found(count);
+  const LightBeside light(solution, options.weight);
   const std::vector<double> strength = SourceStrengths(solution);
   std::optional<LocalPassCache> own;
   if (!cache) cache = &own.emplace(scene, visibility);
   const DiscontinuityCache::Counts before = cache->discontinuities.counts();
   ParallelFor(count, 1, [&](std::size_t p) {
     if (options.enabled() && !context.Cancelled())
-      found[p] = cache->discontinuities.Find(static_cast<PatchId>(p), strength, options);
+      found[p] = FindOnPatch(static_cast<PatchId>(p), strength, plan, options,
+                             light.LargestScale(static_cast<PatchId>(p)), cache);
   });
   report.counts.pairs_traced += cache->discontinuities.counts().traced - before.traced;
   report.counts.pairs_kept += cache->discontinuities.counts().kept - before.kept;
   // Crowded leaves are split in quadtrees of the mesh's own.
-  ElementForest forest = given;
+  ElementForest forest = plan.forest;
   std::vector<std::size_t> patches_to_do(count);
   std::iota(patches_to_do.begin(), patches_to_do.end(), std::size_t{0});
   for (int round = 0; !patches_to_do.empty() && !context.Cancelled(); ++round) {
     ParallelFor(patches_to_do.size(), 1, [&](std::size_t i) {
       const std::size_t p = patches_to_do[i];
-      dsets[p] = Activate(forest, visibility, static_cast<PatchId>(p), found[p], options);
+      dsets[p] = Activate(forest, visibility, static_cast<PatchId>(p), found[p], options, light);
     });
     if (round == options.crowded_splits) break;
     std::vector<std::size_t> again;
@@ -110,8 +169,10 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
   }
   for (std::size_t p = 0; p < count && !context.Cancelled(); ++p) {
     for (ElementId& leaf : patches[p].leaves)
-      while (static_cast<std::size_t>(leaf) >= given.size()) leaf = forest[leaf].parent;
-    report.counts.discontinuities += found[p].size();
+      while (static_cast<std::size_t>(leaf) >= plan.forest.size()) leaf = forest[leaf].parent;
+    const double scale = light.LargestScale(static_cast<PatchId>(p));
+    for (const Discontinuity& d : found[p])
+      if (d.wanted || scale * d.weight >= options.min_weight) ++report.counts.discontinuities;
     report.counts.activated += dsets[p].activated;
     report.counts.dsets_active += dsets[p].dsets_active;
     report.counts.refused += dsets[p].refused;
@@ -121,6 +182,7 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
     report.counts.leaves_made += patches[p].leaves_made;
     report.counts.leaves_kept += patches[p].leaves_kept;
     report.counts.triangles += patches[p].triangles.size();
+    if (omitted) omitted->push_back({std::move(found[p]), std::move(dsets[p].omitted)});
   }
   report.seconds.triangulate += triangulating.Seconds();
   return patches;
@@ -130,8 +192,8 @@ MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySoluti
                         const IrradianceSampler& sampler, const MeshOptions& options,
                         const ExecutionContext& context, LocalPassCache* cache) {
   MeshResult result;
-  result.triangulations = TriangulatePatches(visibility, solution, solution.forest, options.discontinuities,
-                                             context, result.report, cache);
+  result.triangulations = TriangulatePatches(visibility, solution, {solution.forest, {}},
+                                             options.discontinuities, context, result.report, cache);
   if (context.Cancelled()) return result;
   const std::vector<PatchTriangulation>& patches = result.triangulations;
   Stopwatch interpolating;

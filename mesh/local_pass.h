@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesh/discontinuity_cache.h"
+#include "mesh/dset.h"
 #include "mesh/irradiance_mesh.h"
 #include "mesh/irradiance_mesh_builder.h"
 #include "mesh/leaf_triangulation.h"
@@ -18,6 +19,12 @@
 #include "solver/visibility/patch_visibility.h"
 
 namespace penumbra {
+
+// What a mesh is made of beyond the solution and its options: that which refinement asked for.
+struct MeshPlan {
+  ElementForest forest;                            // the solution's, or one that was grown from it
+  std::vector<std::vector<Discontinuity>> wanted;  // per patch; none where it is shorter
+};
 
 struct MeshResult {
   IrradianceMesh mesh;
@@ -40,15 +47,21 @@ class LocalPassCache {
 // The largest radiosity of each patch, over its leaves and the channels [W/m^2].
 std::vector<double> SourceStrengths(const RadiositySolution& solution);
 
-// Triangulates all patches along the leaves of `forest`, the solution's or one that was grown from it; counts
-// and seconds are added to the report. The mesh may split leaves further: the `leaves` of a triangulation
-// name for each of its leaves that of `forest` that it is part of. REQUIRES: the quadtrees are balanced.
+// Which discontinuities of a patch a mesh goes without, though they weigh enough to be asked for.
+struct OmittedOfPatch {
+  std::vector<Discontinuity> found;
+  std::vector<OmittedDiscontinuity> omitted;
+};
+
+// Triangulates all patches along the leaves of the plan; counts and seconds are added to the report. The mesh
+// may split leaves further: the `leaves` of a triangulation name for each of its leaves that of the plan that
+// it is part of. `omitted` gets one for each patch, if it is asked for. REQUIRES: the quadtrees are balanced.
 std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibility,
-                                                   const RadiositySolution& solution,
-                                                   const ElementForest& forest,
+                                                   const RadiositySolution& solution, const MeshPlan& plan,
                                                    const DiscontinuityOptions& options,
                                                    const ExecutionContext& context, MeshReport& report,
-                                                   LocalPassCache* cache = nullptr);
+                                                   LocalPassCache* cache = nullptr,
+                                                   std::vector<OmittedOfPatch>* omitted = nullptr);
 
 // The whole local pass. The sampler is not called for constant interpolants. A cancelled run returns an empty
 // mesh. REQUIRES: the quadtrees are balanced.

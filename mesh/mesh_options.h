@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace penumbra {
 
@@ -28,7 +29,10 @@ enum class DiscontinuityChoice : std::uint8_t {
 struct DiscontinuityOptions {
   DiscontinuityChoice choice = DiscontinuityChoice::kRanked;
   DiscontinuityWeight weight = DiscontinuityWeight::kThesis;
-  double min_weight = 0;     // Tree::minDiscontWeight [W/m^2]
+  double min_weight = 0;  // Tree::minDiscontWeight [W/m^2]
+  // Ranked by the irradiance weight, refinement may ask for lighter ones that weigh at least this [W/m^2];
+  // for none if it is not below min_weight.
+  double min_wanted_weight = std::numeric_limits<double>::infinity();
   int max_leaf_dsets = 10;   // Tree::maxLeafDSets: discontinuity edges within one leaf
   bool keep_hidden = false;  // also the parts of wedges that end at another blocker, as in the thesis
   // Triple-edge (EEE) events as well, traced as polylines within this distance [m]; 0: none, as in the
@@ -41,6 +45,10 @@ struct DiscontinuityOptions {
   double min_split_area = 0;
 
   bool enabled() const { return choice != DiscontinuityChoice::kNone; }
+  bool can_want() const {
+    return choice == DiscontinuityChoice::kRanked && weight == DiscontinuityWeight::kIrradiance &&
+           min_wanted_weight < min_weight;
+  }
 };
 
 enum class InterpolantOrder : std::uint8_t {

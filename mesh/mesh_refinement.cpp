@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "mesh/local_pass.h"
+#include "mesh/refinement_step.h"
 #include "solver/base/check.h"
 #include "solver/base/stopwatch.h"
 
@@ -15,46 +16,24 @@ namespace {
 constexpr double kSuspicion = 0.3;
 // Beyond this, a triangle that was found good is looked at once more, at finer points.
 constexpr double kDoubt = 1;
-// What halving the size makes of the error where the irradiance is smooth.
-constexpr double kSmoothGain = 8;
 
-// A leaf with triangles that err by too much.
-struct Candidate {
-  ElementId leaf = kNoElement;
-  double area_above = 0;  // [m^2]
-  double gain = 0;        // area that dividing it is expected to mend, per triangle that it costs [m^2]
-  double mended = 0;      // [m^2]
-};
-
-std::vector<Candidate> FindCandidates(const RefinedMesh& refined, double error) {
-  std::vector<Candidate> candidates;
-  std::size_t base = 0;
-  for (const PatchTriangulation& patch : refined.triangulations) {
-    for (std::size_t i = 0; i < patch.leaves.size(); ++i) {
-      Candidate candidate;
-      candidate.leaf = patch.leaves[i];
-      // A leaf that was crowded has been split for the triangulation.
-      const std::size_t first = i;
-      while (i + 1 < patch.leaves.size() && patch.leaves[i + 1] == candidate.leaf) ++i;
-      for (std::size_t t = patch.first_triangle[first]; t < patch.first_triangle[i + 1]; ++t) {
-        const double e = refined.errors[base + t].max;
-        if (e <= error) continue;
-        const auto& v = patch.triangles[t].vertex;
-        const Vec2 &a = patch.in_plane[v[0]], &b = patch.in_plane[v[1]], &c = patch.in_plane[v[2]];
-        const double area = 0.5 * Cross2(b - a, c - a);
-        candidate.area_above += area;
-        // What is not mended at once is mended on half the area.
-        candidate.mended += e <= kSmoothGain * error ? area : 0.5 * area;
-      }
-      if (candidate.area_above == 0) continue;
-      candidate.gain = candidate.mended / (patch.first_triangle[i + 1] - patch.first_triangle[first] + 6);
-      candidates.push_back(candidate);
+// Does it: leaves are divided, discontinuities wanted from now on.
+void Take(std::span<const RefinementStep> steps, std::span<const std::size_t> chosen,
+          std::span<const OmittedOfPatch> omitted, MeshPlan* plan) {
+  plan->wanted.resize(omitted.size());
+  std::vector<PatchId> divided;
+  for (const std::size_t i : chosen) {
+    const RefinementStep& step = steps[i];
+    if (step.Divides()) {
+      divided.push_back(step.patch);
+      plan->forest.Subdivide(step.leaf);
+    } else {
+      plan->wanted[step.patch].push_back(omitted[step.patch].found[step.discontinuity]);
     }
-    base += patch.triangles.size();
   }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
-  return candidates;
+  std::sort(divided.begin(), divided.end());
+  divided.erase(std::unique(divided.begin(), divided.end()), divided.end());
+  for (const PatchId patch : divided) plan->forest.Balance(patch);
 }
 
 }  // namespace
@@ -62,7 +41,7 @@ std::vector<Candidate> FindCandidates(const RefinedMesh& refined, double error) 
 RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolution& solution,
                        const IrradianceSampler& sampler, const MeshOptions& mesh_options,
                        const MeshRefinementOptions& options, const ExecutionContext& context,
-                       LocalPassCache* local_pass, const ElementForest* start, SampleCache* samples) {
+                       LocalPassCache* local_pass, const MeshPlan* start, SampleCache* samples) {
   PENUMBRA_CHECK(mesh_options.order != InterpolantOrder::kConstant);
   const Scene& scene = solution.forest.scene();
   double area = 0;
@@ -72,14 +51,15 @@ RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolutio
   std::optional<LocalPassCache> own;
   if (!local_pass) local_pass = &own.emplace(scene, visibility);
   RefinedMesh refined;
-  refined.forest = start ? *start : solution.forest;
+  refined.plan = start ? *start : MeshPlan{solution.forest, {}};
   MeshReport::Seconds seconds;
   std::size_t evaluations = 0;
   for (int round = 0;; ++round) {
     refined.report = {};
+    std::vector<OmittedOfPatch> omitted;
     refined.triangulations =
-        TriangulatePatches(visibility, solution, refined.forest, mesh_options.discontinuities, context,
-                           refined.report, local_pass);
+        TriangulatePatches(visibility, solution, refined.plan, mesh_options.discontinuities, context,
+                           refined.report, local_pass, &omitted);
     seconds.discontinuities += refined.report.seconds.discontinuities;
     seconds.triangulate += refined.report.seconds.triangulate;
     const Stopwatch interpolating;
@@ -108,30 +88,22 @@ RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolutio
     evaluations += measured.point_evaluations;
     seconds.interpolate += interpolating.Seconds();
 
-    double above = 0;
-    std::vector<Candidate> candidates = FindCandidates(refined, options.error);
-    for (const Candidate& candidate : candidates) above += candidate.area_above;
+    std::vector<RefinementStep> steps =
+        FindRefinementSteps(refined.mesh, refined.triangulations, refined.errors, omitted, options.error);
+    const double above = AreaAbove(refined.mesh, refined.errors, options.error);
     refined.share_above = area > 0 ? above / area : 0;
     refined.unmet.clear();
-    std::vector<ElementId> divide;
-    for (const Candidate& candidate : candidates) {
-      const Element& element = refined.forest[candidate.leaf];
-      if (element.area < 4 * options.min_area || element.level >= kMaxLevel) {
-        refined.unmet.push_back(candidate.leaf);
-      } else if (round < options.max_rounds && above > kShareAbove * area) {
-        divide.push_back(candidate.leaf);
-        above -= candidate.mended;
-      }
-    }
-    if (divide.empty()) break;
-    std::vector<PatchId> touched;
-    for (const ElementId leaf : divide) {
-      touched.push_back(refined.forest[leaf].patch);
-      refined.forest.Subdivide(leaf);
-    }
-    std::sort(touched.begin(), touched.end());
-    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-    for (const PatchId patch : touched) refined.forest.Balance(patch);
+    std::erase_if(steps, [&](const RefinementStep& step) {
+      if (!step.Divides()) return false;
+      const Element& element = refined.plan.forest[step.leaf];
+      if (element.area >= 4 * options.min_area && element.level < kMaxLevel) return false;
+      refined.unmet.push_back(step.leaf);
+      return true;
+    });
+    if (round == options.max_rounds) break;
+    const std::vector<std::size_t> chosen = ChooseRefinementSteps(steps, above - kShareAbove * area);
+    if (chosen.empty()) break;
+    Take(steps, chosen, omitted, &refined.plan);
   }
   std::sort(refined.unmet.begin(), refined.unmet.end());
   refined.report.seconds = seconds;

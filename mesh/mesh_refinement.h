@@ -1,8 +1,8 @@
 // mesh/mesh_refinement.h
 //
 // Representation-based refinement (thesis 4.4.2) of what is shown: leaves on which the interpolants are too
-// far from the irradiance are divided, for the mesh only. The sources and their links stay as they are, so
-// that a finer picture costs samples and nothing else.
+// far from the irradiance are divided or get further edges, for the mesh only. The sources and their links
+// stay as they are, so that a finer picture costs samples and nothing else.
 
 #pragma once
 
@@ -35,7 +35,7 @@ struct MeshRefinementOptions {
 inline constexpr double kShareAbove = 0.006;
 
 struct RefinedMesh {
-  ElementForest forest;  // the solution's, and the leaves that were divided for the mesh
+  MeshPlan plan;  // the leaves that were divided for the mesh, and the discontinuities that it wants
   std::vector<PatchTriangulation> triangulations;
   IrradianceMesh mesh;
   // One a triangle; zero where the interpolants' gradients give no reason to measure.
@@ -45,15 +45,15 @@ struct RefinedMesh {
   std::vector<ElementId> unmet;  // leaves that err by more than asked and cannot be divided
 };
 
-// Refines until the share is small enough, nothing is left to divide, or the most rounds are done. A round
-// divides the leaves that promise most for what they cost, and no more than it takes. Cancelled, it returns
-// an empty mesh. Begins with the leaves of `start`, which was grown from the solution's quadtrees; with these
-// if it is null. `samples` keeps what was evaluated, for a call with the same sampler. REQUIRES: the leaves
-// are balanced.
+// Refines until the share is small enough, nothing is left to do, or the most rounds are done. A round takes
+// those steps that promise most for what they cost, and no more than it takes: leaves are divided, and
+// discontinuities too light for the mesh become edges. Cancelled, it returns an empty mesh. Begins with the
+// plan `start`; with the solution's leaves if it is null. `samples` keeps what was evaluated, for a call with
+// the same sampler. REQUIRES: the leaves are balanced.
 RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolution& solution,
                        const IrradianceSampler& sampler, const MeshOptions& mesh_options,
                        const MeshRefinementOptions& options, const ExecutionContext& context,
-                       LocalPassCache* local_pass = nullptr, const ElementForest* start = nullptr,
+                       LocalPassCache* local_pass = nullptr, const MeshPlan* start = nullptr,
                        SampleCache* samples = nullptr);
 
 }  // namespace penumbra

@@ -4,40 +4,69 @@
 #include <cmath>
 
 namespace penumbra {
+namespace {
 
-void OmissionCost::AddPart(std::size_t leaf, const Polygon2& outline, double area, const Vec2& a,
-                           const Vec2& b, const LineJump& jump) {
-  const Vec2 along = (b - a).normalized();
-  parts_.push_back({leaf, area, 0.5 * (a + b), {-along.y(), along.x()}, jump, outline, 0});
+Vec2 Middle(const OmittedPart& part) { return 0.5 * (part.from + part.to); }
+
+double TwiceArea(std::span<const Vec2> polygon) {
+  double twice = 0;
+  for (std::size_t v = 1; v + 1 < polygon.size(); ++v)
+    twice += Cross2(polygon[v] - polygon[0], polygon[v + 1] - polygon[0]);
+  return std::max(twice, 0.0);
+}
+
+}  // namespace
+
+double ErrorOnPiece(const OmittedPart& part, std::span<const Vec2> piece) {
+  const Vec2 middle = Middle(part), along = (part.to - part.from).normalized(), across(-along.y(), along.x());
+  double left = 0, right = 0;
+  for (const Vec2& v : piece) {
+    left = std::max(left, across.dot(v - middle));
+    right = std::max(right, -across.dot(v - middle));
+  }
+  return ErrorWithout(part.jump, left + right, std::min(left, right));
 }
 
 double OmissionCost::Of(std::size_t i, std::int32_t own, std::span<const std::vector<std::int32_t>> inside,
                         std::span<const DiscontinuityLine> active) {
-  const std::size_t end = i + 1 < first_part_.size() ? first_part_[i + 1] : parts_.size();
   double squares = 0, area = 0;
-  for (std::size_t k = first_part_[i]; k < end; ++k) {
-    Part& part = parts_[k];
-    const std::vector<std::int32_t>& lines = inside[part.leaf];
-    for (; part.lines < lines.size(); ++part.lines)
-      if (lines[part.lines] != own) Cut(part, active[lines[part.lines]]);
-    double left = 0, right = 0, twice = 0;
-    for (std::size_t v = 0; v < part.cell.size(); ++v) {
-      const Vec2 from = part.cell[v] - part.middle;
-      const Vec2 to = part.cell[(v + 1) % part.cell.size()] - part.middle;
-      left = std::max(left, part.across.dot(from));
-      right = std::max(right, -part.across.dot(from));
-      twice += Cross2(from, to);
-    }
-    const double error = ErrorWithout(part.jump, left + right, std::min(left, right));
-    squares += error * error * 0.5 * std::max(twice, 0.0);
+  for (Part& part : PartsOf(i)) {
+    CutByLines(part, own, inside, active);
+    const double error = part.scale * ErrorOnPiece(part.segment, part.cell);
+    squares += error * error * 0.5 * TwiceArea(part.cell);
     area += part.leaf_area;
   }
   return area > 0 ? std::sqrt(squares / area) : 0;
 }
 
+std::vector<OmittedPart> OmissionCost::PartsWithout(std::size_t i, std::int32_t own,
+                                                    std::span<const std::vector<std::int32_t>> inside,
+                                                    std::span<const DiscontinuityLine> active, double least) {
+  std::vector<OmittedPart> without;
+  for (Part& part : PartsOf(i)) {
+    const std::vector<std::int32_t>& lines = inside[part.segment.leaf];
+    if (own >= 0 && std::find(lines.begin(), lines.end(), own) != lines.end()) continue;
+    CutByLines(part, own, inside, active);
+    if (part.scale * ErrorOnPiece(part.segment, part.cell) >= least) without.push_back(part.segment);
+  }
+  return without;
+}
+
+std::span<OmissionCost::Part> OmissionCost::PartsOf(std::size_t i) {
+  const std::size_t end = i + 1 < first_part_.size() ? first_part_[i + 1] : parts_.size();
+  return std::span(parts_).subspan(first_part_[i], end - first_part_[i]);
+}
+
+void OmissionCost::CutByLines(Part& part, std::int32_t own, std::span<const std::vector<std::int32_t>> inside,
+                              std::span<const DiscontinuityLine> active) {
+  const std::vector<std::int32_t>& lines = inside[part.segment.leaf];
+  for (; part.lines < lines.size(); ++part.lines)
+    if (lines[part.lines] != own) Cut(part, active[lines[part.lines]]);
+}
+
 // Keeps the side of the line on which the segment's middle lies.
 void OmissionCost::Cut(Part& part, const DirectedLine& line) {
-  const double side = line.Distance(part.middle) >= 0 ? 1 : -1;
+  const double side = line.Distance(Middle(part.segment)) >= 0 ? 1 : -1;
   kept_.clear();
   for (std::size_t k = 0; k < part.cell.size(); ++k) {
     const Vec2 &a = part.cell[k], &b = part.cell[(k + 1) % part.cell.size()];

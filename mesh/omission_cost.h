@@ -6,40 +6,61 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "mesh/dset.h"
+#include "mesh/discontinuity_line.h"
 #include "mesh/line_jumps.h"
 
 namespace penumbra {
+
+// A segment inside a leaf, with what jumps across its line there.
+struct OmittedPart {
+  std::size_t leaf = 0;
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();  // in the frame of the patch [m]
+  LineJump jump;
+};
+
+// ErrorWithout() the part on a convex piece of the mesh that it runs through [W/m^2].
+double ErrorOnPiece(const OmittedPart& part, std::span<const Vec2> piece);
 
 class OmissionCost {
  public:
   // Begins the next discontinuity.
   void Begin() { first_part_.push_back(parts_.size()); }
-  // The segment ab of it, inside the leaf, with what jumps across its line there.
-  void AddPart(std::size_t leaf, const Polygon2& outline, double area, const Vec2& a, const Vec2& b,
-               const LineJump& jump);
+  // A part of it, in a leaf of this outline and area, on which errors count that many times.
+  void AddPart(const OmittedPart& part, const Polygon2& outline, double area, double scale) {
+    parts_.push_back({part, area, scale, outline, 0});
+  }
+
+  // `inside` are for each leaf the numbers of those `active` lines that run through it, which only grow from
+  // one call to the next; `own` is that of the discontinuity's own line, which does not count; -1 if that is
+  // not active.
 
   // Of leaving out discontinuity i, root mean square over the leaves that it crosses [W/m^2]. It falls when
-  // lines become active. `inside` are for each leaf the numbers of those `active` lines that
-  // run through it, which only grow from one call to the next; `own` is that of its own line, which does not
-  // count; -1 if that is not active.
+  // lines become active.
   double Of(std::size_t i, std::int32_t own, std::span<const std::vector<std::int32_t>> inside,
             std::span<const DiscontinuityLine> active);
+  std::size_t LeavesOf(std::size_t i) { return PartsOf(i).size(); }
+  // The parts of discontinuity i in leaves that its line does not run through, where each costs at least so
+  // much [W/m^2].
+  std::vector<OmittedPart> PartsWithout(std::size_t i, std::int32_t own,
+                                        std::span<const std::vector<std::int32_t>> inside,
+                                        std::span<const DiscontinuityLine> active, double least);
 
  private:
   struct Part {
-    std::size_t leaf;
-    double leaf_area;
-    Vec2 middle, across;  // of the segment; a unit vector across it
-    LineJump jump;
+    OmittedPart segment;
+    double leaf_area, scale;
     Polygon2 cell;          // convex
     std::size_t lines = 0;  // of the leaf that have cut it
   };
 
+  std::span<Part> PartsOf(std::size_t i);
+  void CutByLines(Part& part, std::int32_t own, std::span<const std::vector<std::int32_t>> inside,
+                  std::span<const DiscontinuityLine> active);
   void Cut(Part& part, const DirectedLine& line);
 
   std::vector<Part> parts_;

@@ -24,6 +24,8 @@ RepresentationError Summarise(std::span<const SurfacePoint> at, const std::vecto
   }
   error.points = at.size();
   error.p99 = Quantile(errors, 0.99);
+  const double deviation = std::sqrt(0.99 * 0.01 / static_cast<double>(at.size()));
+  error.p99_at_most = Quantile(errors, std::min(0.99 + deviation, 1.0));
   error.p95 = Quantile(errors, 0.95);
   error.rms = std::sqrt(squares / static_cast<double>(errors.size()));
   return error;

@@ -20,6 +20,8 @@ namespace penumbra {
 struct RepresentationError {
   std::size_t points = 0;
   double max = 0, p99 = 0, p95 = 0, rms = 0;
+  // What the 99th percentile of all points may well be: a standard deviation more of the points lie above.
+  double p99_at_most = 0;
   PatchId worst_patch = kNoPatch;   // where the largest error was seen
   Vec3 worst_point = Vec3::Zero();  // [m]
 };

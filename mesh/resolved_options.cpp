@@ -16,6 +16,9 @@ constexpr double kLargestWeight = 0.25;     // ... this x largest emittance
 // In the irradiance weight: what an edge left out may cost, root mean square over leaves that lack others
 // too, as a part of error x mean irradiance.
 constexpr double kWeightOfMeanIrradiance = 0.15;
+// Where refinement by what is shown may ask for edges: those that are there from the start, and the lightest
+// that it may ask for.
+constexpr double kWeightFromTheStart = 0.3, kWantedWeight = 0.05;
 constexpr int kCrowdedSplits = 3;         // DiscontinuityOptions::crowded_splits
 constexpr double kMinAreaOfScene = 1e-7;  // of the fronts' total area
 constexpr double kCutoffOfError = 0.005;
@@ -67,11 +70,16 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   mesh.choice = options.discontinuities;
   mesh.weight = options.weight.value_or(options.min_discontinuity_weight ? DiscontinuityWeight::kThesis
                                                                          : DiscontinuityWeight::kIrradiance);
-  const double from_error =
-      mesh.weight == DiscontinuityWeight::kThesis
-          ? std::min(kLargestWeight, kWeightOfStrongest * options.error) * totals.strongest
-          : kWeightOfMeanIrradiance * options.error * mean;
-  mesh.min_weight = options.min_discontinuity_weight.value_or(from_error);
+  if (options.min_discontinuity_weight) {
+    mesh.min_weight = *options.min_discontinuity_weight;
+  } else if (mesh.weight == DiscontinuityWeight::kThesis) {
+    mesh.min_weight = std::min(kLargestWeight, kWeightOfStrongest * options.error) * totals.strongest;
+  } else if (options.refine == RefineBy::kTransport) {
+    mesh.min_weight = kWeightOfMeanIrradiance * options.error * mean;
+  } else {
+    mesh.min_weight = kWeightFromTheStart * options.error * mean;
+    mesh.min_wanted_weight = kWantedWeight * options.error * mean;
+  }
   mesh.max_leaf_dsets = options.max_leaf_dsets;
   mesh.keep_hidden = options.keep_hidden_discontinuities;
   mesh.triple_edge_tolerance = options.triple_edge_tolerance;

@@ -28,10 +28,10 @@ constexpr double kFirstWeight = 2;
 constexpr double kSettledShare = 0.6, kStill = 0.95;
 constexpr int kMostSourcePasses = 40, kCutChoices = 2;
 // Centroids can overlook what random points see. Once the mesh is refined these look, one for so many
-// evaluations of the refinement, and while one in a hundred errs by more than this share of the error it is
-// refined on, towards this of what was asked before.
+// evaluations of the refinement, and while one in a hundred may err by more than this share of the error it
+// is refined on, towards as much less as they see more, within limits.
 constexpr std::size_t kEvaluationsALook = 20, kFewestLooks = 1000, kMostLooks = 3000;
-constexpr double kOverlooked = 0.8, kOnward = 0.6;
+constexpr double kOverlooked = 0.9, kLeastOnward = 0.5, kMostOnward = 0.9;
 constexpr int kMostTurns = 3;
 // Cells of sources are divided while their score is above this times the error.
 constexpr double kFinestScore = 1;
@@ -84,7 +84,7 @@ PointIrradiance ShownMesh::BetterIrradiance(const RadiositySolution& solution) {
 }
 
 SourceCells ShownMesh::Cells(const RadiositySolution& solution) {
-  return SourceCells(solution, forest_, triangulations_, mesh_, *irradiance_.Get(),
+  return SourceCells(solution, plan_.forest, triangulations_, mesh_, *irradiance_.Get(),
                      kFinestScore * options_.error);
 }
 
@@ -119,7 +119,7 @@ bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& 
   Add(result.report);
   mesh_ = std::move(result.mesh);
   triangulations_ = std::move(result.triangulations);
-  forest_ = solution.forest;
+  plan_ = {solution.forest, {}};
   triangle_errors_.clear();
   return true;
 }
@@ -180,27 +180,28 @@ void ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOption
   for (int turn = 1; refined && turn <= kMostTurns && refined->share_above <= kShareAbove; ++turn) {
     const std::size_t points =
         std::clamp(refined->report.counts.point_evaluations / kEvaluationsALook, kFewestLooks, kMostLooks);
-    if (!Overlooks(points, options_.seed + 1 + static_cast<std::uint64_t>(turn), tolerance)) return;
-    onward *= kOnward;
+    const double seen = LookAround(points, options_.seed + 1 + static_cast<std::uint64_t>(turn), tolerance);
+    if (seen <= kOverlooked * options_.error) return;
+    onward *= std::clamp(kOverlooked * options_.error / seen, kLeastOnward, kMostOnward);
     refined = Refine(solution, options, onward, tolerance, &samples, context);
   }
   if (!refined || onward < error) return;  // what is left is measured
   double area = 0;
-  for (const ElementId leaf : refined->unmet) area += forest_[leaf].area;
+  for (const ElementId leaf : refined->unmet) area += plan_.forest[leaf].area;
   unmet_ = fmt::format(
       "interpolants: triangles on {:.2g} of the area err by more than {:.3g}; {} leaves of {:.3g} m^2 "
       "together have the smallest area",
       refined->share_above, error, refined->unmet.size(), area);
 }
 
-// Whether so many random points see more of the interpolants err than those did that refined the mesh.
-bool ShownMesh::Overlooks(std::size_t points, std::uint64_t seed, double tolerance) {
+// The 99th percentile of the interpolants' error as so many random points see it, at most.
+double ShownMesh::LookAround(std::size_t points, std::uint64_t seed, double tolerance) {
   const Stopwatch stopwatch;
   const RepresentationError seen =
       MeasureRepresentationError(scene_, mesh_, Sampler(tolerance), points, seed);
   report_.counts.point_evaluations += points;
   report_.seconds.interpolate += stopwatch.Seconds();
-  return seen.p99 > kOverlooked * options_.error;
+  return seen.p99_at_most;
 }
 
 // Refines the leaves of the present mesh until their interpolants err by no more than `error`, and makes it
@@ -217,11 +218,11 @@ std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, 
   refinement.min_area = options_.solver.min_area;
   refinement.samples = options_.error_samples;
   RefinedMesh refined = RefineMesh(visibility_, solution, Sampler(tolerance), options, refinement, context,
-                                   &LocalPass(), &forest_, samples);
+                                   &LocalPass(), &plan_, samples);
   if (context.Cancelled()) return std::nullopt;
   mesh_ = std::move(refined.mesh);
   triangulations_ = std::move(refined.triangulations);
-  forest_ = std::move(refined.forest);
+  plan_ = std::move(refined.plan);
   triangle_errors_ = std::move(refined.errors);
   Add(refined.report);
   return refined;

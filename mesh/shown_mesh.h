@@ -81,7 +81,7 @@ class ShownMesh {
   std::optional<RefinedMesh> Refine(const RadiositySolution& solution, const MeshOptions& options,
                                     double error, double tolerance, SampleCache* samples,
                                     const ExecutionContext& context);
-  bool Overlooks(std::size_t points, std::uint64_t seed, double tolerance);
+  double LookAround(std::size_t points, std::uint64_t seed, double tolerance);
   SourceCells Cells(const RadiositySolution& solution);
   IrradianceSampler Sampler(double tolerance);
   LocalPassCache& LocalPass();
@@ -94,7 +94,7 @@ class ShownMesh {
 
   IrradianceMesh mesh_;
   std::vector<PatchTriangulation> triangulations_;
-  ElementForest forest_;  // whose leaves they are
+  MeshPlan plan_;  // that they were made of
   std::vector<TriangleError> triangle_errors_;
   std::unique_ptr<LocalPassCache> local_pass_;  // of the present visibility
   MeshReport report_;

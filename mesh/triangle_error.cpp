@@ -30,6 +30,10 @@ std::vector<std::array<double, 2>> PlacesOfSamples(int samples) {
   return places;
 }
 
+double TwiceArea(const IrradianceMesh& mesh, std::uint32_t t) {
+  return (Corner(mesh, t, 1) - Corner(mesh, t, 0)).cross(Corner(mesh, t, 2) - Corner(mesh, t, 0)).norm();
+}
+
 // The gradient of the interpolant in space [W/m^3]: one row a channel.
 Eigen::Matrix3d GradientAt(const IrradianceMesh& mesh, std::uint32_t t, double s, double u) {
   const QuadraticInterpolant& q = mesh.irradiance[t];
@@ -133,12 +137,18 @@ std::vector<double> GuessTriangleErrors(const Scene& scene, const IrradianceMesh
   return guess;
 }
 
+double AreaAbove(const IrradianceMesh& mesh, std::span<const TriangleError> errors, double error) {
+  double twice = 0;
+  for (std::uint32_t t = 0; t < errors.size(); ++t)
+    if (errors[t].max > error) twice += TwiceArea(mesh, t);
+  return 0.5 * twice;
+}
+
 Rgb MeanIrradiance(const IrradianceMesh& mesh) {
   Rgb sum = Rgb::Zero();
   double area = 0;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const double a =
-        (Corner(mesh, t, 1) - Corner(mesh, t, 0)).cross(Corner(mesh, t, 2) - Corner(mesh, t, 0)).norm();
+    const double a = TwiceArea(mesh, t);
     const QuadraticInterpolant& q = mesh.irradiance[t];
     sum += a / 3 * (q.At(0.5, 0) + q.At(0.5, 0.5) + q.At(0, 0.5));
     area += a;

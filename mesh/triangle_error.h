@@ -38,6 +38,9 @@ MeasuredTriangles MeasureTriangles(const Scene& scene, const IrradianceMesh& mes
 // TriangleError::max; a guide to where to measure. Edges on discontinuities tell nothing.
 std::vector<double> GuessTriangleErrors(const Scene& scene, const IrradianceMesh& mesh, const Rgb& mean);
 
+// The area of the triangles whose largest error is above that [m^2].
+double AreaAbove(const IrradianceMesh& mesh, std::span<const TriangleError> errors, double error);
+
 // The area-weighted mean of the interpolants, by channel [W/m^2].
 Rgb MeanIrradiance(const IrradianceMesh& mesh);
 

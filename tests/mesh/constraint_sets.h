@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "mesh/leaf_lines.h"
 #include "mesh/leaf_triangulation.h"
 #include "mesh_test_scenes.h"
 #include "solver/base/check.h"

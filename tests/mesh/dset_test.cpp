@@ -234,6 +234,60 @@ TEST(ActivateDiscontinuities, WeighsByTheMeanSquare) {
     }
 }
 
+// What is too light is told, leaf by leaf, and becomes active when it is wanted; not where it would crowd a
+// leaf, nor where it weighs less than refinement may ask for.
+TEST(ActivateDiscontinuities, WantedOnesNeedNoWeight) {
+  const QuarteredSquare square;
+  DiscontinuityOptions options = ByIrradiance(2);
+  options.min_weight = 1;
+  options.min_wanted_weight = 0.01;
+  std::vector<Discontinuity> found = {Kink({0.25, 0.05}, {0.25, 0.45}, 100, 0),
+                                      Kink({0.05, 0.25}, {0.95, 0.25}, 1, 1),
+                                      Kink({0.05, 0.75}, {0.45, 0.75}, 1e-3, 2)};
+  PatchDSets dsets = ActivateDiscontinuities(square.forest, 0, found, options);
+  EXPECT_EQ(dsets.activated, 1U);
+  ASSERT_EQ(dsets.omitted.size(), 1U);
+  const OmittedDiscontinuity& omitted = dsets.omitted[0];
+  EXPECT_EQ(omitted.number, 1U);
+  EXPECT_EQ(omitted.leaves, 2U);
+  ASSERT_EQ(omitted.parts.size(), 2U);
+  for (const OmittedPart& part : omitted.parts) {
+    EXPECT_DOUBLE_EQ(part.jump.kink.gradient, 1);
+    EXPECT_LE(std::abs(part.to.x() - part.from.x()), 0.5);
+  }
+  // On a triangle half of which it cuts off.
+  const Polygon2 triangle = {{0.5, 0}, {1, 0}, {0.5, 0.5}};
+  EXPECT_DOUBLE_EQ(ErrorOnPiece(omitted.parts[1], triangle), kKinkError * 0.5);
+
+  found[1].wanted = true;
+  dsets = ActivateDiscontinuities(square.forest, 0, found, options);
+  EXPECT_EQ(dsets.activated, 2U);
+  EXPECT_TRUE(dsets.omitted.empty());
+  TriangulateLeaves(square.forest, 0, dsets).Validate(square.scene.patches[0]);
+
+  found[1].wanted = false;
+  options.max_leaf_dsets = 1;
+  EXPECT_TRUE(ActivateDiscontinuities(square.forest, 0, found, options).omitted.empty());
+}
+
+// An error counts as often as its leaf says: of two equal kinks the one in the dark goes first, and alone
+// weighs enough.
+TEST(ActivateDiscontinuities, ErrorsCountBesideTheLight) {
+  const QuarteredSquare square;
+  DiscontinuityOptions options = ByIrradiance(10);
+  const std::vector<Discontinuity> found = {Kink({0.05, 0.25}, {0.45, 0.25}, 1, 0),
+                                            Kink({0.55, 0.75}, {0.95, 0.75}, 1, 1)};
+  // Leaves begin at the corner (0, 0).
+  const ElementId dark = square.forest[ElementForest::Root(0)].first_child + 2;
+  const ErrorScale scale = [&](ElementId leaf) { return leaf == dark ? 3.0 : 1.0; };
+  const PatchDSets both = ActivateDiscontinuities(square.forest, 0, found, options, {}, scale);
+  ASSERT_EQ(both.lines.size(), 2U);
+  EXPECT_NEAR(both.lines[0].origin.y(), 0.75, 1e-12);
+  options.min_weight = 2 * kKinkError * 0.5;
+  EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options, {}, scale).activated, 1U);
+  EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options).activated, 0U);
+}
+
 // The sums hold place by place, turned round or not, and those of second degree keep their sense.
 TEST(LineJumps, AddUpPlaceByPlace) {
   const std::vector<DiscontinuityLine> lines = {{{{0, 0}, {1, 0}}, {}, {}}};

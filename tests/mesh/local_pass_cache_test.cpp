@@ -92,7 +92,7 @@ struct Office {
   std::vector<PatchTriangulation> Triangulate(const ElementForest& forest, MeshReport& report,
                                               LocalPassCache* cache) const {
     report = {};
-    return TriangulatePatches(visibility, solution, forest, mesh, {}, report, cache);
+    return TriangulatePatches(visibility, solution, {forest, {}}, mesh, {}, report, cache);
   }
 
   Scene scene;

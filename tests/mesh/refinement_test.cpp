@@ -12,6 +12,7 @@
 #include "mesh/local_pass.h"
 #include "mesh/mesh_refinement.h"
 #include "mesh/pipeline.h"
+#include "mesh/refinement_step.h"
 #include "mesh/source_cells.h"
 #include "mesh/source_cut.h"
 #include "solver/base/parallel.h"
@@ -45,7 +46,7 @@ struct Solved {
     pipeline.Solve({});
     MeshReport report;
     triangulations = TriangulatePatches(pipeline.visibility(), pipeline.solution(),
-                                        pipeline.solution().forest, {}, {}, report);
+                                        {pipeline.solution().forest, {}}, {}, {}, report);
     mesh = BuildIrradianceMesh(scene, triangulations, InterpolantOrder::kQuadratic, Sampler(), {}).mesh;
   }
   static PipelineOptions Transport(double error) {
@@ -340,7 +341,7 @@ TEST(Refinement, KeepsSamplesAndSolution) {
   EXPECT_LT(fine.share_above, coarse.share_above);
   EXPECT_GT(fine.mesh.triangles.size(), coarse.mesh.triangles.size());
   EXPECT_EQ(fine.report.counts.point_evaluations, calls);
-  EXPECT_EQ(before.forest.size(), coarse.forest.size());
+  EXPECT_EQ(before.forest.size(), coarse.plan.forest.size());
   // From nothing, the final mesh alone takes this many: the rounds before it shared nearly all of theirs.
   SampleCache cache;
   const BuiltMesh once =
@@ -355,6 +356,56 @@ TEST(Refinement, KeepsSamplesAndSolution) {
   EXPECT_EQ(std::memcmp(once.mesh.irradiance.data(), fine.mesh.irradiance.data(),
                         once.mesh.irradiance.size() * sizeof(QuadraticInterpolant)),
             0);
+}
+
+// The best for its cost comes first, what another has helped counts once, and enough is enough.
+TEST(RefinementSteps, AreChosenByWhatTheyMendForTheirCost) {
+  const auto step = [](double cost, std::vector<RefinementStep::Mended> mended) {
+    RefinementStep s;
+    s.cost = cost;
+    s.mended = std::move(mended);
+    return s;
+  };
+  const std::vector<RefinementStep> steps = {step(10, {{0, 1}, {1, 1}, {2, 1}}),  // 0.3
+                                             step(2, {{0, 1}, {1, 1}}),           // 1
+                                             step(1, {{3, 0.5}}),                 // 0.5
+                                             step(10, {{4, 1}, {5, 1}})};         // 0.2
+  EXPECT_EQ(ChooseRefinementSteps(steps, 100), (std::vector<std::size_t>{1, 2, 3}));
+  EXPECT_EQ(ChooseRefinementSteps(steps, 2.5), (std::vector<std::size_t>{1, 2}));
+  EXPECT_EQ(ChooseRefinementSteps(steps, 2), (std::vector<std::size_t>{1}));
+  EXPECT_TRUE(ChooseRefinementSteps(steps, 0).empty());
+}
+
+// A mesh that begins with contacts alone asks for the edges of shadows where they tell of its errors; one
+// that may not ask has to divide leaves along them, and takes more triangles and evaluations for the same
+// error.
+TEST(Refinement, AsksForEdgesThatAreMissing) {
+  Solved solved(0.1);
+  MeshOptions mesh;
+  mesh.discontinuities.weight = DiscontinuityWeight::kIrradiance;
+  mesh.discontinuities.min_weight = 1e9;
+  MeshRefinementOptions options;
+  options.error = 0.01;
+  const auto refine = [&](double min_wanted_weight, const MeshPlan* start) {
+    mesh.discontinuities.min_wanted_weight = min_wanted_weight;
+    return RefineMesh(solved.pipeline.visibility(), solved.pipeline.solution(), solved.Sampler(), mesh,
+                      options, ExecutionContext(), nullptr, start);
+  };
+  const RefinedMesh with = refine(1e-3, nullptr), without = refine(1e9, nullptr);
+  std::size_t wanted = 0;
+  for (const auto& patch : with.plan.wanted) wanted += patch.size();
+  std::printf("%zu edges wanted: %zu triangles, %zu evaluations; without %zu, %zu\n", wanted,
+              with.mesh.triangles.size(), with.report.counts.point_evaluations, without.mesh.triangles.size(),
+              without.report.counts.point_evaluations);
+  EXPECT_GE(wanted, 1U);
+  EXPECT_LE(with.share_above, kShareAbove);
+  EXPECT_LE(without.share_above, kShareAbove);
+  EXPECT_LT(with.mesh.triangles.size(), without.mesh.triangles.size());
+  EXPECT_LT(with.report.counts.point_evaluations, without.report.counts.point_evaluations);
+  for (const PatchTriangulation& patch : with.triangulations)
+    patch.Validate(solved.scene.patches[static_cast<std::size_t>(patch.patch)]);
+  // Begun with what was asked for, nothing more is.
+  EXPECT_EQ(refine(1e-3, &with.plan).mesh.triangles.size(), with.mesh.triangles.size());
 }
 
 // The same bytes for any number of threads.
