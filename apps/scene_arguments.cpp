@@ -30,6 +30,7 @@ constexpr std::uint64_t kMaxErrorPoints = 100'000'000;
 constexpr const char *kSceneGroup = "Scene", *kSolvingGroup = "Solving";
 constexpr const char* kAcceleration = "acceleration";  // among the options used; the flag turns it off
 constexpr int kMaxErrorSamples = 100;
+constexpr int kMostCornerDivisions = 20;
 constexpr NumberRule kBelowOne{[](double x) { return x >= 0 && x < 1; }, "a number in [0, 1)"};
 constexpr Choice<IterationScheme> kSchemes[] = {{"jacobi", IterationScheme::kJacobi},
                                                 {"gauss-seidel", IterationScheme::kGaussSeidel}};
@@ -188,6 +189,13 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
       ->group(group);
   app.add_flag("--keep-hidden-discontinuities", solving->keep_hidden_discontinuities,
                "Also those parts that end at another blocker on their way, as in the thesis")
+      ->group(group);
+  AddNumber(app, "--min-wanted-weight", &solving->min_wanted_weight, kNonNegative,
+            "Least weight of a discontinuity that refinement may ask for where it mends more than dividing "
+            "leaves [W/m^2] (default: follows from --error; none where the smallest weight is given)")
+      ->group(group);
+  AddInteger(app, "--corner-divisions", &solving->corner_divisions, 0, kMostCornerDivisions,
+             "Divide leaves of the mesh so many times towards the ends of contact edges")
       ->group(group);
   AddNumber(app, "--eee", &solving->triple_edge_tolerance, kNonNegative,
             "Also triple-edge (EEE) discontinuities, as polylines that keep within so many metres of them; "
@@ -353,6 +361,8 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["discontinuities"] = ChoiceName(kDiscontinuityChoices, mesh.choice);
     options["weight"] = ChoiceName(kDiscontinuityWeights, mesh.weight);
     options["min_discontinuity_weight"] = mesh.min_weight;
+    options["min_wanted_weight"] = mesh.min_wanted_weight;
+    options["corner_divisions"] = mesh.corner_divisions;
     options["max_leaf_dsets"] = mesh.max_leaf_dsets;
     options["keep_hidden_discontinuities"] = mesh.keep_hidden;
     options["eee"] = mesh.triple_edge_tolerance;
@@ -448,6 +458,9 @@ PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   solving.min_area = options.at("min_area").get<double>();
   solving.min_discontinuity_weight = options.at("min_discontinuity_weight").get<double>();
   options.at("max_leaf_dsets").get_to(solving.max_leaf_dsets);
+  // In older files refinement asked for none, and no leaf was divided towards corners.
+  solving.min_wanted_weight = options.value("min_wanted_weight", *solving.min_discontinuity_weight);
+  solving.corner_divisions = options.value("corner_divisions", 0);
   // Files from before there was a choice are of the thesis's kind.
   solving.weight = ChoiceValue(kDiscontinuityWeights, options.value("weight", "thesis"));
   solving.discontinuities = ChoiceValue(kDiscontinuityChoices, options.value("discontinuities", "ranked"));

@@ -6,7 +6,8 @@
 namespace penumbra {
 
 DiscontinuityList ListDiscontinuities(const RadiositySolution& solution, const PatchVisibility& visibility,
-                                      const DiscontinuityOptions& options, const ExecutionContext& context) {
+                                      DiscontinuityOptions options, const ExecutionContext& context) {
+  if (options.can_want()) options.min_weight = options.min_wanted_weight;
   const Scene& scene = solution.forest.scene();
   const std::vector<double> strength = SourceStrengths(solution);
   const DiscontinuityFinder finder(scene, visibility);

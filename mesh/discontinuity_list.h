@@ -20,9 +20,9 @@ struct DiscontinuityList {
   std::vector<std::array<Vec3, 2>> ends;  // of each, in space [m]
 };
 
-// What DiscontinuityFinder::Find() finds on all patches, for the radiosities of the solution. Those of the
-// first receivers, if it was cancelled.
+// What DiscontinuityFinder::Find() finds on all patches, for the radiosities of the solution, with those that
+// refinement may ask for. Those of the first receivers, if it was cancelled.
 DiscontinuityList ListDiscontinuities(const RadiositySolution& solution, const PatchVisibility& visibility,
-                                      const DiscontinuityOptions& options, const ExecutionContext& context);
+                                      DiscontinuityOptions options, const ExecutionContext& context);
 
 }  // namespace penumbra

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "mesh/contact_corners.h"
 #include "mesh/dset.h"
 #include "mesh/shadow_crossing.h"
 #include "mesh/weld.h"
@@ -131,8 +132,11 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
   });
   report.counts.pairs_traced += cache->discontinuities.counts().traced - before.traced;
   report.counts.pairs_kept += cache->discontinuities.counts().kept - before.kept;
-  // Crowded leaves are split in quadtrees of the mesh's own.
+  // Crowded leaves, and those at corners, are split in quadtrees of the mesh's own.
   ElementForest forest = plan.forest;
+  for (std::size_t p = 0; p < count && options.corner_divisions > 0; ++p)
+    DivideTowards(ContactEnds(scene.patches[p], found[p]), options.corner_divisions, options.min_split_area,
+                  static_cast<PatchId>(p), forest);
   std::vector<std::size_t> patches_to_do(count);
   std::iota(patches_to_do.begin(), patches_to_do.end(), std::size_t{0});
   for (int round = 0; !patches_to_do.empty() && !context.Cancelled(); ++round) {

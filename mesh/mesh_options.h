@@ -43,6 +43,9 @@ struct DiscontinuityOptions {
   // 0: not, as in the thesis. None becomes smaller than the area [m^2].
   int crowded_splits = 0;
   double min_split_area = 0;
+  // Leaves where a contact edge ends are divided so many times towards the end, for no polynomial fits there;
+  // none beyond the same area.
+  int corner_divisions = 0;
 
   bool enabled() const { return choice != DiscontinuityChoice::kNone; }
   bool can_want() const {

@@ -42,6 +42,7 @@ struct PipelineOptions {
   std::optional<double> eps;                       // [W/m^2] thesis, Appendix A, 1
   std::optional<double> min_area;                  // [m^2] Appendix A, 2
   std::optional<double> min_discontinuity_weight;  // [W/m^2] Appendix A, 4
+  std::optional<double> min_wanted_weight;         // [W/m^2] DiscontinuityOptions::min_wanted_weight
   int max_leaf_dsets = 10;                         // Appendix A, 5
   // Which discontinuities the mesh gets. The weight is the thesis's where its minimum is given, for that is
   // on its scale; else the irradiance weight.
@@ -49,6 +50,7 @@ struct PipelineOptions {
   std::optional<DiscontinuityWeight> weight;
   bool keep_hidden_discontinuities = false;
   double triple_edge_tolerance = 0;       // DiscontinuityOptions::triple_edge_tolerance [m]
+  int corner_divisions = 0;               // DiscontinuityOptions::corner_divisions
   std::optional<double> relative_cutoff;  // Appendix A, 7
   int error_samples = 1;                  // Appendix A, 8: MeasureTriangles()
   RefineBy refine = RefineBy::kBoth;

@@ -70,6 +70,7 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   mesh.choice = options.discontinuities;
   mesh.weight = options.weight.value_or(options.min_discontinuity_weight ? DiscontinuityWeight::kThesis
                                                                          : DiscontinuityWeight::kIrradiance);
+  std::optional<double> min_wanted_weight = options.min_wanted_weight;
   if (options.min_discontinuity_weight) {
     mesh.min_weight = *options.min_discontinuity_weight;
   } else if (mesh.weight == DiscontinuityWeight::kThesis) {
@@ -78,8 +79,10 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
     mesh.min_weight = kWeightOfMeanIrradiance * options.error * mean;
   } else {
     mesh.min_weight = kWeightFromTheStart * options.error * mean;
-    mesh.min_wanted_weight = kWantedWeight * options.error * mean;
+    if (!min_wanted_weight) min_wanted_weight = kWantedWeight * options.error * mean;
   }
+  mesh.min_wanted_weight = min_wanted_weight.value_or(mesh.min_weight);
+  mesh.corner_divisions = options.corner_divisions;
   mesh.max_leaf_dsets = options.max_leaf_dsets;
   mesh.keep_hidden = options.keep_hidden_discontinuities;
   mesh.triple_edge_tolerance = options.triple_edge_tolerance;

@@ -133,6 +133,12 @@ void Viewer::AddSolveSettings() {
   s.Add(Optional(
       "min-discontinuity-weight", "Minimum discontinuity weight [W/m^2]", &o.min_discontinuity_weight, 0,
       [this] { return Resolve(*snapshot_->scene, options_.solving).discontinuities.min_weight; }, changed));
+  s.Add(Optional(
+      "min-wanted-weight", "Minimum weight that refinement may want [W/m^2]", &o.min_wanted_weight, 0,
+      [this] { return Resolve(*snapshot_->scene, options_.solving).discontinuities.min_wanted_weight; },
+      changed));
+  also(s.Integer("corner-divisions", "Solving", "Divisions towards ends of contacts", &o.corner_divisions, 0,
+                 20));
   also(s.Choice("refine", "Solving", "Refine by", &o.refine, {"transport", "representation", "both"}));
   also(s.Choice("mesh-discontinuities", "Solving", "Discontinuities in the mesh", &o.discontinuities,
                 {"ranked", "adaptive", "none", "random", "all"}));

@@ -8,6 +8,7 @@ extern const Study kFormFactorStudy;
 extern const Study kHierarchicalStudy;
 extern const Study kContinuousRadiosityStudy;
 extern const Study kDiscontinuityStudy;
+extern const Study kContactCornerStudy;
 extern const Study kInterpolantOrderStudy;
 extern const Study kRefinementStudy;
 extern const Study kErrorLadderStudy;
@@ -24,6 +25,7 @@ const std::vector<const Study*>& Studies() {
       &kHierarchicalStudy,         // 4.4.1
       &kContinuousRadiosityStudy,  // 4, against what is known exactly
       &kDiscontinuityStudy,        // 5
+      &kContactCornerStudy,        // 5, where edges end
       &kInterpolantOrderStudy,     // 3.2, 3.3
       &kRefinementStudy,           // 4.4.2
       &kErrorLadderStudy,          // 4.4.2, what a user is promised

@@ -30,6 +30,8 @@ TEST(Help, ListsEveryOption) {
                                             "--eps",
                                             "--min-area",
                                             "--min-discontinuity-weight",
+                                            "--min-wanted-weight",
+                                            "--corner-divisions N=0",
                                             "--max-leaf-dsets",
                                             "--weight",
                                             "--eee X=0",
