@@ -190,9 +190,11 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
   app.add_flag("--keep-hidden-discontinuities", solving->keep_hidden_discontinuities,
                "Also those parts that end at another blocker on their way, as in the thesis")
       ->group(group);
-  AddNumber(app, "--min-wanted-weight", &solving->min_wanted_weight, kNonNegative,
-            "Least weight of a discontinuity that refinement may ask for where it mends more than dividing "
-            "leaves [W/m^2] (default: follows from --error; none where the smallest weight is given)")
+  AddNumber(
+      app, "--min-wanted-weight", &solving->min_wanted_weight, kNonNegative,
+      "Least error on a leaf for whose sake refinement may ask for a discontinuity, where that mends more "
+      "than dividing leaves; it begins with those of twice the smallest weight [W/m^2] (default: follows "
+      "from --error; none where the smallest weight is given)")
       ->group(group);
   AddInteger(app, "--corner-divisions", &solving->corner_divisions, 0, kMostCornerDivisions,
              "Divide leaves of the mesh so many times towards the ends of contact edges")

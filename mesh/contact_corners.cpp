@@ -2,25 +2,17 @@
 
 #include <algorithm>
 
-#include "mesh/leaf_lines.h"
+#include "solver/geometry/polygon.h"
 #include "solver/scene/tolerances.h"
 
 namespace penumbra {
 namespace {
 
-bool Holds(const Polygon2& outline, const Vec2& point, double snap) {
-  for (std::size_t k = 0; k < outline.size(); ++k) {
-    const Vec2 side = (outline[(k + 1) % outline.size()] - outline[k]).normalized();
-    if (Cross2(side, point - outline[k]) < -snap) return false;
-  }
-  return true;
-}
-
 // Divides towards one end of a contact after the other.
 class Divider {
  public:
   Divider(PatchId patch, int divisions, double min_area, ElementForest& forest)
-      : frame_(PolygonFrame(forest.scene().patches[static_cast<std::size_t>(patch)].Vertices())),
+      : normal_(forest.scene().patches[static_cast<std::size_t>(patch)].normal),
         snap_(SnapDistance(forest.scene().patches[static_cast<std::size_t>(patch)])),
         divisions_(divisions),
         min_area_(min_area),
@@ -28,8 +20,8 @@ class Divider {
         forest_(forest) {}
 
   // `deepest` is the level down to which leaves are divided, known below what was a leaf.
-  void Divide(const Vec2& end, ElementId id, int deepest = 0) {
-    if (!Holds(LeafOutline(forest_[id], frame_), end, snap_)) return;
+  void Divide(const Vec3& end, ElementId id, int deepest = 0) {
+    if (!ConvexContains(forest_[id].Vertices(), normal_, end, snap_)) return;
     const bool is_leaf = forest_[id].IsLeaf();
     const bool was_leaf = id < first_new_ && (is_leaf || forest_[id].first_child >= first_new_);
     if (was_leaf) deepest = forest_[id].level + divisions_;
@@ -44,7 +36,7 @@ class Divider {
   }
 
  private:
-  const Frame frame_;
+  const Vec3 normal_;
   const double snap_;
   const int divisions_;
   const double min_area_;
@@ -69,8 +61,9 @@ std::vector<Vec2> ContactEnds(const Patch& patch, std::span<const Discontinuity>
 void DivideTowards(std::span<const Vec2> ends, int divisions, double min_area, PatchId patch,
                    ElementForest& forest) {
   if (divisions == 0 || ends.empty()) return;
+  const Frame frame = PolygonFrame(forest.scene().patches[static_cast<std::size_t>(patch)].Vertices());
   Divider divider(patch, divisions, min_area, forest);
-  for (const Vec2& end : ends) divider.Divide(end, ElementForest::Root(patch));
+  for (const Vec2& end : ends) divider.Divide(frame.FromPlane(end), ElementForest::Root(patch));
   forest.Balance(patch);
 }
 

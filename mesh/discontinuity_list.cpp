@@ -1,19 +1,23 @@
 #include "mesh/discontinuity_list.h"
 
+#include "mesh/light_beside.h"
 #include "mesh/local_pass.h"
 #include "solver/base/parallel.h"
 
 namespace penumbra {
 
 DiscontinuityList ListDiscontinuities(const RadiositySolution& solution, const PatchVisibility& visibility,
-                                      DiscontinuityOptions options, const ExecutionContext& context) {
-  if (options.can_want()) options.min_weight = options.min_wanted_weight;
+                                      const DiscontinuityOptions& options, const ExecutionContext& context) {
   const Scene& scene = solution.forest.scene();
   const std::vector<double> strength = SourceStrengths(solution);
   const DiscontinuityFinder finder(scene, visibility);
   std::vector<std::vector<Discontinuity>> found(scene.patches.size());
+  const LightBeside light(solution, options.weight);
   ParallelFor(found.size(), 1, [&](std::size_t p) {
-    if (!context.Cancelled()) found[p] = finder.Find(static_cast<PatchId>(p), strength, options);
+    if (context.Cancelled()) return;
+    DiscontinuityOptions finding = options;
+    finding.min_weight = options.LeastWeight() / light.LargestScale(static_cast<PatchId>(p));
+    found[p] = finder.Find(static_cast<PatchId>(p), strength, finding);
   });
   DiscontinuityList list;
   for (std::size_t p = 0; p < found.size(); ++p) {

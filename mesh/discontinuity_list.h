@@ -20,9 +20,10 @@ struct DiscontinuityList {
   std::vector<std::array<Vec3, 2>> ends;  // of each, in space [m]
 };
 
-// What DiscontinuityFinder::Find() finds on all patches, for the radiosities of the solution, with those that
-// refinement may ask for. Those of the first receivers, if it was cancelled.
+// What may become an edge of the mesh, if only because refinement asks for it: what
+// DiscontinuityFinder::Find() finds on all patches, for the radiosities of the solution. Those of the first
+// receivers, if it was cancelled.
 DiscontinuityList ListDiscontinuities(const RadiositySolution& solution, const PatchVisibility& visibility,
-                                      DiscontinuityOptions options, const ExecutionContext& context);
+                                      const DiscontinuityOptions& options, const ExecutionContext& context);
 
 }  // namespace penumbra

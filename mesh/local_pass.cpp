@@ -1,13 +1,13 @@
 #include "mesh/local_pass.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "mesh/contact_corners.h"
 #include "mesh/dset.h"
+#include "mesh/light_beside.h"
 #include "mesh/shadow_crossing.h"
 #include "mesh/weld.h"
 #include "solver/base/parallel.h"
@@ -25,46 +25,6 @@ std::vector<double> SourceStrengths(const RadiositySolution& solution) {
 
 namespace {
 
-// Errors count beside the light of the solution that they are part of: in the dark, more. The thesis's weight
-// does not tell of errors, and counts alike everywhere.
-class LightBeside {
- public:
-  LightBeside(const RadiositySolution& solution, DiscontinuityWeight weight)
-      : solution_(solution),
-        darkest_(solution.forest.scene().patches.size(), std::numeric_limits<double>::infinity()) {
-    if (weight == DiscontinuityWeight::kThesis) return;
-    double area = 0;
-    for (std::size_t i = 0; i < solution.irradiance.size(); ++i) {
-      const Element& element = solution.forest.elements()[i];
-      if (!element.IsLeaf()) continue;
-      const double light = solution.irradiance[i].maxCoeff();
-      double& darkest = darkest_[static_cast<std::size_t>(element.patch)];
-      darkest = std::min(darkest, light);
-      mean_ += element.area * light;
-      area += element.area;
-    }
-    if (area > 0) mean_ /= area;
-  }
-
-  // Over the leaves of the patch.
-  double LargestScale(PatchId patch) const { return Scale(darkest_[static_cast<std::size_t>(patch)]); }
-
-  // Of a leaf of the forest, which was grown from the solution's.
-  double ScaleOf(const ElementForest& forest, ElementId leaf) const {
-    while (static_cast<std::size_t>(leaf) >= solution_.irradiance.size()) leaf = forest[leaf].parent;
-    return Scale(solution_.irradiance[static_cast<std::size_t>(leaf)].maxCoeff());
-  }
-
- private:
-  static constexpr double kDarkest = 0.05;  // of the mean: means of leaves are all that is known here
-
-  double Scale(double light) const { return mean_ > 0 ? mean_ / std::max(light, kDarkest * mean_) : 1; }
-
-  const RadiositySolution& solution_;
-  std::vector<double> darkest_;  // per patch [W/m^2]
-  double mean_ = 0;              // over the leaves [W/m^2]
-};
-
 PatchDSets Activate(const ElementForest& forest, const PatchVisibility& visibility, PatchId patch,
                     std::span<const Discontinuity> found, const DiscontinuityOptions& options,
                     const LightBeside& light) {
@@ -79,14 +39,14 @@ PatchDSets Activate(const ElementForest& forest, const PatchVisibility& visibili
 }
 
 // The discontinuities on the patch that may become edges, those of the plan marked.
-std::vector<Discontinuity> FindOnPatch(PatchId patch, std::span<const double> strength, const MeshPlan& plan,
-                                       DiscontinuityOptions options, double largest_scale,
-                                       LocalPassCache* cache) {
-  if (options.can_want()) options.min_weight = options.min_wanted_weight;
-  options.min_weight /= largest_scale;
-  std::vector<Discontinuity> found = cache->discontinuities.Find(patch, strength, options);
+std::vector<Discontinuity> FindOnPatch(PatchId patch, std::span<const double> strength,
+                                       const LightBeside& light, const MeshPlan& plan,
+                                       const DiscontinuityOptions& options, LocalPassCache* cache) {
+  DiscontinuityOptions finding = options;
+  finding.min_weight = options.LeastWeight() / light.LargestScale(patch);
+  std::vector<Discontinuity> found = cache->discontinuities.Find(patch, strength, finding);
   if (static_cast<std::size_t>(patch) >= plan.wanted.size()) return found;
-  for (const Discontinuity& wanted : plan.wanted[patch])
+  for (const Discontinuity& wanted : plan.wanted[static_cast<std::size_t>(patch)])
     for (Discontinuity& d : found) d.wanted |= SameTrace(d, wanted);
   return found;
 }
@@ -107,6 +67,18 @@ std::size_t SplitCrowded(ElementForest& forest, PatchId patch, std::span<const E
 
 }  // namespace
 
+MeshPlan BeginPlan(const PatchVisibility& visibility, const RadiositySolution& solution,
+                   const DiscontinuityOptions& options) {
+  MeshPlan plan = {solution.forest, {}};
+  if (!options.enabled() || options.corner_divisions == 0) return plan;
+  const Scene& scene = solution.forest.scene();
+  const DiscontinuityFinder finder(scene, visibility);
+  for (PatchId p = 0; p < static_cast<PatchId>(scene.patches.size()); ++p)
+    DivideTowards(ContactEnds(scene.patches[static_cast<std::size_t>(p)], finder.FindContacts(p, options)),
+                  options.corner_divisions, options.min_split_area, p, plan.forest);
+  return plan;
+}
+
 std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibility,
                                                    const RadiositySolution& solution, const MeshPlan& plan,
                                                    const DiscontinuityOptions& options,
@@ -115,6 +87,7 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
                                                    std::vector<OmittedOfPatch>* omitted) {
   const Scene& scene = solution.forest.scene();
   const std::size_t count = scene.patches.size();
+  if (omitted) omitted->clear();
 
   context.Report("discontinuities", 0);
   Stopwatch finding;
@@ -127,16 +100,12 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
   const DiscontinuityCache::Counts before = cache->discontinuities.counts();
   ParallelFor(count, 1, [&](std::size_t p) {
     if (options.enabled() && !context.Cancelled())
-      found[p] = FindOnPatch(static_cast<PatchId>(p), strength, plan, options,
-                             light.LargestScale(static_cast<PatchId>(p)), cache);
+      found[p] = FindOnPatch(static_cast<PatchId>(p), strength, light, plan, options, cache);
   });
   report.counts.pairs_traced += cache->discontinuities.counts().traced - before.traced;
   report.counts.pairs_kept += cache->discontinuities.counts().kept - before.kept;
-  // Crowded leaves, and those at corners, are split in quadtrees of the mesh's own.
+  // Crowded leaves are split in quadtrees of the mesh's own.
   ElementForest forest = plan.forest;
-  for (std::size_t p = 0; p < count && options.corner_divisions > 0; ++p)
-    DivideTowards(ContactEnds(scene.patches[p], found[p]), options.corner_divisions, options.min_split_area,
-                  static_cast<PatchId>(p), forest);
   std::vector<std::size_t> patches_to_do(count);
   std::iota(patches_to_do.begin(), patches_to_do.end(), std::size_t{0});
   for (int round = 0; !patches_to_do.empty() && !context.Cancelled(); ++round) {
@@ -196,8 +165,9 @@ MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySoluti
                         const IrradianceSampler& sampler, const MeshOptions& options,
                         const ExecutionContext& context, LocalPassCache* cache) {
   MeshResult result;
-  result.triangulations = TriangulatePatches(visibility, solution, {solution.forest, {}},
-                                             options.discontinuities, context, result.report, cache);
+  result.plan = BeginPlan(visibility, solution, options.discontinuities);
+  result.triangulations = TriangulatePatches(visibility, solution, result.plan, options.discontinuities,
+                                             context, result.report, cache);
   if (context.Cancelled()) return result;
   const std::vector<PatchTriangulation>& patches = result.triangulations;
   Stopwatch interpolating;

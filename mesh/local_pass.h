@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "mesh/discontinuity.h"
 #include "mesh/discontinuity_cache.h"
 #include "mesh/dset.h"
 #include "mesh/irradiance_mesh.h"
@@ -15,6 +16,7 @@
 #include "mesh/leaf_triangulation.h"
 #include "mesh/mesh_options.h"
 #include "solver/base/progress.h"
+#include "solver/transport/element_forest.h"
 #include "solver/transport/solution.h"
 #include "solver/visibility/patch_visibility.h"
 
@@ -28,6 +30,7 @@ struct MeshPlan {
 
 struct MeshResult {
   IrradianceMesh mesh;
+  MeshPlan plan;
   std::vector<PatchTriangulation> triangulations;  // that the mesh was made of
   MeshReport report;
 };
@@ -53,9 +56,14 @@ struct OmittedOfPatch {
   std::vector<OmittedDiscontinuity> omitted;
 };
 
+// The solution's leaves, divided towards the ends of contacts as often as the options say.
+MeshPlan BeginPlan(const PatchVisibility& visibility, const RadiositySolution& solution,
+                   const DiscontinuityOptions& options);
+
 // Triangulates all patches along the leaves of the plan; counts and seconds are added to the report. The mesh
 // may split leaves further: the `leaves` of a triangulation name for each of its leaves that of the plan that
-// it is part of. `omitted` gets one for each patch, if it is asked for. REQUIRES: the quadtrees are balanced.
+// it is part of. `omitted`, if it is asked for, gets one for each patch, unless this was cancelled.
+// REQUIRES: the quadtrees are balanced.
 std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibility,
                                                    const RadiositySolution& solution, const MeshPlan& plan,
                                                    const DiscontinuityOptions& options,

@@ -30,8 +30,8 @@ struct DiscontinuityOptions {
   DiscontinuityChoice choice = DiscontinuityChoice::kRanked;
   DiscontinuityWeight weight = DiscontinuityWeight::kThesis;
   double min_weight = 0;  // Tree::minDiscontWeight [W/m^2]
-  // Ranked by the irradiance weight, refinement may ask for lighter ones that weigh at least this [W/m^2];
-  // for none if it is not below min_weight.
+  // Ranked by the irradiance weight, refinement may ask for lighter ones that cost at least this on some leaf
+  // [W/m^2]; for none if it is not below min_weight.
   double min_wanted_weight = std::numeric_limits<double>::infinity();
   int max_leaf_dsets = 10;   // Tree::maxLeafDSets: discontinuity edges within one leaf
   bool keep_hidden = false;  // also the parts of wedges that end at another blocker, as in the thesis
@@ -52,6 +52,8 @@ struct DiscontinuityOptions {
     return choice == DiscontinuityChoice::kRanked && weight == DiscontinuityWeight::kIrradiance &&
            min_wanted_weight < min_weight;
   }
+  // Of what may become an edge, if refinement asks for it.
+  double LeastWeight() const { return can_want() ? min_wanted_weight : min_weight; }
 };
 
 enum class InterpolantOrder : std::uint8_t {
@@ -67,8 +69,8 @@ struct MeshOptions {
 
 struct MeshReport {
   struct Counts {
-    std::size_t discontinuities = 0;   // found, with at least the minimum weight
-    std::size_t activated = 0;         // of these, edges of the mesh
+    std::size_t discontinuities = 0;   // found, with at least the minimum weight on their own, or wanted
+    std::size_t activated = 0;         // edges of the mesh
     std::size_t dsets_active = 0;      // active DSets, summed over the leaves
     std::size_t refused = 0;           // left out because a leaf was full
     std::size_t refused_contacts = 0;  // of these, contacts: there the picture leaks

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
-#include "mesh/local_pass.h"
 #include "mesh/refinement_step.h"
 #include "solver/base/check.h"
 #include "solver/base/stopwatch.h"
@@ -51,7 +53,7 @@ RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolutio
   std::optional<LocalPassCache> own;
   if (!local_pass) local_pass = &own.emplace(scene, visibility);
   RefinedMesh refined;
-  refined.plan = start ? *start : MeshPlan{solution.forest, {}};
+  refined.plan = start ? *start : BeginPlan(visibility, solution, mesh_options.discontinuities);
   MeshReport::Seconds seconds;
   std::size_t evaluations = 0;
   for (int round = 0;; ++round) {

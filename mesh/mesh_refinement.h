@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "mesh/irradiance_mesh.h"
@@ -48,7 +47,7 @@ struct RefinedMesh {
 // Refines until the share is small enough, nothing is left to do, or the most rounds are done. A round takes
 // those steps that promise most for what they cost, and no more than it takes: leaves are divided, and
 // discontinuities too light for the mesh become edges. Cancelled, it returns an empty mesh. Begins with the
-// plan `start`; with the solution's leaves if it is null. `samples` keeps what was evaluated, for a call with
+// plan `start`; with BeginPlan() if it is null. `samples` keeps what was evaluated, for a call with
 // the same sampler. REQUIRES: the leaves are balanced.
 RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolution& solution,
                        const IrradianceSampler& sampler, const MeshOptions& mesh_options,

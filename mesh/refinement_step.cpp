@@ -1,7 +1,11 @@
 #include "mesh/refinement_step.h"
 
 #include <algorithm>
+#include <array>
 #include <unordered_set>
+
+#include "mesh/discontinuity_line.h"
+#include "mesh/representation_error.h"
 
 namespace penumbra {
 namespace {
@@ -15,8 +19,6 @@ constexpr double kTelling = 0.35;
 constexpr double kDivisionCost = 6, kEdgeCost = 2;
 // A step for which others have left less than this share of what it mends is put off.
 constexpr double kWorthTaking = 0.5;
-// Of the brightest channel's mean: what is darker counts as this (TriangleError).
-constexpr double kFloor = 0.01;
 
 using Corners = std::array<Vec2, 3>;
 
@@ -88,6 +90,7 @@ class StepFinder {
 
  private:
   bool Errs(std::size_t t) const { return errors_[base_ + t].max > error_; }
+  // Jumps are those of the brightest channel, and so is what they are compared with.
   double Brightness(std::size_t t) const {
     return std::max(mesh_.irradiance[base_ + t].At(1.0 / 3, 1.0 / 3).maxCoeff(), floor_);
   }
@@ -113,7 +116,7 @@ std::vector<RefinementStep> FindRefinementSteps(const IrradianceMesh& mesh,
                                                 std::span<const PatchTriangulation> triangulations,
                                                 std::span<const TriangleError> errors,
                                                 std::span<const OmittedOfPatch> omitted, double error) {
-  const double floor = kFloor * MeanIrradiance(mesh).maxCoeff();
+  const double floor = kErrorFloor * MeanIrradiance(mesh).maxCoeff();
   std::vector<RefinementStep> steps;
   std::size_t base = 0;
   for (std::size_t p = 0; p < triangulations.size(); ++p) {

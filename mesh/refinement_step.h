@@ -14,6 +14,8 @@
 #include "mesh/leaf_triangulation.h"
 #include "mesh/local_pass.h"
 #include "mesh/triangle_error.h"
+#include "solver/scene/scene.h"
+#include "solver/transport/element_forest.h"
 
 namespace penumbra {
 

@@ -36,13 +36,12 @@ RepresentationError Summarise(std::span<const SurfacePoint> at, const std::vecto
 std::vector<double> RelativeErrors(std::span<const Rgb> shown, std::span<const Rgb> truth) {
   Rgb mean = Rgb::Zero();
   for (const Rgb& e : truth) mean += e / static_cast<double>(truth.size());
-  constexpr double kFloor = 0.01;  // of the mean
   std::vector<double> errors;
   errors.reserve(3 * truth.size());
   for (std::size_t i = 0; i < truth.size(); ++i)
     for (int c = 0; c < 3; ++c) {
       const double difference = std::abs(shown[i][c] - truth[i][c]);
-      errors.push_back(difference == 0 ? 0 : difference / std::max(truth[i][c], kFloor * mean[c]));
+      errors.push_back(difference == 0 ? 0 : difference / std::max(truth[i][c], kErrorFloor * mean[c]));
     }
   return errors;
 }

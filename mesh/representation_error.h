@@ -16,6 +16,9 @@
 
 namespace penumbra {
 
+// Of the mean irradiance of a channel: errors where it is darker are relative to this.
+inline constexpr double kErrorFloor = 0.01;
+
 // Statistics over points and channels of |shown - true| / max(true, 1 % of that channel's mean irradiance).
 struct RepresentationError {
   std::size_t points = 0;

@@ -16,9 +16,8 @@ constexpr double kLargestWeight = 0.25;     // ... this x largest emittance
 // In the irradiance weight: what an edge left out may cost, root mean square over leaves that lack others
 // too, as a part of error x mean irradiance.
 constexpr double kWeightOfMeanIrradiance = 0.15;
-// Where refinement by what is shown may ask for edges: those that are there from the start, and the lightest
-// that it may ask for.
-constexpr double kWeightFromTheStart = 0.3, kWantedWeight = 0.05;
+// The lightest that refinement by what is shown may ask for.
+constexpr double kWantedWeight = 0.05;
 constexpr int kCrowdedSplits = 3;         // DiscontinuityOptions::crowded_splits
 constexpr double kMinAreaOfScene = 1e-7;  // of the fronts' total area
 constexpr double kCutoffOfError = 0.005;
@@ -70,18 +69,14 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   mesh.choice = options.discontinuities;
   mesh.weight = options.weight.value_or(options.min_discontinuity_weight ? DiscontinuityWeight::kThesis
                                                                          : DiscontinuityWeight::kIrradiance);
-  std::optional<double> min_wanted_weight = options.min_wanted_weight;
-  if (options.min_discontinuity_weight) {
-    mesh.min_weight = *options.min_discontinuity_weight;
-  } else if (mesh.weight == DiscontinuityWeight::kThesis) {
-    mesh.min_weight = std::min(kLargestWeight, kWeightOfStrongest * options.error) * totals.strongest;
-  } else if (options.refine == RefineBy::kTransport) {
-    mesh.min_weight = kWeightOfMeanIrradiance * options.error * mean;
-  } else {
-    mesh.min_weight = kWeightFromTheStart * options.error * mean;
-    if (!min_wanted_weight) min_wanted_weight = kWantedWeight * options.error * mean;
-  }
-  mesh.min_wanted_weight = min_wanted_weight.value_or(mesh.min_weight);
+  const double from_error =
+      mesh.weight == DiscontinuityWeight::kThesis
+          ? std::min(kLargestWeight, kWeightOfStrongest * options.error) * totals.strongest
+          : kWeightOfMeanIrradiance * options.error * mean;
+  mesh.min_weight = options.min_discontinuity_weight.value_or(from_error);
+  const bool may_ask = !options.min_discontinuity_weight && mesh.weight == DiscontinuityWeight::kIrradiance;
+  mesh.min_wanted_weight =
+      options.min_wanted_weight.value_or(may_ask ? kWantedWeight * options.error * mean : mesh.min_weight);
   mesh.corner_divisions = options.corner_divisions;
   mesh.max_leaf_dsets = options.max_leaf_dsets;
   mesh.keep_hidden = options.keep_hidden_discontinuities;

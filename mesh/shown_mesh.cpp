@@ -20,8 +20,9 @@ constexpr double kInterpolantShare = 0.65, kSourceShare = 0.25;
 // looks before the last keep to SolverOptions::correction_tolerance: their means correct the sources' light,
 // so that what is off in all of them grows from bounce to bounce.
 constexpr double kNearShare = 0.2;
-// Looks before the last, which only sources are made of, take edges of this times the least weight.
-constexpr double kFirstWeight = 2;
+// Refinement that may ask for edges begins with those of this times the least weight; looks before the last,
+// which only sources are made of, with those of this times as much.
+constexpr double kWeightToBegin = 2, kFirstWeight = 2;
 // Sources are refined again while their means will change by more than this share of the error, so many
 // times: two to four in most rooms, and twenty in a narrow slot between white walls, where light goes to and
 // fro. They end sooner where two passes leave more than this of a change. The first choose how finely.
@@ -59,13 +60,16 @@ bool ShownMesh::Make(const RadiositySolution& solution, const MeshOptions& optio
 bool ShownMesh::MakeRefined(HierarchicalSolver& solver, const MeshOptions& options,
                             const ExecutionContext& context) {
   Begin();
-  MeshOptions first = options;
+  const bool can_want = options.discontinuities.can_want();
+  MeshOptions last = options;
+  if (can_want) last.discontinuities.min_weight *= kWeightToBegin;
+  MeshOptions first = last;
   first.discontinuities.min_weight *= kFirstWeight;
+  if (!can_want) first.discontinuities.min_wanted_weight = first.discontinuities.min_weight;
   if (!FirstLook(solver.solution(), first, options_.solver.correction_tolerance, context)) return false;
   if (mesh_.triangles.empty()) return true;
   const bool sources_too = options_.solver.source_error == 0;
-  if (!sources_too || SettleSources(solver, first, context))
-    RefineLeaves(solver.solution(), options, context);
+  if (!sources_too || SettleSources(solver, first, context)) RefineLeaves(solver.solution(), last, context);
   return true;
 }
 
@@ -119,7 +123,7 @@ bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& 
   Add(result.report);
   mesh_ = std::move(result.mesh);
   triangulations_ = std::move(result.triangulations);
-  plan_ = {solution.forest, {}};
+  plan_ = std::move(result.plan);
   triangle_errors_.clear();
   return true;
 }

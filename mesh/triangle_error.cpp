@@ -5,6 +5,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "mesh/representation_error.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
 #include "solver/geometry/polygon.h"
@@ -13,7 +14,6 @@ namespace penumbra {
 namespace {
 
 constexpr std::size_t kPointsATask = 32;
-constexpr double kFloor = 0.01;  // of the mean
 
 Vec3 Corner(const IrradianceMesh& mesh, std::uint32_t t, int k) {
   return mesh.positions[mesh.triangles[t].vertex[static_cast<std::size_t>(k % 3)]];
@@ -87,7 +87,7 @@ MeasuredTriangles MeasureTriangles(const Scene& scene, const IrradianceMesh& mes
     for (int c = 0; c < 3; ++c) {
       const double difference = std::abs(shown[c] - truth[i][c]);
       if (difference == 0) continue;
-      const double relative = difference / std::max(truth[i][c], kFloor * mean[c]);
+      const double relative = difference / std::max(truth[i][c], kErrorFloor * mean[c]);
       error.max = std::max(error.max, relative);
       error.rms += relative * relative;
     }
@@ -121,7 +121,7 @@ std::vector<double> GuessTriangleErrors(const Scene& scene, const IrradianceMesh
         const double* there = kPlace[edge][1 - end];  // the other side runs the other way
         const Vec3 jump =
             (GradientAt(mesh, t, here[0], here[1]) - GradientAt(mesh, other, there[0], there[1])) * across;
-        const Rgb value = mesh.irradiance[t].At(here[0], here[1]).max(kFloor * mean);
+        const Rgb value = mesh.irradiance[t].At(here[0], here[1]).max(kErrorFloor * mean);
         for (const std::uint32_t side : {t, other}) {
           const Vec3 n = (Corner(mesh, side, 1) - Corner(mesh, side, 0))
                              .cross(Corner(mesh, side, 2) - Corner(mesh, side, 0));

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "display/viewer/mesh_tools.h"
+#include "mesh/representation_error.h"
 #include "solver/base/parallel.h"
 
 namespace penumbra::viewer {
@@ -13,8 +14,6 @@ namespace {
 // The centroid, and a point towards each corner; none is a node of the interpolant.
 constexpr std::array<std::array<double, 2>, kErrorPoints> kAt = {
     {{1.0 / 3, 1.0 / 3}, {0.15, 0.15}, {0.7, 0.15}, {0.15, 0.7}}};
-
-constexpr double kFloor = 0.01;  // of the mean, as in the report
 
 }  // namespace
 
@@ -45,7 +44,7 @@ ErrorMap MapRepresentationError(const LightState& light, const IrradianceMesh& m
       const Rgb difference = (shown - truth[i][k]).abs();
       for (int c = 0; c < 3; ++c)
         if (difference[c] > 0)
-          worst = std::max(worst, difference[c] / std::max(truth[i][k][c], kFloor * mean[c]));
+          worst = std::max(worst, difference[c] / std::max(truth[i][k][c], kErrorFloor * mean[c]));
     }
     map.error[i] = static_cast<float>(worst);
   }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -87,19 +89,14 @@ class CornerComparison {
     const double radius = kNearCorner * scene_.Diagonal();
     for (const ContactEnd& end : ends_) {
       const Frame frame = PolygonFrame(PatchOf(end.patch).Vertices());
-      Polygon2 outline;
-      for (const Vec3& v : PatchOf(end.patch).Vertices()) outline.push_back(frame.ToPlane(v));
       for (std::size_t i = 0; i < kPointsNear; ++i) {
         const double r = radius * std::sqrt(random.Uniform()),
                      angle = 2 * std::numbers::pi * random.Uniform();
         const Vec2 p = end.at + r * Vec2(std::cos(angle), std::sin(angle));
-        bool inside = true;
-        for (std::size_t k = 0; k < outline.size(); ++k)
-          inside &= Cross2(outline[(k + 1) % outline.size()] - outline[k], p - outline[k]) > 0;
-        if (!inside) continue;
         ReceiverPoint at;
         at.position = frame.FromPlane(p);
         at.normal = PatchOf(end.patch).normal;
+        if (!ConvexContains(PatchOf(end.patch).Vertices(), at.normal, at.position, 0)) continue;
         const Rgb truth = pipeline_.irradiance().OnPatch(end.patch, at).irradiance;
         if (truth.maxCoeff() == 0) continue;
         points_.emplace_back(end.patch, at.position);
@@ -119,7 +116,8 @@ class CornerComparison {
     MeshReport report;
     const double begin = ProcessorSeconds();
     const std::vector<PatchTriangulation> triangulations =
-        TriangulatePatches(pipeline_.visibility(), pipeline_.solution(), {pipeline_.solution().forest, {}},
+        TriangulatePatches(pipeline_.visibility(), pipeline_.solution(),
+                           BeginPlan(pipeline_.visibility(), pipeline_.solution(), discontinuities),
                            discontinuities, {}, report);
     const BuiltMesh built =
         BuildIrradianceMesh(scene_, triangulations, InterpolantOrder::kQuadratic, sampler, {});

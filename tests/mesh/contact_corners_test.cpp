@@ -96,9 +96,9 @@ TEST(ContactCorners, GradingMendsWhatNoPolynomialFits) {
     DiscontinuityOptions discontinuities = pipeline.resolved().discontinuities;
     discontinuities.corner_divisions = divisions;
     MeshReport report;
-    const std::vector<PatchTriangulation> patches =
-        TriangulatePatches(pipeline.visibility(), pipeline.solution(), {pipeline.solution().forest, {}},
-                           discontinuities, {}, report);
+    const std::vector<PatchTriangulation> patches = TriangulatePatches(
+        pipeline.visibility(), pipeline.solution(),
+        BeginPlan(pipeline.visibility(), pipeline.solution(), discontinuities), discontinuities, {}, report);
     for (const PatchTriangulation& patch : patches)
       patch.Validate(scene.patches[static_cast<std::size_t>(patch.patch)]);
     const IrradianceMesh mesh =

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "solver/scene/builtin_scenes.h"
 #include "tests/visibility/test_scenes.h"
 
 namespace penumbra::scene_test {
@@ -135,6 +136,36 @@ TEST(Pipeline, CancelledCorrectionsKeepWholePasses) {
   EXPECT_FALSE(pipeline.mesh_kind());
   const PointIrradiance fresh(pipeline.solution(), pipeline.visibility(), {});
   EXPECT_TRUE((pipeline.irradiance().Anywhere(at).irradiance == fresh.Anywhere(at).irradiance).all());
+}
+
+// Refinement asks for edges where it ranks them by errors and nobody named the least weight; what was named
+// comes back as it is.
+TEST(Resolve, WantsEdgesByErrorsAlone) {
+  const Scene scene = *LoadBuiltinScene("floating-cube", {});
+  const auto mesh = [&](const auto& change) {
+    PipelineOptions options;
+    change(options);
+    return Resolve(scene, options).discontinuities;
+  };
+  const DiscontinuityOptions by_default = mesh([](PipelineOptions&) {});
+  EXPECT_TRUE(by_default.can_want());
+  EXPECT_LT(by_default.LeastWeight(), by_default.min_weight);
+  EXPECT_FALSE(mesh([](PipelineOptions& o) { o.weight = DiscontinuityWeight::kThesis; }).can_want());
+  EXPECT_FALSE(
+      mesh([](PipelineOptions& o) { o.discontinuities = DiscontinuityChoice::kAdaptive; }).can_want());
+  const auto named = [](PipelineOptions& o) {
+    o.weight = DiscontinuityWeight::kIrradiance;
+    o.min_discontinuity_weight = 0.5;
+  };
+  EXPECT_FALSE(mesh(named).can_want());
+  EXPECT_EQ(mesh(named).LeastWeight(), 0.5);
+  const DiscontinuityOptions both = mesh([&](PipelineOptions& o) {
+    named(o);
+    o.min_wanted_weight = 0.2;
+  });
+  EXPECT_TRUE(both.can_want());
+  EXPECT_EQ(both.min_weight, 0.5);
+  EXPECT_EQ(both.min_wanted_weight, 0.2);
 }
 
 }  // namespace

@@ -384,6 +384,8 @@ TEST(Refinement, AsksForEdgesThatAreMissing) {
   MeshOptions mesh;
   mesh.discontinuities.weight = DiscontinuityWeight::kIrradiance;
   mesh.discontinuities.min_weight = 1e9;
+  mesh.discontinuities.max_leaf_dsets = 3;
+  mesh.discontinuities.crowded_splits = 2;
   MeshRefinementOptions options;
   options.error = 0.01;
   const auto refine = [&](double min_wanted_weight, const MeshPlan* start) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "mesh/hdf5_image.h"
+#include "mesh/light_beside.h"
 #include "mesh/solution_check.h"
 #include "solver/base/check.h"
 #include "solver/base/random.h"
@@ -180,13 +181,16 @@ TEST(SolutionFile, HoldsTheDiscontinuities) {
   file.Read("discontinuities/source", ScalarTypeOf<std::int32_t>::value, {count}, source.data());
   file.Read("discontinuities/blocker", ScalarTypeOf<std::int32_t>::value, {count}, blocker.data());
   file.Read("discontinuities/kind", ScalarTypeOf<std::uint8_t>::value, {count}, kind.data());
+  // All that could be asked for, each beside the light of its receiver.
+  const DiscontinuityOptions& mesh = pipeline.resolved().discontinuities;
+  const LightBeside light(pipeline.solution(), mesh.weight);
   for (std::size_t i = 0; i < count; ++i) {
     const Patch& patch = pipeline.scene().patches.at(static_cast<std::size_t>(receiver[i]));
     for (int end = 0; end < 2; ++end) {
       const Vec3 p(ends[6 * i + 3 * end], ends[6 * i + 3 * end + 1], ends[6 * i + 3 * end + 2]);
       EXPECT_NEAR(patch.normal.dot(p - patch.vertex[0]), 0, 1e-14);
     }
-    EXPECT_GE(weight[i], pipeline.resolved().discontinuities.min_weight);
+    EXPECT_GE(weight[i] * light.LargestScale(receiver[i]), mesh.LeastWeight());
     EXPECT_EQ(source[i] == kNoPatch, kind[i] == static_cast<std::uint8_t>(DiscontinuityKind::kContact));
     EXPECT_EQ(blocker[i] == kNoPatch, kind[i] == static_cast<std::uint8_t>(DiscontinuityKind::kHorizon));
   }

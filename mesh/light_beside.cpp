@@ -1,0 +1,44 @@
+#include "mesh/light_beside.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace penumbra {
+namespace {
+
+constexpr double kDarkest = 0.05;  // of the mean: a leaf's mean is all that is known of its dark places
+
+}  // namespace
+
+LightBeside::LightBeside(const RadiositySolution& solution, DiscontinuityWeight weight)
+    : solution_(solution),
+      darkest_(solution.forest.scene().patches.size(), std::numeric_limits<double>::infinity()) {
+  if (weight == DiscontinuityWeight::kThesis) return;
+  double area = 0;
+  for (std::size_t i = 0; i < solution.irradiance.size(); ++i) {
+    const Element& element = solution.forest.elements()[i];
+    if (!element.IsLeaf()) continue;
+    const double light = solution.irradiance[i].maxCoeff();
+    double& darkest = darkest_[static_cast<std::size_t>(element.patch)];
+    darkest = std::min(darkest, light);
+    mean_ += element.area * light;
+    area += element.area;
+  }
+  if (area > 0) mean_ /= area;
+}
+
+double LightBeside::ScaleOf(const ElementForest& forest, ElementId leaf) const {
+  if (mean_ == 0) return 1;
+  while (static_cast<std::size_t>(leaf) >= solution_.irradiance.size()) leaf = forest[leaf].parent;
+  return Scale(solution_.irradiance[static_cast<std::size_t>(leaf)].maxCoeff());
+}
+
+double LightBeside::LargestScale(PatchId patch) const {
+  return Scale(darkest_[static_cast<std::size_t>(patch)]);
+}
+
+double LightBeside::Scale(double light) const {
+  return mean_ > 0 ? mean_ / std::max(light, kDarkest * mean_) : 1;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,34 @@
+// mesh/light_beside.h
+//
+// Errors of what is shown are relative: on a leaf they count beside the light that the solution gives it.
+
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh_options.h"
+#include "solver/transport/element_forest.h"
+#include "solver/transport/solution.h"
+
+namespace penumbra {
+
+class LightBeside {
+ public:
+  // The solution must outlive it. The thesis's weight does not tell of errors: it counts alike everywhere.
+  LightBeside(const RadiositySolution& solution, DiscontinuityWeight weight);
+
+  // How many times an error counts on a leaf of the forest, which was grown from the solution's: once at the
+  // mean irradiance, more often in the dark.
+  double ScaleOf(const ElementForest& forest, ElementId leaf) const;
+  // The largest on the patch.
+  double LargestScale(PatchId patch) const;
+
+ private:
+  double Scale(double light) const;
+
+  const RadiositySolution& solution_;
+  std::vector<double> darkest_;  // leaf of each patch, by its brightest channel [W/m^2]
+  double mean_ = 0;              // over the leaves; 0: all count once [W/m^2]
+};
+
+}  // namespace penumbra
