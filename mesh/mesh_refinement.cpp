@@ -19,6 +19,46 @@ constexpr double kSuspicion = 0.3;
 // Beyond this, a triangle that was found good is looked at once more, at finer points.
 constexpr double kDoubt = 1;
 
+// Measures the triangles' errors where the interpolants' gradients give reason to. Returns how many points
+// were evaluated.
+std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& options,
+                            const IrradianceSampler& sampler, SampleCache* samples, RefinedMesh* refined) {
+  const Rgb mean = MeanIrradiance(refined->mesh);
+  const std::vector<double> guess = GuessTriangleErrors(scene, refined->mesh, mean);
+  std::vector<std::uint32_t> suspects;
+  for (std::uint32_t t = 0; t < guess.size(); ++t)
+    if (guess[t] > kSuspicion * options.error) suspects.push_back(t);
+  MeasuredTriangles measured =
+      MeasureTriangles(scene, refined->mesh, suspects, options.samples, mean, sampler, samples);
+  refined->errors = std::move(measured.errors);
+  std::vector<std::uint32_t> doubtful;
+  for (const std::uint32_t t : suspects)
+    if (refined->errors[t].max <= options.error && guess[t] > kDoubt * options.error) doubtful.push_back(t);
+  const MeasuredTriangles finer =
+      MeasureTriangles(scene, refined->mesh, doubtful, options.samples + 1, mean, sampler, samples);
+  for (const std::uint32_t t : doubtful)
+    if (finer.errors[t].max > refined->errors[t].max) refined->errors[t] = finer.errors[t];
+  return measured.point_evaluations + finer.point_evaluations;
+}
+
+// What can be done about the errors. Leaves that are too small to be divided are unmet.
+std::vector<RefinementStep> FindSteps(std::span<const OmittedOfPatch> omitted,
+                                      const MeshRefinementOptions& options, RefinedMesh* refined) {
+  constexpr int kChildren = 4;
+  std::vector<RefinementStep> steps =
+      FindRefinementSteps(refined->mesh, refined->triangulations, refined->errors, omitted, options.error);
+  refined->unmet.clear();
+  std::erase_if(steps, [&](const RefinementStep& step) {
+    if (!step.Divides()) return false;
+    const Element& element = refined->plan.forest[step.leaf];
+    if (element.area >= kChildren * options.min_area && element.level < kMaxLevel) return false;
+    refined->unmet.push_back(step.leaf);
+    return true;
+  });
+  std::sort(refined->unmet.begin(), refined->unmet.end());
+  return steps;
+}
+
 // Does it: leaves are divided, discontinuities wanted from now on.
 void Take(std::span<const RefinementStep> steps, std::span<const std::size_t> chosen,
           std::span<const OmittedOfPatch> omitted, MeshPlan* plan) {
@@ -71,43 +111,17 @@ RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolutio
     if (context.Cancelled()) return {};
     refined.mesh = std::move(built.mesh);
     evaluations += built.point_evaluations;
-
-    const Rgb mean = MeanIrradiance(refined.mesh);
-    const std::vector<double> guess = GuessTriangleErrors(scene, refined.mesh, mean);
-    std::vector<std::uint32_t> suspects;
-    for (std::uint32_t t = 0; t < guess.size(); ++t)
-      if (guess[t] > kSuspicion * options.error) suspects.push_back(t);
-    MeasuredTriangles measured =
-        MeasureTriangles(scene, refined.mesh, suspects, options.samples, mean, sampler, samples);
-    refined.errors = std::move(measured.errors);
-    evaluations += measured.point_evaluations;
-    std::vector<std::uint32_t> doubtful;
-    for (const std::uint32_t t : suspects)
-      if (refined.errors[t].max <= options.error && guess[t] > kDoubt * options.error) doubtful.push_back(t);
-    measured = MeasureTriangles(scene, refined.mesh, doubtful, options.samples + 1, mean, sampler, samples);
-    for (const std::uint32_t t : doubtful)
-      if (measured.errors[t].max > refined.errors[t].max) refined.errors[t] = measured.errors[t];
-    evaluations += measured.point_evaluations;
+    evaluations += MeasureSuspects(scene, options, sampler, samples, &refined);
     seconds.interpolate += interpolating.Seconds();
 
-    std::vector<RefinementStep> steps =
-        FindRefinementSteps(refined.mesh, refined.triangulations, refined.errors, omitted, options.error);
     const double above = AreaAbove(refined.mesh, refined.errors, options.error);
     refined.share_above = area > 0 ? above / area : 0;
-    refined.unmet.clear();
-    std::erase_if(steps, [&](const RefinementStep& step) {
-      if (!step.Divides()) return false;
-      const Element& element = refined.plan.forest[step.leaf];
-      if (element.area >= 4 * options.min_area && element.level < kMaxLevel) return false;
-      refined.unmet.push_back(step.leaf);
-      return true;
-    });
+    const std::vector<RefinementStep> steps = FindSteps(omitted, options, &refined);
     if (round == options.max_rounds) break;
     const std::vector<std::size_t> chosen = ChooseRefinementSteps(steps, above - kShareAbove * area);
     if (chosen.empty()) break;
     Take(steps, chosen, omitted, &refined.plan);
   }
-  std::sort(refined.unmet.begin(), refined.unmet.end());
   refined.report.seconds = seconds;
   refined.report.counts.point_evaluations = evaluations;
   refined.report.counts.interpolants = refined.mesh.irradiance.size();

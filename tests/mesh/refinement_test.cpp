@@ -8,6 +8,7 @@
 #include <cstring>
 #include <map>
 #include <set>
+#include <span>
 
 #include "mesh/local_pass.h"
 #include "mesh/mesh_refinement.h"
@@ -374,6 +375,63 @@ TEST(RefinementSteps, AreChosenByWhatTheyMendForTheirCost) {
   EXPECT_EQ(ChooseRefinementSteps(steps, 2.5), (std::vector<std::size_t>{1, 2}));
   EXPECT_EQ(ChooseRefinementSteps(steps, 2), (std::vector<std::size_t>{1}));
   EXPECT_TRUE(ChooseRefinementSteps(steps, 0).empty());
+}
+
+// A discontinuity is a step where its jump tells enough of the error of a triangle that it crosses; then
+// dividing the leaf mends less than where the light is smooth. A leaf that the mesh has split is one step.
+TEST(RefinementSteps, AreFoundWhereTheyHelp) {
+  PatchTriangulation patch;
+  patch.patch = 0;
+  patch.in_plane = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  patch.triangles.resize(2);
+  patch.triangles[0].vertex = {0, 1, 2};
+  patch.triangles[1].vertex = {0, 2, 3};
+  IrradianceMesh mesh;
+  mesh.irradiance.assign(2, QuadraticInterpolant::Constant(Rgb::Constant(10)));
+  mesh.triangles.resize(2);
+  for (std::size_t t = 0; t < 2; ++t) {
+    mesh.triangles[t].patch = 0;
+    mesh.triangles[t].vertex = patch.triangles[t].vertex;
+  }
+  for (const Vec2& p : patch.in_plane) mesh.positions.push_back({p.x(), p.y(), 0});
+  constexpr double kError = 0.02, kMeasured = 0.1;
+  const std::vector<TriangleError> errors = {{kMeasured, kMeasured}, {0.001, 0.001}};
+  // Upright through the first triangle, whose extent across it is 1: it tells of kKinkError x the gradient's
+  // jump.
+  const auto steps = [&](double told, const std::vector<ElementId>& leaves,
+                         const std::vector<std::uint32_t>& first_triangle) {
+    patch.leaves = leaves;
+    patch.first_triangle = first_triangle;
+    OmittedPart part;
+    part.from = {0.8, 0.05};
+    part.to = {0.8, 0.7};
+    part.jump.kink.gradient = told * kMeasured * 10 / kKinkError;
+    part.jump.kink.largest_value = 1e9;
+    const std::vector<OmittedOfPatch> omitted = {{{}, {{3, 2, {part}}}}};
+    return FindRefinementSteps(mesh, std::span(&patch, 1), errors, omitted, kError);
+  };
+  constexpr ElementId kLeaf = 7;
+  for (const bool split : {false, true}) {
+    const std::vector<ElementId> leaves(split ? 2 : 1, kLeaf);
+    const std::vector<std::uint32_t> first =
+        split ? std::vector<std::uint32_t>{0, 1, 2} : std::vector<std::uint32_t>{0, 2};
+    const std::vector<RefinementStep> smooth = steps(0.3, leaves, first);
+    ASSERT_EQ(smooth.size(), 1U);
+    EXPECT_EQ(smooth[0].leaf, kLeaf);
+    ASSERT_EQ(smooth[0].mended.size(), 1U);
+    EXPECT_DOUBLE_EQ(smooth[0].mended[0].area, 0.5);
+
+    const std::vector<RefinementStep> told = steps(0.4, leaves, first);
+    ASSERT_EQ(told.size(), 2U);
+    EXPECT_FALSE(told[0].Divides());
+    EXPECT_EQ(told[0].discontinuity, 3U);
+    ASSERT_EQ(told[0].mended.size(), 1U);
+    EXPECT_EQ(told[0].mended[0].triangle, 0U);
+    EXPECT_DOUBLE_EQ(told[0].mended[0].area, 0.5);
+    EXPECT_TRUE(told[1].Divides());
+    EXPECT_DOUBLE_EQ(told[1].mended[0].area, 0.25);
+    EXPECT_LT(told[0].cost, told[1].cost);
+  }
 }
 
 // A mesh that begins with contacts alone asks for the edges of shadows where they tell of its errors; one
