@@ -12,6 +12,7 @@ extern const Study kContactCornerStudy;
 extern const Study kInterpolantOrderStudy;
 extern const Study kRefinementStudy;
 extern const Study kErrorLadderStudy;
+extern const Study kRandomRoomStudy;
 extern const Study kDisplayStudy;
 extern const Study kWholeSystemStudy;
 extern const Study kStabilityStudy;
@@ -29,6 +30,7 @@ const std::vector<const Study*>& Studies() {
       &kInterpolantOrderStudy,     // 3.2, 3.3
       &kRefinementStudy,           // 4.4.2
       &kErrorLadderStudy,          // 4.4.2, what a user is promised
+      &kRandomRoomStudy,           // the same, in any room
       &kDisplayStudy,              // 7.2, figure 7-4
       &kWholeSystemStudy,          // 7
       &kStabilityStudy,            // what can go wrong
