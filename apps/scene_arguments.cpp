@@ -30,7 +30,6 @@ constexpr std::uint64_t kMaxErrorPoints = 100'000'000;
 constexpr const char *kSceneGroup = "Scene", *kSolvingGroup = "Solving";
 constexpr const char* kAcceleration = "acceleration";  // among the options used; the flag turns it off
 constexpr int kMaxErrorSamples = 100;
-constexpr int kMostCornerDivisions = 20;
 constexpr NumberRule kBelowOne{[](double x) { return x >= 0 && x < 1; }, "a number in [0, 1)"};
 constexpr Choice<IterationScheme> kSchemes[] = {{"jacobi", IterationScheme::kJacobi},
                                                 {"gauss-seidel", IterationScheme::kGaussSeidel}};

@@ -15,9 +15,8 @@ DiscontinuityList ListDiscontinuities(const RadiositySolution& solution, const P
   const LightBeside light(solution, options.weight);
   ParallelFor(found.size(), 1, [&](std::size_t p) {
     if (context.Cancelled()) return;
-    DiscontinuityOptions finding = options;
-    finding.min_weight = options.LeastWeight() / light.LargestScale(static_cast<PatchId>(p));
-    found[p] = finder.Find(static_cast<PatchId>(p), strength, finding);
+    const auto patch = static_cast<PatchId>(p);
+    found[p] = finder.Find(patch, strength, light.ToFindOn(patch, options));
   });
   DiscontinuityList list;
   for (std::size_t p = 0; p < found.size(); ++p) {

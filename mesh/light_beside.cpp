@@ -37,6 +37,11 @@ double LightBeside::LargestScale(PatchId patch) const {
   return Scale(darkest_[static_cast<std::size_t>(patch)]);
 }
 
+DiscontinuityOptions LightBeside::ToFindOn(PatchId patch, DiscontinuityOptions options) const {
+  options.min_weight = options.LeastWeight() / LargestScale(patch);
+  return options;
+}
+
 double LightBeside::Scale(double light) const {
   return mean_ > 0 ? mean_ / std::max(light, kDarkest * mean_) : 1;
 }

@@ -22,6 +22,8 @@ class LightBeside {
   double ScaleOf(const ElementForest& forest, ElementId leaf) const;
   // The largest on the patch.
   double LargestScale(PatchId patch) const;
+  // The options to find all that may become an edge on the patch, if only because refinement asks for it.
+  DiscontinuityOptions ToFindOn(PatchId patch, DiscontinuityOptions options) const;
 
  private:
   double Scale(double light) const;

@@ -42,9 +42,8 @@ PatchDSets Activate(const ElementForest& forest, const PatchVisibility& visibili
 std::vector<Discontinuity> FindOnPatch(PatchId patch, std::span<const double> strength,
                                        const LightBeside& light, const MeshPlan& plan,
                                        const DiscontinuityOptions& options, LocalPassCache* cache) {
-  DiscontinuityOptions finding = options;
-  finding.min_weight = options.LeastWeight() / light.LargestScale(patch);
-  std::vector<Discontinuity> found = cache->discontinuities.Find(patch, strength, finding);
+  std::vector<Discontinuity> found =
+      cache->discontinuities.Find(patch, strength, light.ToFindOn(patch, options));
   if (static_cast<std::size_t>(patch) >= plan.wanted.size()) return found;
   for (const Discontinuity& wanted : plan.wanted[static_cast<std::size_t>(patch)])
     for (Discontinuity& d : found) d.wanted |= SameTrace(d, wanted);
@@ -104,6 +103,8 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
   });
   report.counts.pairs_traced += cache->discontinuities.counts().traced - before.traced;
   report.counts.pairs_kept += cache->discontinuities.counts().kept - before.kept;
+  DiscontinuityOptions activating = options;
+  if (!omitted) activating.min_wanted_weight = activating.min_weight;  // nobody asks what was left out
   // Crowded leaves are split in quadtrees of the mesh's own.
   ElementForest forest = plan.forest;
   std::vector<std::size_t> patches_to_do(count);
@@ -111,7 +112,7 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
   for (int round = 0; !patches_to_do.empty() && !context.Cancelled(); ++round) {
     ParallelFor(patches_to_do.size(), 1, [&](std::size_t i) {
       const std::size_t p = patches_to_do[i];
-      dsets[p] = Activate(forest, visibility, static_cast<PatchId>(p), found[p], options, light);
+      dsets[p] = Activate(forest, visibility, static_cast<PatchId>(p), found[p], activating, light);
     });
     if (round == options.crowded_splits) break;
     std::vector<std::size_t> again;

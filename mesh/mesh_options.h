@@ -25,6 +25,9 @@ enum class DiscontinuityChoice : std::uint8_t {
   kAll,       // all, however many a leaf gets
 };
 
+// Of DiscontinuityOptions::corner_divisions.
+inline constexpr int kMostCornerDivisions = 20;
+
 // Which discontinuities become edges of the mesh (thesis 5.2, Appendix A).
 struct DiscontinuityOptions {
   DiscontinuityChoice choice = DiscontinuityChoice::kRanked;

@@ -138,7 +138,7 @@ void Viewer::AddSolveSettings() {
       [this] { return Resolve(*snapshot_->scene, options_.solving).discontinuities.min_wanted_weight; },
       changed));
   also(s.Integer("corner-divisions", "Solving", "Divisions towards ends of contacts", &o.corner_divisions, 0,
-                 20));
+                 kMostCornerDivisions));
   also(s.Choice("refine", "Solving", "Refine by", &o.refine, {"transport", "representation", "both"}));
   also(s.Choice("mesh-discontinuities", "Solving", "Discontinuities in the mesh", &o.discontinuities,
                 {"ranked", "adaptive", "none", "random", "all"}));

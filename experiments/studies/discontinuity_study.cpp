@@ -92,10 +92,7 @@ class Measurement {
         budget > 0 && way.choice != DiscontinuityChoice::kAll ? fmt::format("{} a leaf", budget) : way.name;
     if (way.choice == DiscontinuityChoice::kRandom) row.setting += fmt::format(", seed {}", seed);
     row.parameter = budget;
-    row.error_rms = error.rms;
-    row.error_p95 = error.p95;
-    row.error_p99 = error.p99;
-    row.error_max = error.max;
+    CopyErrors(error, &row);
     row.elements = mesh.report.counts.dsets_active;
     row.triangles = mesh.report.counts.triangles;
     row.evaluations = mesh.report.counts.point_evaluations;

@@ -43,10 +43,7 @@ void Climb(StudyLog& log, const ReferenceCase& test, const std::vector<double>& 
     const std::size_t points = log.quick() ? kQuickFreshPoints : kFreshPoints;
     const RepresentationError fresh =
         MeasureRepresentationError(test.scene, pipeline.mesh(), truth, points, kFreshSeed);
-    row.error_rms = fresh.rms;
-    row.error_p95 = fresh.p95;
-    row.error_p99 = fresh.p99;
-    row.error_max = fresh.max;
+    CopyErrors(fresh, &row);
     met += traced.error_p99 <= error ? 1 : 0;
     met_fresh += row.error_p99 <= error ? 1 : 0;
     told += pipeline.report().error_met == (row.error_p99 <= error) ? 1 : 0;

@@ -42,10 +42,7 @@ StudyRow Measure(const Scene& scene, const Offsets& offsets, double error, std::
   const RepresentationError measured = MeasureRepresentationError(
       scene, pipeline.mesh(),
       [&](PatchId patch, const ReceiverPoint& at) { return exact.OnPatch(patch, at); }, points, 1);
-  row.error_rms = measured.rms;
-  row.error_p95 = measured.p95;
-  row.error_p99 = measured.p99;
-  row.error_max = measured.max;
+  CopyErrors(measured, &row);
   return row;
 }
 

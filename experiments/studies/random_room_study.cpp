@@ -130,10 +130,7 @@ StudyRow MeasureRoom(const Scene& scene, std::size_t points, bool* told) {
       scene, pipeline.mesh(),
       [&](PatchId patch, const ReceiverPoint& at) { return finer.irradiance().OnPatch(patch, at); }, points,
       kPointSeed);
-  row.error_rms = error.rms;
-  row.error_p95 = error.p95;
-  row.error_p99 = error.p99;
-  row.error_max = error.max;
+  CopyErrors(error, &row);
   return row;
 }
 

@@ -108,6 +108,13 @@ void SetErrors(std::vector<double> errors, StudyRow* row) {
   row->error_max = errors.back();
 }
 
+void CopyErrors(const RepresentationError& errors, StudyRow* row) {
+  row->error_rms = errors.rms;
+  row->error_p95 = errors.p95;
+  row->error_p99 = errors.p99;
+  row->error_max = errors.max;
+}
+
 double LogSlope(const std::vector<double>& x, const std::vector<double>& y) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {

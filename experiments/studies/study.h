@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/representation_error.h"
 #include "solver/geometry/vec.h"
 
 namespace penumbra {
@@ -85,6 +86,9 @@ double SecondsPerCall(double at_least, const std::function<void()>& work);
 
 // Fills the error columns from absolute values of errors; none leaves them empty.
 void SetErrors(std::vector<double> errors, StudyRow* row);
+
+// The same from errors that were measured at points.
+void CopyErrors(const RepresentationError& errors, StudyRow* row);
 
 // The slope of log y over log x by least squares; pairs that are not positive are left out.
 double LogSlope(const std::vector<double>& x, const std::vector<double>& y);
