@@ -107,11 +107,13 @@ class Order {
 class Activator {
  public:
   Activator(const ElementForest& forest, PatchId patch, std::span<const Discontinuity> found,
-            const DiscontinuityOptions& options, const LeafFilter& filter, const ErrorScale& scale)
+            const DiscontinuityOptions& options, const LeafFilter& filter, const ErrorScale& scale,
+            const PlaceScale& at_place)
       : patch_(patch),
         found_(found),
         options_(options),
         filter_(filter),
+        at_place_(at_place),
         lines_(forest, patch,
                options.choice == DiscontinuityChoice::kAll
                    ? std::numeric_limits<std::size_t>::max()
@@ -138,7 +140,7 @@ class Activator {
     std::vector<double> weight(found_.size());
     Order::Weigh weigh;
     if (options_.choice == DiscontinuityChoice::kRandom) {
-      least = 0;
+      least = 1 - options_.random_share;
       Random random(options_.seed, static_cast<std::uint64_t>(patch_));
       for (std::size_t i = 0; i < weight.size(); ++i) {
         const double place = random.Uniform();
@@ -157,9 +159,35 @@ class Activator {
         const double cost = omission_.Of(i, number_[grouped_.line_of[i]], lines_.inside(), result_.lines);
         return found_[i].wanted ? std::max(cost, least) : cost;
       };
-      for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = weigh(i);
+      const auto weigh_all = [&] {
+        for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = weigh(i);
+      };
+      weigh_all();
+      if (at_place_) {
+        ScaleInCrowds(weight);
+        weigh_all();
+      }
     }
     return {std::move(weight), least, std::move(weigh)};
+  }
+
+  // Errors count by places in leaves for whose room lines compete.
+  void ScaleInCrowds(std::span<const double> weight) {
+    std::vector<std::vector<std::int32_t>> competing(lines_.leaves().size());
+    for (std::size_t i = 0; i < weight.size(); ++i) {
+      if (weight[i] < options_.min_weight) continue;
+      for (const Impinged& leaf : lines_.Meet(found_[i]))
+        if (leaf.inside) competing[leaf.leaf].push_back(grouped_.line_of[i]);
+    }
+    for (std::vector<std::int32_t>& lines : competing) {
+      std::sort(lines.begin(), lines.end());
+      lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+    }
+    omission_.Rescale([&](const OmittedPart& part, double scale) {
+      return competing[part.leaf].size() > static_cast<std::size_t>(options_.max_leaf_dsets)
+                 ? at_place_(lines_.leaves()[part.leaf], 0.5 * (part.from + part.to))
+                 : scale;
+    });
   }
 
   // Activates it where it may be.
@@ -245,6 +273,7 @@ class Activator {
   const std::span<const Discontinuity> found_;
   const DiscontinuityOptions& options_;
   const LeafFilter& filter_;
+  const PlaceScale& at_place_;
   LeafLines lines_;
   const Lines grouped_;
   std::vector<std::int32_t> number_;  // of each of grouped_.lines among those of the result; -1: not active
@@ -258,11 +287,12 @@ class Activator {
 
 PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
                                    std::span<const Discontinuity> found, const DiscontinuityOptions& options,
-                                   const LeafFilter& filter, const ErrorScale& scale) {
+                                   const LeafFilter& filter, const ErrorScale& scale,
+                                   const PlaceScale& at_place) {
   PENUMBRA_CHECK(options.max_leaf_dsets >= 0);
   PENUMBRA_CHECK(options.choice != DiscontinuityChoice::kAdaptive || filter);
   if (!options.enabled()) found = {};
-  return Activator(forest, patch, found, options, filter, scale).Run();
+  return Activator(forest, patch, found, options, filter, scale, at_place).Run();
 }
 
 }  // namespace penumbra

@@ -53,21 +53,25 @@ using LeafFilter = std::function<bool(const Discontinuity&, ElementId)>;
 
 // How many times an error on a leaf counts; once without.
 using ErrorScale = std::function<double(ElementId)>;
+// The same at a place in a leaf, in the frame of the patch [m].
+using PlaceScale = std::function<double(ElementId, const Vec2&)>;
 
 // Activates the discontinuities in order of weight, contacts first, each for all leaves on which it impinges
 // or for none (thesis 5.5.7).
 //  (1) An active discontinuity weighs at least options.min_weight, or is wanted. In the irradiance weight it
 //  weighs what leaving its line out would cost beside those that are active already (OmissionCost), on each
-//  leaf so many times as `scale` says.
+//  leaf so many times as `scale` says. Where more lines weigh enough than a leaf has room for, `at_place`
+//  says it, if it is given.
 //  (2) At most options.max_leaf_dsets lines run through the inside of any leaf. Those along a leaf's border
 //  add no edge and do not count.
 //  (3) The heaviest come first; of equal weight, the one found first.
-// DiscontinuityChoice changes this: kRandom knows no (1) and puts (3) in a random order, kAll knows no (1)
-// and (2), and kAdaptive activates in each leaf that the filter lets pass what fits there, whatever becomes
-// of other leaves. REQUIRES: the patch's quadtree is balanced; `found` are discontinuities on this patch; a
-// filter for kAdaptive.
+// DiscontinuityChoice changes this: kRandom takes options.random_share for (1) and puts (3) in a random
+// order, kAll knows no (1) and (2), and kAdaptive activates in each leaf that the filter lets pass what fits
+// there, whatever becomes of other leaves. REQUIRES: the patch's quadtree is balanced; `found` are
+// discontinuities on this patch; a filter for kAdaptive.
 PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
                                    std::span<const Discontinuity> found, const DiscontinuityOptions& options,
-                                   const LeafFilter& filter = {}, const ErrorScale& scale = {});
+                                   const LeafFilter& filter = {}, const ErrorScale& scale = {},
+                                   const PlaceScale& at_place = {});
 
 }  // namespace penumbra

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "mesh/representation_error.h"
+
 namespace penumbra {
 namespace {
 
@@ -22,15 +24,25 @@ LightBeside::LightBeside(const RadiositySolution& solution, DiscontinuityWeight 
     double& darkest = darkest_[static_cast<std::size_t>(element.patch)];
     darkest = std::min(darkest, light);
     mean_ += element.area * light;
+    means_ += element.area * solution.irradiance[i];
     area += element.area;
   }
-  if (area > 0) mean_ /= area;
+  if (area == 0) return;
+  mean_ /= area;
+  means_ /= area;
 }
 
 double LightBeside::ScaleOf(const ElementForest& forest, ElementId leaf) const {
   if (mean_ == 0) return 1;
   while (static_cast<std::size_t>(leaf) >= solution_.irradiance.size()) leaf = forest[leaf].parent;
   return Scale(solution_.irradiance[static_cast<std::size_t>(leaf)].maxCoeff());
+}
+
+double LightBeside::ScaleIn(const Rgb& light) const {
+  double scale = 0;
+  for (int c = 0; c < 3; ++c)
+    if (means_[c] > 0) scale = std::max(scale, means_[c] / std::max(light[c], kErrorFloor * means_[c]));
+  return scale > 0 ? scale : 1;
 }
 
 double LightBeside::LargestScale(PatchId patch) const {

@@ -20,7 +20,10 @@ class LightBeside {
   // How many times an error counts on a leaf of the forest, which was grown from the solution's: once at the
   // mean irradiance, more often in the dark.
   double ScaleOf(const ElementForest& forest, ElementId leaf) const;
-  // The largest on the patch.
+  // The same where there is this light: of its channel that it counts most in, as measured errors do
+  // (RelativeErrors()).
+  double ScaleIn(const Rgb& light) const;
+  // The largest on the patch, of its leaves.
   double LargestScale(PatchId patch) const;
   // The options to find all that may become an edge on the patch, if only because refinement asks for it.
   DiscontinuityOptions ToFindOn(PatchId patch, DiscontinuityOptions options) const;
@@ -31,6 +34,7 @@ class LightBeside {
   const RadiositySolution& solution_;
   std::vector<double> darkest_;  // leaf of each patch, by its brightest channel [W/m^2]
   double mean_ = 0;              // over the leaves; 0: all count once [W/m^2]
+  Rgb means_ = Rgb::Zero();      // the same of each channel [W/m^2]
 };
 
 }  // namespace penumbra

@@ -7,6 +7,7 @@
 
 #include "mesh/contact_corners.h"
 #include "mesh/dset.h"
+#include "mesh/leaf_light.h"
 #include "mesh/light_beside.h"
 #include "mesh/shadow_crossing.h"
 #include "mesh/weld.h"
@@ -27,10 +28,17 @@ namespace {
 
 PatchDSets Activate(const ElementForest& forest, const PatchVisibility& visibility, PatchId patch,
                     std::span<const Discontinuity> found, const DiscontinuityOptions& options,
-                    const LightBeside& light) {
+                    const LightBeside& light, LeafLight* places = nullptr) {
   const auto scale = [&](ElementId leaf) { return light.ScaleOf(forest, leaf); };
+  PlaceScale at_place;
+  if (places) {
+    const Frame frame = PolygonFrame(forest.scene().patches[static_cast<std::size_t>(patch)].Vertices());
+    at_place = [&light, places, frame](ElementId leaf, const Vec2& place) {
+      return light.ScaleIn(places->At(leaf, frame.FromPlane(place)));
+    };
+  }
   if (options.choice != DiscontinuityChoice::kAdaptive)
-    return ActivateDiscontinuities(forest, patch, found, options, {}, scale);
+    return ActivateDiscontinuities(forest, patch, found, options, {}, scale, at_place);
   ShadowCrossing crossing(forest, visibility, patch);
   const auto crosses = [&](const Discontinuity& d, ElementId leaf) {
     return crossing.Crosses(d.source, leaf);
@@ -78,12 +86,10 @@ MeshPlan BeginPlan(const PatchVisibility& visibility, const RadiositySolution& s
   return plan;
 }
 
-std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibility,
-                                                   const RadiositySolution& solution, const MeshPlan& plan,
-                                                   const DiscontinuityOptions& options,
-                                                   const ExecutionContext& context, MeshReport& report,
-                                                   LocalPassCache* cache,
-                                                   std::vector<OmittedOfPatch>* omitted) {
+std::vector<PatchTriangulation> TriangulatePatches(
+    const PatchVisibility& visibility, const RadiositySolution& solution, const MeshPlan& plan,
+    const DiscontinuityOptions& options, const ExecutionContext& context, MeshReport& report,
+    LocalPassCache* cache, std::vector<OmittedOfPatch>* omitted, const IrradianceSampler& sampler) {
   const Scene& scene = solution.forest.scene();
   const std::size_t count = scene.patches.size();
   if (omitted) omitted->clear();
@@ -123,6 +129,18 @@ std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibi
       if (split > 0) again.push_back(p);
     }
     patches_to_do.swap(again);
+  }
+  // Where some were refused, it matters which: those in the dark count most.
+  if (sampler && activating.ranks_by_error()) {
+    std::vector<std::size_t> evaluations(count);
+    ParallelFor(count, 1, [&](std::size_t p) {
+      if (dsets[p].refused == 0 || context.Cancelled()) return;
+      LeafLight places(forest, sampler);
+      dsets[p] = Activate(forest, visibility, static_cast<PatchId>(p), found[p], activating, light, &places);
+      evaluations[p] = places.evaluations();
+    });
+    report.counts.point_evaluations +=
+        std::accumulate(evaluations.begin(), evaluations.end(), std::size_t{0});
   }
   report.seconds.discontinuities += finding.Seconds();
 
@@ -167,16 +185,18 @@ MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySoluti
                         const ExecutionContext& context, LocalPassCache* cache) {
   MeshResult result;
   result.plan = BeginPlan(visibility, solution, options.discontinuities);
-  result.triangulations = TriangulatePatches(visibility, solution, result.plan, options.discontinuities,
-                                             context, result.report, cache);
+  const bool constant = options.order == InterpolantOrder::kConstant;
+  result.triangulations =
+      TriangulatePatches(visibility, solution, result.plan, options.discontinuities, context, result.report,
+                         cache, nullptr, constant ? IrradianceSampler() : sampler);
   if (context.Cancelled()) return result;
   const std::vector<PatchTriangulation>& patches = result.triangulations;
   Stopwatch interpolating;
-  if (options.order == InterpolantOrder::kConstant) {
+  if (constant) {
     result.mesh = BuildConstantMesh(patches, solution.irradiance);
   } else {
     BuiltMesh built = BuildIrradianceMesh(solution.forest.scene(), patches, options.order, sampler, context);
-    result.report.counts.point_evaluations = built.point_evaluations;
+    result.report.counts.point_evaluations += built.point_evaluations;
     if (context.Cancelled()) return result;
     result.mesh = std::move(built.mesh);
   }

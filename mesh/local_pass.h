@@ -62,14 +62,16 @@ MeshPlan BeginPlan(const PatchVisibility& visibility, const RadiositySolution& s
 
 // Triangulates all patches along the leaves of the plan; counts and seconds are added to the report. The mesh
 // may split leaves further: the `leaves` of a triangulation name for each of its leaves that of the plan that
-// it is part of. `omitted`, if it is asked for, gets one for each patch, unless this was cancelled.
-// REQUIRES: the quadtrees are balanced.
+// it is part of. `omitted`, if it is asked for, gets one for each patch, unless this was cancelled. Ranking
+// by the irradiance weight asks the sampler, if there is one, how dark it is where discontinuities compete
+// for the room in a leaf (LeafLight). REQUIRES: the quadtrees are balanced.
 std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibility,
                                                    const RadiositySolution& solution, const MeshPlan& plan,
                                                    const DiscontinuityOptions& options,
                                                    const ExecutionContext& context, MeshReport& report,
                                                    LocalPassCache* cache = nullptr,
-                                                   std::vector<OmittedOfPatch>* omitted = nullptr);
+                                                   std::vector<OmittedOfPatch>* omitted = nullptr,
+                                                   const IrradianceSampler& sampler = {});
 
 // The whole local pass. The sampler is not called for constant interpolants. A cancelled run returns an empty
 // mesh. REQUIRES: the quadtrees are balanced.

@@ -41,7 +41,8 @@ struct DiscontinuityOptions {
   // Triple-edge (EEE) events as well, traced as polylines within this distance [m]; 0: none, as in the
   // thesis.
   double triple_edge_tolerance = 0;
-  std::uint64_t seed = 1;  // of the random order
+  std::uint64_t seed = 1;   // of the random order
+  double random_share = 1;  // of the discontinuities but contacts, those that a random choice looks at
   // Leaves that are too full for a discontinuity, which other leaves would take, are split as often as this;
   // 0: not, as in the thesis. None becomes smaller than the area [m^2].
   int crowded_splits = 0;
@@ -51,10 +52,10 @@ struct DiscontinuityOptions {
   int corner_divisions = 0;
 
   bool enabled() const { return choice != DiscontinuityChoice::kNone; }
-  bool can_want() const {
-    return choice == DiscontinuityChoice::kRanked && weight == DiscontinuityWeight::kIrradiance &&
-           min_wanted_weight < min_weight;
+  bool ranks_by_error() const {
+    return choice == DiscontinuityChoice::kRanked && weight == DiscontinuityWeight::kIrradiance;
   }
+  bool can_want() const { return ranks_by_error() && min_wanted_weight < min_weight; }
   // Of what may become an edge, if refinement asks for it.
   double LeastWeight() const { return can_want() ? min_wanted_weight : min_weight; }
 };

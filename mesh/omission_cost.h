@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,11 @@ class OmissionCost {
   // A part of it, in a leaf of this outline and area, on which errors count that many times.
   void AddPart(const OmittedPart& part, const Polygon2& outline, double area, double scale) {
     parts_.push_back({part, area, scale, outline, 0});
+  }
+
+  // Makes errors on every part count so many times as `scale` says, which is told how many times they did.
+  void Rescale(const std::function<double(const OmittedPart&, double)>& scale) {
+    for (Part& part : parts_) part.scale = scale(part.segment, part.scale);
   }
 
   // `inside` are for each leaf the numbers of those `active` lines that run through it, which only grow from

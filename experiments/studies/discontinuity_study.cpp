@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -27,6 +28,7 @@ struct Way {
   DiscontinuityChoice choice;
   DiscontinuityWeight weight;
   bool split_crowded = false;
+  double share = 1;  // of a random choice
 };
 constexpr Way kNone = {"none", DiscontinuityChoice::kNone, DiscontinuityWeight::kIrradiance};
 constexpr Way kAll = {"all", DiscontinuityChoice::kAll, DiscontinuityWeight::kIrradiance};
@@ -41,6 +43,9 @@ constexpr std::array kBudgeted = {
         DiscontinuityWeight::kIrradiance, true}};
 constexpr std::array kBudgets = {5, 10, 20};
 constexpr std::uint64_t kSeeds = 3;  // of random choices
+// What a random choice can do in less time than all that a budget allows: look at a part of the
+// discontinuities, with the largest of the budgets.
+constexpr std::array kShares = {0.25, 0.5, 0.75};
 
 class Measurement {
  public:
@@ -66,6 +71,7 @@ class Measurement {
     options.discontinuities.min_weight = way.weight == DiscontinuityWeight::kThesis ? thesis_ : irradiance_;
     options.discontinuities.max_leaf_dsets = budget;
     options.discontinuities.seed = seed;
+    options.discontinuities.random_share = way.share;
     if (way.split_crowded) {
       const DiscontinuityOptions& resolved = pipeline_.resolved().discontinuities;
       options.discontinuities.crowded_splits = resolved.crowded_splits;
@@ -90,6 +96,7 @@ class Measurement {
     row.method = way.name;
     row.setting =
         budget > 0 && way.choice != DiscontinuityChoice::kAll ? fmt::format("{} a leaf", budget) : way.name;
+    if (way.share < 1) row.setting += fmt::format(", {:g} of all", way.share);
     if (way.choice == DiscontinuityChoice::kRandom) row.setting += fmt::format(", seed {}", seed);
     row.parameter = budget;
     CopyErrors(error, &row);
@@ -198,6 +205,25 @@ void CompareBudgets(StudyLog& log, const std::string& what, const std::vector<St
                   what, rows.size(), beats_random, beats_in_p99, beats_all, ratios));
 }
 
+std::span<const int> Budgets(bool quick) { return std::span(kBudgets).first(quick ? 1 : kBudgets.size()); }
+
+// The random choice with every budget, and of a part of the discontinuities.
+std::vector<StudyRow> MeasureRandom(Measurement& measurement, Way way, bool quick) {
+  std::vector<StudyRow> rows;
+  const auto measure = [&](int budget) {
+    std::vector<StudyRow> measured;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed)
+      measured.push_back(measurement.Measure(way, budget, seed));
+    rows.push_back(MeanOf(measured));
+  };
+  for (const int budget : Budgets(quick)) measure(budget);
+  for (const double share : kShares) {
+    way.share = share;
+    measure(Budgets(quick).back());
+  }
+  return rows;
+}
+
 void StudyDiscontinuities(StudyLog& log) {
   for (const std::string name : {"floating-cube", "office", "blind"}) {
     if (log.quick() && name != "floating-cube") break;
@@ -205,20 +231,13 @@ void StudyDiscontinuities(StudyLog& log) {
     const StudyRow none = measurement.Measure(kNone, 0), all = measurement.Measure(kAll, 0);
     std::vector<StudyRow> random;
     for (const Way& way : kBudgeted) {
-      const bool is_random = way.choice == DiscontinuityChoice::kRandom;
-      std::vector<StudyRow> rows;
-      for (const int budget : kBudgets) {
-        if (log.quick() && budget != kBudgets.front()) continue;
-        std::vector<StudyRow> measured;
-        for (std::uint64_t seed = 1; seed <= (is_random ? kSeeds : 1); ++seed)
-          measured.push_back(measurement.Measure(way, budget, seed));
-        rows.push_back(MeanOf(measured));
-      }
-      if (is_random) {
-        random = rows;
+      if (way.choice == DiscontinuityChoice::kRandom) {
+        random = MeasureRandom(measurement, way, log.quick());
         random.push_back(none);  // it begins with no discontinuities, as all do
         continue;
       }
+      std::vector<StudyRow> rows;
+      for (const int budget : Budgets(log.quick())) rows.push_back(measurement.Measure(way, budget));
       CompareBudgets(log, name + ", " + way.name, rows, random, none, all);
     }
   }

@@ -150,6 +150,8 @@ TEST(ActivateDiscontinuities, OtherChoices) {
     origins.insert(dsets.lines.back().origin.y());
   }
   EXPECT_GT(origins.size(), 3U);
+  options.random_share = 0;  // of contacts all are taken
+  EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options).activated, 1U);
   options.choice = DiscontinuityChoice::kAdaptive;
   const PatchDSets dsets = ActivateDiscontinuities(
       square.forest, 0, found, options,
@@ -286,6 +288,33 @@ TEST(ActivateDiscontinuities, ErrorsCountBesideTheLight) {
   options.min_weight = 2 * kKinkError * 0.5;
   EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options, {}, scale).activated, 1U);
   EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options).activated, 0U);
+}
+
+// Where lines compete for a leaf's room, an error counts as often as its place says; elsewhere nobody asks.
+TEST(ActivateDiscontinuities, InCrowdsErrorsCountByPlaces) {
+  const QuarteredSquare square;
+  const std::vector<Discontinuity> found = {Kink({0.05, 0.1}, {0.45, 0.1}, 2, 0),
+                                            Kink({0.05, 0.3}, {0.45, 0.3}, 1, 1),
+                                            Kink({0.55, 0.75}, {0.95, 0.75}, 1, 2)};
+  int asked = 0;
+  const PlaceScale dark_above = [&](ElementId leaf, const Vec2& place) {
+    ++asked;
+    EXPECT_EQ(leaf, square.forest[ElementForest::Root(0)].first_child);
+    EXPECT_NEAR(place.x(), 0.25, 1e-12);
+    return place.y() > 0.2 ? 10.0 : 1.0;
+  };
+  const auto lowest = [&](int room, const PlaceScale& at_place) {
+    const PatchDSets dsets =
+        ActivateDiscontinuities(square.forest, 0, found, ByIrradiance(room), {}, {}, at_place);
+    double y = 1;
+    for (const DiscontinuityLine& line : dsets.lines) y = std::min(y, line.origin.y());
+    return y;
+  };
+  EXPECT_NEAR(lowest(1, {}), 0.1, 1e-12);
+  EXPECT_NEAR(lowest(1, dark_above), 0.3, 1e-12);
+  EXPECT_EQ(asked, 2);
+  EXPECT_NEAR(lowest(2, dark_above), 0.1, 1e-12);
+  EXPECT_EQ(asked, 2);
 }
 
 // The sums hold place by place, turned round or not, and those of second degree keep their sense.

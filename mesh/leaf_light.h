@@ -1,0 +1,36 @@
+// mesh/leaf_light.h
+//
+// How much light there is in places of a leaf, where its mean does not tell: half of it may lie in shadow.
+
+#pragma once
+
+#include <cstddef>
+
+#include "mesh/irradiance_mesh_builder.h"
+#include "mesh/sample_cache.h"
+#include "solver/transport/element_forest.h"
+
+namespace penumbra {
+
+// Answers for the leaves of one patch, and remembers. Not for several threads at once.
+class LeafLight {
+ public:
+  // Both must outlive the object; the forest may not change.
+  LeafLight(const ElementForest& forest, const IrradianceSampler& sampler)
+      : forest_(forest), sampler_(sampler) {}
+
+  // About the irradiance at a place of the leaf, linear between samples at its corners, the middles of its
+  // sides and its middle [W/m^2].
+  Rgb At(ElementId leaf, const Vec3& place);
+  // Calls of the sampler so far.
+  std::size_t evaluations() const { return samples_.size(); }
+
+ private:
+  Rgb Sample(const Element& leaf, const Vec3& point);
+
+  const ElementForest& forest_;
+  const IrradianceSampler& sampler_;
+  SampleCache samples_;
+};
+
+}  // namespace penumbra
