@@ -156,8 +156,10 @@ class Activator {
       }
       weigh = [this, least](std::size_t i) {
         if (IsContact(i)) return kInfiniteWeight;
-        const double cost = omission_.Of(i, number_[grouped_.line_of[i]], lines_.inside(), result_.lines);
-        return found_[i].wanted ? std::max(cost, least) : cost;
+        const OmissionCost::Cost cost =
+            omission_.Of(i, number_[grouped_.line_of[i]], lines_.inside(), result_.lines);
+        const bool enough = found_[i].wanted || cost.at_most >= least;
+        return enough ? std::max(cost.by_place, least) : cost.by_place;
       };
       const auto weigh_all = [&] {
         for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = weigh(i);
@@ -171,7 +173,8 @@ class Activator {
     return {std::move(weight), least, std::move(weigh)};
   }
 
-  // Errors count by places in leaves for whose room lines compete.
+  // Where lines compete for the room in a leaf, those of its dark places come first. What weighs enough for
+  // the leaf as a whole still does: it may have the room that is left.
   void ScaleInCrowds(std::span<const double> weight) {
     std::vector<std::vector<std::int32_t>> competing(lines_.leaves().size());
     for (std::size_t i = 0; i < weight.size(); ++i) {

@@ -60,8 +60,8 @@ using PlaceScale = std::function<double(ElementId, const Vec2&)>;
 // or for none (thesis 5.5.7).
 //  (1) An active discontinuity weighs at least options.min_weight, or is wanted. In the irradiance weight it
 //  weighs what leaving its line out would cost beside those that are active already (OmissionCost), on each
-//  leaf so many times as `scale` says. Where more lines weigh enough than a leaf has room for, `at_place`
-//  says it, if it is given.
+//  leaf so many times as `scale` says. If `at_place` is given, it orders those in leaves that have room for
+//  fewer lines than weigh enough; what weighs enough by either is tried.
 //  (2) At most options.max_leaf_dsets lines run through the inside of any leaf. Those along a leaf's border
 //  add no edge and do not count.
 //  (3) The heaviest come first; of equal weight, the one found first.

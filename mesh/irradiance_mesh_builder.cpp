@@ -79,10 +79,7 @@ class Sampling {
   Sampling(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
            SampleCache* cache, const ExecutionContext& context)
       : mesh_(mesh), sampler_(sampler), cache_(cache), context_(context), scene_(scene) {
-    // What comes within the contact gap touches the node. This holds for all nodes, not only those on
-    // contacts: where a shadow's edge starts at a foot, vertices lie within the gap beside it.
-    for (const Patch& patch : scene.patches)
-      uncertainty_.push_back(std::max(kOnLine * SnapDistance(patch), ContactGap(scene)));
+    for (const Patch& patch : scene.patches) uncertainty_.push_back(SampleUncertainty(scene, patch));
   }
 
   // The nodes' samples, from the triangles that they name.
@@ -151,6 +148,12 @@ IrradianceSampler NearSampler(const PointIrradiance& exact, double tolerance) {
   return [&exact, tolerance](PatchId patch, const ReceiverPoint& at) {
     return exact.NearlyOnPatch(patch, at, tolerance);
   };
+}
+
+// What comes within the contact gap touches the node. This holds for all nodes, not only those on contacts:
+// where a shadow's edge starts at a foot, vertices lie within the gap beside it.
+double SampleUncertainty(const Scene& scene, const Patch& patch) {
+  return std::max(kOnLine * SnapDistance(patch), ContactGap(scene));
 }
 
 BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangulation> patches,

@@ -28,6 +28,9 @@ using IrradianceSampler = std::function<PointIrradianceResult(PatchId, const Rec
 // PointIrradiance::NearlyOnPatch() with that tolerance. `exact` must outlive it.
 IrradianceSampler NearSampler(const PointIrradiance& exact, double tolerance);
 
+// ReceiverPoint::uncertainty of samples on the patch [m].
+double SampleUncertainty(const Scene& scene, const Patch& patch);
+
 struct BuiltMesh {
   IrradianceMesh mesh;
   std::size_t point_evaluations = 0;  // those of the sampler; what the cache knew is not counted

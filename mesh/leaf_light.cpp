@@ -7,9 +7,15 @@
 
 namespace penumbra {
 
+LeafLight::LeafLight(const ElementForest& forest, PatchId patch, const IrradianceSampler& sampler)
+    : forest_(forest),
+      id_(patch),
+      patch_(forest.scene().patches[static_cast<std::size_t>(patch)]),
+      sampler_(sampler),
+      uncertainty_(SampleUncertainty(forest.scene(), patch_)) {}
+
 Rgb LeafLight::At(ElementId leaf, const Vec3& place) {
   const Element& element = forest_[leaf];
-  const Vec3& normal = forest_.scene().patches[static_cast<std::size_t>(element.patch)].normal;
   // The triangle, of those that the quarters fall into, in which the place lies deepest, or least far
   // outside.
   std::array<Vec3, 3> around;
@@ -17,7 +23,8 @@ Rgb LeafLight::At(ElementId leaf, const Vec3& place) {
   for (const std::array<Vec3, 4>& quarter : Quarters(element))
     for (std::size_t k = 1; k + 1 < static_cast<std::size_t>(element.size); ++k) {
       const Vec3 a = quarter[0] - place, b = quarter[k] - place, c = quarter[k + 1] - place;
-      const Vec3 areas(normal.dot(b.cross(c)), normal.dot(c.cross(a)), normal.dot(a.cross(b)));
+      const Vec3 areas(patch_.normal.dot(b.cross(c)), patch_.normal.dot(c.cross(a)),
+                       patch_.normal.dot(a.cross(b)));
       const Vec3 barycentric = areas / areas.sum();
       if (barycentric.minCoeff() <= weights.minCoeff()) continue;
       weights = barycentric;
@@ -32,11 +39,12 @@ Rgb LeafLight::At(ElementId leaf, const Vec3& place) {
 Rgb LeafLight::Sample(const Element& leaf, const Vec3& point) {
   ReceiverPoint at;
   at.position = point;
-  at.normal = forest_.scene().patches[static_cast<std::size_t>(leaf.patch)].normal;
+  at.normal = patch_.normal;
   at.approach = Centroid(leaf.Vertices()) - point;
-  if (const PointIrradianceResult* known = samples_.Find(leaf.patch, at)) return known->irradiance;
-  const PointIrradianceResult sample = sampler_(leaf.patch, at);
-  samples_.Insert(leaf.patch, at, sample);
+  at.uncertainty = uncertainty_;
+  if (const PointIrradianceResult* known = samples_.Find(id_, at)) return known->irradiance;
+  const PointIrradianceResult sample = sampler_(id_, at);
+  samples_.Insert(id_, at, sample);
   return sample.irradiance;
 }
 

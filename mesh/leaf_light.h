@@ -15,9 +15,8 @@ namespace penumbra {
 // Answers for the leaves of one patch, and remembers. Not for several threads at once.
 class LeafLight {
  public:
-  // Both must outlive the object; the forest may not change.
-  LeafLight(const ElementForest& forest, const IrradianceSampler& sampler)
-      : forest_(forest), sampler_(sampler) {}
+  // All must outlive the object; the forest may not change.
+  LeafLight(const ElementForest& forest, PatchId patch, const IrradianceSampler& sampler);
 
   // About the irradiance at a place of the leaf, linear between samples at its corners, the middles of its
   // sides and its middle [W/m^2].
@@ -29,7 +28,10 @@ class LeafLight {
   Rgb Sample(const Element& leaf, const Vec3& point);
 
   const ElementForest& forest_;
+  const PatchId id_;
+  const Patch& patch_;
   const IrradianceSampler& sampler_;
+  const double uncertainty_;  // [m]
   SampleCache samples_;
 };
 

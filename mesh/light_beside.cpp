@@ -24,29 +24,21 @@ LightBeside::LightBeside(const RadiositySolution& solution, DiscontinuityWeight 
     double& darkest = darkest_[static_cast<std::size_t>(element.patch)];
     darkest = std::min(darkest, light);
     mean_ += element.area * light;
-    means_ += element.area * solution.irradiance[i];
     area += element.area;
   }
-  if (area == 0) return;
-  mean_ /= area;
-  means_ /= area;
+  if (area > 0) mean_ /= area;
 }
 
 double LightBeside::ScaleOf(const ElementForest& forest, ElementId leaf) const {
   if (mean_ == 0) return 1;
   while (static_cast<std::size_t>(leaf) >= solution_.irradiance.size()) leaf = forest[leaf].parent;
-  return Scale(solution_.irradiance[static_cast<std::size_t>(leaf)].maxCoeff());
+  return Scale(solution_.irradiance[static_cast<std::size_t>(leaf)].maxCoeff(), kDarkest);
 }
 
-double LightBeside::ScaleIn(const Rgb& light) const {
-  double scale = 0;
-  for (int c = 0; c < 3; ++c)
-    if (means_[c] > 0) scale = std::max(scale, means_[c] / std::max(light[c], kErrorFloor * means_[c]));
-  return scale > 0 ? scale : 1;
-}
+double LightBeside::ScaleIn(const Rgb& light) const { return Scale(light.maxCoeff(), kErrorFloor); }
 
 double LightBeside::LargestScale(PatchId patch) const {
-  return Scale(darkest_[static_cast<std::size_t>(patch)]);
+  return Scale(darkest_[static_cast<std::size_t>(patch)], kDarkest);
 }
 
 DiscontinuityOptions LightBeside::ToFindOn(PatchId patch, DiscontinuityOptions options) const {
@@ -54,8 +46,8 @@ DiscontinuityOptions LightBeside::ToFindOn(PatchId patch, DiscontinuityOptions o
   return options;
 }
 
-double LightBeside::Scale(double light) const {
-  return mean_ > 0 ? mean_ / std::max(light, kDarkest * mean_) : 1;
+double LightBeside::Scale(double light, double darkest) const {
+  return mean_ > 0 ? mean_ / std::max(light, darkest * mean_) : 1;
 }
 
 }  // namespace penumbra

@@ -20,8 +20,7 @@ class LightBeside {
   // How many times an error counts on a leaf of the forest, which was grown from the solution's: once at the
   // mean irradiance, more often in the dark.
   double ScaleOf(const ElementForest& forest, ElementId leaf) const;
-  // The same where there is this light: of its channel that it counts most in, as measured errors do
-  // (RelativeErrors()).
+  // The same where there is this irradiance [W/m^2], which may be darker than the mean of any leaf.
   double ScaleIn(const Rgb& light) const;
   // The largest on the patch, of its leaves.
   double LargestScale(PatchId patch) const;
@@ -29,12 +28,11 @@ class LightBeside {
   DiscontinuityOptions ToFindOn(PatchId patch, DiscontinuityOptions options) const;
 
  private:
-  double Scale(double light) const;
+  double Scale(double light, double darkest) const;
 
   const RadiositySolution& solution_;
   std::vector<double> darkest_;  // leaf of each patch, by its brightest channel [W/m^2]
   double mean_ = 0;              // over the leaves; 0: all count once [W/m^2]
-  Rgb means_ = Rgb::Zero();      // the same of each channel [W/m^2]
 };
 
 }  // namespace penumbra

@@ -135,7 +135,7 @@ std::vector<PatchTriangulation> TriangulatePatches(
     std::vector<std::size_t> evaluations(count);
     ParallelFor(count, 1, [&](std::size_t p) {
       if (dsets[p].refused == 0 || context.Cancelled()) return;
-      LeafLight places(forest, sampler);
+      LeafLight places(forest, static_cast<PatchId>(p), sampler);
       dsets[p] = Activate(forest, visibility, static_cast<PatchId>(p), found[p], activating, light, &places);
       evaluations[p] = places.evaluations();
     });

@@ -27,16 +27,21 @@ double ErrorOnPiece(const OmittedPart& part, std::span<const Vec2> piece) {
   return ErrorWithout(part.jump, left + right, std::min(left, right));
 }
 
-double OmissionCost::Of(std::size_t i, std::int32_t own, std::span<const std::vector<std::int32_t>> inside,
-                        std::span<const DiscontinuityLine> active) {
-  double squares = 0, area = 0;
+OmissionCost::Cost OmissionCost::Of(std::size_t i, std::int32_t own,
+                                    std::span<const std::vector<std::int32_t>> inside,
+                                    std::span<const DiscontinuityLine> active) {
+  double by_place = 0, at_most = 0, area = 0;
   for (Part& part : PartsOf(i)) {
     CutByLines(part, own, inside, active);
-    const double error = part.scale * ErrorOnPiece(part.segment, part.cell);
-    squares += error * error * 0.5 * TwiceArea(part.cell);
+    const double error = ErrorOnPiece(part.segment, part.cell);
+    const double square = error * error * 0.5 * TwiceArea(part.cell);
+    const double most = std::max(part.scale, part.leaf_scale);
+    by_place += part.scale * part.scale * square;
+    at_most += most * most * square;
     area += part.leaf_area;
   }
-  return area > 0 ? std::sqrt(squares / area) : 0;
+  if (area == 0) return {};
+  return {std::sqrt(by_place / area), std::sqrt(at_most / area)};
 }
 
 std::vector<OmittedPart> OmissionCost::PartsWithout(std::size_t i, std::int32_t own,

@@ -33,22 +33,28 @@ class OmissionCost {
   void Begin() { first_part_.push_back(parts_.size()); }
   // A part of it, in a leaf of this outline and area, on which errors count that many times.
   void AddPart(const OmittedPart& part, const Polygon2& outline, double area, double scale) {
-    parts_.push_back({part, area, scale, outline, 0});
+    parts_.push_back({part, area, scale, scale, outline, 0});
   }
 
-  // Makes errors on every part count so many times as `scale` says, which is told how many times they did.
+  // Makes errors on every part count so many times as `scale` says, which is told how many times they count
+  // on its leaf.
   void Rescale(const std::function<double(const OmittedPart&, double)>& scale) {
-    for (Part& part : parts_) part.scale = scale(part.segment, part.scale);
+    for (Part& part : parts_) part.scale = scale(part.segment, part.leaf_scale);
   }
 
   // `inside` are for each leaf the numbers of those `active` lines that run through it, which only grow from
   // one call to the next; `own` is that of the discontinuity's own line, which does not count; -1 if that is
   // not active.
 
-  // Of leaving out discontinuity i, root mean square over the leaves that it crosses [W/m^2]. It falls when
+  struct Cost {
+    double by_place = 0;
+    double at_most = 0;  // the same, each part counted as its leaf is where that is more
+  };
+
+  // Of leaving out discontinuity i, root mean square over the leaves that it crosses [W/m^2]. Both fall when
   // lines become active.
-  double Of(std::size_t i, std::int32_t own, std::span<const std::vector<std::int32_t>> inside,
-            std::span<const DiscontinuityLine> active);
+  Cost Of(std::size_t i, std::int32_t own, std::span<const std::vector<std::int32_t>> inside,
+          std::span<const DiscontinuityLine> active);
   std::size_t LeavesOf(std::size_t i) { return PartsOf(i).size(); }
   // The parts of discontinuity i in leaves that its line does not run through, where each costs at least so
   // much [W/m^2].
@@ -59,7 +65,7 @@ class OmissionCost {
  private:
   struct Part {
     OmittedPart segment;
-    double leaf_area, scale;
+    double leaf_area, leaf_scale, scale;
     Polygon2 cell;          // convex
     std::size_t lines = 0;  // of the leaf that have cut it
   };

@@ -150,8 +150,16 @@ TEST(ActivateDiscontinuities, OtherChoices) {
     origins.insert(dsets.lines.back().origin.y());
   }
   EXPECT_GT(origins.size(), 3U);
-  options.random_share = 0;  // of contacts all are taken
+  // Of contacts all are taken, of the others a share.
+  options.max_leaf_dsets = 100;
+  std::size_t activated = 0;
+  options.random_share = 0.25;
+  for (options.seed = 1; options.seed <= 100; ++options.seed)
+    activated += ActivateDiscontinuities(square.forest, 0, found, options).activated - 1;
+  EXPECT_NEAR(static_cast<double>(activated), 200, 5 * std::sqrt(800 * 0.25 * 0.75));  // deviations
+  options.random_share = 0;
   EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options).activated, 1U);
+  options.max_leaf_dsets = 1;
   options.choice = DiscontinuityChoice::kAdaptive;
   const PatchDSets dsets = ActivateDiscontinuities(
       square.forest, 0, found, options,
@@ -315,6 +323,11 @@ TEST(ActivateDiscontinuities, InCrowdsErrorsCountByPlaces) {
   EXPECT_EQ(asked, 2);
   EXPECT_NEAR(lowest(2, dark_above), 0.1, 1e-12);
   EXPECT_EQ(asked, 2);
+  // What weighs enough for the leaf as a whole is tried, however bright it is where it lies.
+  DiscontinuityOptions options = ByIrradiance(1);
+  options.min_weight = kKinkError * 0.1;
+  const PlaceScale bright = [](ElementId, const Vec2&) { return 1e-3; };
+  EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options, {}, {}, bright).activated, 2U);
 }
 
 // The sums hold place by place, turned round or not, and those of second degree keep their sense.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 
@@ -29,10 +30,11 @@ TEST(LeafLight, IsExactForLinearLight) {
   const IrradianceSampler sampler = [&](PatchId, const ReceiverPoint& at) {
     return PointIrradianceResult{truth(at.position), false};
   };
-  LeafLight light(forest, sampler);
+  std::size_t evaluations = 0;
   Random random(1, 1);
   double largest = 0;
-  for (const PatchId patch : {0, 1})
+  for (const PatchId patch : {0, 1}) {
+    LeafLight light(forest, patch, sampler);
     for (const ElementId leaf : forest.Leaves(patch))
       for (int i = 0; i < 1000; ++i) {
         // Corners weighed at random: inside, as leaves are convex.
@@ -46,9 +48,11 @@ TEST(LeafLight, IsExactForLinearLight) {
         place /= total;
         largest = std::max(largest, (light.At(leaf, place) - truth(place)).abs().maxCoeff());
       }
+    evaluations += light.evaluations();
+  }
   constexpr double kRounding = 1e-13;  // a few sums of numbers up to 9
   EXPECT_LE(largest, kRounding);
-  EXPECT_EQ(light.evaluations(), 25U + 15U);  // lattices of two levels
+  EXPECT_EQ(evaluations, 25U + 15U);  // lattices of two levels
 }
 
 // With few edges a leaf it matters which lie in the dark: on the floating cube with five a leaf the errors
@@ -60,7 +64,10 @@ TEST(LeafLight, TellsWhichEdgesLieInTheDark) {
   options.error = 0.05;
   Pipeline pipeline(scene, options);
   pipeline.Solve({});
+  pipeline.irradiance();  // is made once
+  std::atomic<std::size_t> calls = 0;
   const auto sampler = [&](PatchId patch, const ReceiverPoint& at) {
+    ++calls;
     return pipeline.irradiance().OnPatch(patch, at);
   };
   MeshOptions mesh_options;
@@ -72,6 +79,7 @@ TEST(LeafLight, TellsWhichEdgesLieInTheDark) {
     return MeasureRepresentationError(scene, mesh, sampler, kPoints, 1).rms;
   };
   const MeshResult seen = RunLocalPass(pipeline.visibility(), pipeline.solution(), sampler, mesh_options, {});
+  EXPECT_EQ(seen.report.counts.point_evaluations, calls);
   MeshReport report;
   const IrradianceMesh unseen =
       BuildIrradianceMesh(scene,
