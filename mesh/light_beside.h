@@ -24,7 +24,8 @@ class LightBeside {
   double ScaleIn(const Rgb& light) const;
   // The largest on the patch, of its leaves.
   double LargestScale(PatchId patch) const;
-  // The options to find all that may become an edge on the patch, if only because refinement asks for it.
+  // The options to find all that may become an edge by the light of the patch's leaves, if only because
+  // refinement asks for it.
   DiscontinuityOptions ToFindOn(PatchId patch, DiscontinuityOptions options) const;
 
  private:
