@@ -56,7 +56,7 @@ TEST(LeafLight, IsExactForLinearLight) {
 }
 
 // With few edges a leaf it matters which lie in the dark: on the floating cube with five a leaf the errors
-// (root mean square) are a third of what they are where errors count beside the mean of the leaf. Bound: two
+// (root mean square) are a fifth of what they are where errors count beside the mean of the leaf. Bound: two
 // thirds.
 TEST(LeafLight, TellsWhichEdgesLieInTheDark) {
   const Scene scene = *LoadBuiltinScene("floating-cube", {});
