@@ -10,6 +10,7 @@
 
 #include "solver/base/parallel.h"
 #include "solver/geometry/polygon.h"
+#include "solver/geometry/polygon_distance.h"
 
 namespace penumbra {
 namespace {
@@ -93,6 +94,12 @@ Footing Prober::FindFooting(const Vec3& position, const Vec3& normal) const {
   return lowest;
 }
 
+ReceiverPoint Prober::StandOn(PatchId id, const Vec3& position, const Vec3& normal) const {
+  if (id == kNoPatch) return {position, normal, Vec3::Zero(), 0};
+  const Patch& patch = scene_.patches[static_cast<std::size_t>(id)];
+  return {NearestInPolygon(patch.Vertices(), patch.normal, position), patch.normal, Vec3::Zero(), 0};
+}
+
 bool Prober::SeesOnlyBacks(const Vec3& position, const Vec3& normal) const {
   // A point on a surface stands on the side that its normal points to, in the floats of rays, too.
   constexpr double kFloatRounding = 8 * std::numeric_limits<float>::epsilon();
@@ -121,17 +128,17 @@ Measurement Prober::MeasureAt(const ProbePoint& point) const {
     measurement.surroundings = Surroundings::kZeroNormal;
     return measurement;
   }
+  measurement.footing = FindFooting(point.position, normal);
+  const ReceiverPoint at = StandOn(measurement.footing.patch, point.position, normal);
   IrradianceParts parts;
-  measurement.exact =
-      irradiance_.Anywhere({point.position, normal, Vec3::Zero(), 0}, parts_ ? &parts : nullptr).irradiance;
+  measurement.exact = irradiance_.Anywhere(at, parts_ ? &parts : nullptr).irradiance;
   measurement.direct = parts.direct;
   measurement.gradient = parts.gradient;
-  measurement.footing = FindFooting(point.position, normal);
   if (pipeline_ && measurement.footing.patch != kNoPatch)
     if (const std::optional<Rgb> value =
-            pipeline_->Interpolated(measurement.footing.patch, point.position, reach_))
+            pipeline_->Interpolated(measurement.footing.patch, at.position, reach_))
       measurement.interpolated = *value;
-  if (SeesOnlyBacks(point.position, normal)) measurement.surroundings = Surroundings::kBehind;
+  if (SeesOnlyBacks(at.position, normal)) measurement.surroundings = Surroundings::kBehind;
   return measurement;
 }
 

@@ -59,6 +59,8 @@ class Prober {
   Footing FindFooting(const Vec3& position, const Vec3& normal) const;
 
  private:
+  // The point itself, or its foot on the patch, which digits may have left behind the front.
+  ReceiverPoint StandOn(PatchId patch, const Vec3& position, const Vec3& normal) const;
   Measurement MeasureAt(const ProbePoint& point) const;
   bool SeesOnlyBacks(const Vec3& position, const Vec3& normal) const;
 

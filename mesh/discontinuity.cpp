@@ -10,7 +10,7 @@
 #include "solver/base/check.h"
 #include "solver/geometry/segment_clip.h"
 #include "solver/scene/tolerances.h"
-#include "solver/visibility/contacts.h"
+#include "solver/scene/contacts.h"
 
 namespace penumbra {
 namespace {

@@ -59,6 +59,16 @@ std::array<QuadraticPiece, 4> Quarters(const QuadraticPiece& piece) {
   return quarters;
 }
 
+// Whether a contact edge runs between two of the triangles.
+bool DividedByContacts(std::span<const PatchTriangulation::Triangle> triangles) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const PatchTriangulation::Triangle& triangle : triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (triangle.contact[k]) edges.push_back(std::minmax(triangle.vertex[k], triangle.vertex[(k + 1) % 3]));
+  std::sort(edges.begin(), edges.end());
+  return std::adjacent_find(edges.begin(), edges.end()) != edges.end();
+}
+
 // Divides the leaves of one patch.
 class Divider {
  public:
@@ -66,7 +76,9 @@ class Divider {
           double finest, std::vector<SourceCell>& cells)
       : solution_(solution), mesh_(mesh), mean_radiosity_(mean_radiosity), finest_(finest), cells_(cells) {}
 
-  void AddLeaf(ElementId leaf, std::uint32_t first, std::uint32_t end, std::span<const PatchPair> seen) {
+  // `divided`: something stands on the leaf, and each side has light of its own.
+  void AddLeaf(ElementId leaf, std::uint32_t first, std::uint32_t end, bool divided,
+               std::span<const PatchPair> seen) {
     const Element& element = solution_.forest[leaf];
     const Scene& scene = solution_.forest.scene();
     normal_ = scene.patches[static_cast<std::size_t>(element.patch)].normal;
@@ -86,6 +98,7 @@ class Divider {
     for (const QuadraticPiece& piece : pieces)
       for (const Rgb& sample : piece.sample) deviation = deviation.max((sample - mean).abs());
     const std::size_t at = Add(leaf, -1, element.Vertices(), element.area, mean, deviation);
+    if (divided) cells_[at].score = std::numeric_limits<double>::infinity();
     if (cells_[at].score > finest_)
       for (const QuadraticPiece& piece : pieces) AddPiece(leaf, at, piece, 0);
     Close(at);
@@ -200,8 +213,9 @@ SourceCells::SourceCells(const RadiositySolution& solution, const ElementForest&
     for (std::size_t begin = 0, end = 0; begin < patch.leaves.size(); begin = end) {
       const ElementId leaf = in_solution(patch.leaves[begin]);
       while (end < patch.leaves.size() && in_solution(patch.leaves[end]) == leaf) ++end;
-      divider.AddLeaf(leaf, first[p] + patch.first_triangle[begin], first[p] + patch.first_triangle[end],
-                      exact.SeenFrom(leaf));
+      const std::uint32_t from = patch.first_triangle[begin], to = patch.first_triangle[end];
+      const bool divided = DividedByContacts(std::span(patch.triangles).subspan(from, to - from));
+      divider.AddLeaf(leaf, first[p] + from, first[p] + to, divided, exact.SeenFrom(leaf));
     }
   });
   // Leaves ascending, over all patches.

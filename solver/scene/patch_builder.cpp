@@ -15,6 +15,7 @@
 #include "solver/geometry/convex_pieces.h"
 #include "solver/geometry/orientation.h"
 #include "solver/geometry/plane_projection.h"
+#include "solver/scene/contact_cuts.h"
 #include "solver/scene/convex_solids.h"
 
 namespace penumbra {
@@ -93,6 +94,7 @@ PatchReport PatchBuilder::Build() {
   }
   std::sort(report.cut_faces.begin(), report.cut_faces.end());
   FindConvexSolids(scene_);
+  CutAtWalls(scene_);
   return report;
 }
 

@@ -6,7 +6,7 @@
 #include "solver/base/parallel.h"
 #include "solver/geometry/segment_clip.h"
 #include "solver/scene/tolerances.h"
-#include "solver/visibility/contacts.h"
+#include "solver/scene/contacts.h"
 
 namespace penumbra {
 namespace {

@@ -1,10 +1,12 @@
-#include "solver/visibility/contacts.h"
+#include "solver/scene/contacts.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 
+#include "solver/base/size.h"
 #include "solver/geometry/segment_clip.h"
 #include "solver/scene/tolerances.h"
 
@@ -31,6 +33,14 @@ class ContactFinder {
   std::vector<Contact> Find() {
     for (std::size_t p = 0; p < scene_.patches.size(); ++p)
       if (static_cast<PatchId>(p) != id_) Meet(static_cast<PatchId>(p));
+    return std::move(found_);
+  }
+
+  std::vector<Contact> FindWithHanging(std::span<const PatchId> others) {
+    for (const PatchId other : others) {
+      Meet(other);
+      Hang(other);
+    }
     return std::move(found_);
   }
 
@@ -71,6 +81,26 @@ class ContactFinder {
     if (met.size() == 2) Add(met[0], met[1], other);
   }
 
+  // The edges of a patch that hang closely above the receiver, from which the rest of the patch rises.
+  void Hang(PatchId other) {
+    const Patch& patch = scene_.patches[other];
+    const auto height = [&](std::int32_t k) {
+      return patch_.normal.dot(patch.vertex[k % patch.size] - patch_.vertex[0]);
+    };
+    double lowest = height(0), highest = lowest;
+    for (std::int32_t k = 1; k < patch.size; ++k) {
+      lowest = std::min(lowest, height(k));
+      highest = std::max(highest, height(k));
+    }
+    if (lowest <= gap_) return;  // it touches
+    for (std::int32_t k = 0; k < patch.size; ++k) {
+      const Vec3 &a = patch.vertex[k], &b = patch.vertex[(k + 1) % patch.size];
+      const double low = std::max(height(k), height(k + 1));
+      if (low > kHanging * (b - a).norm() || highest <= 2 * low) continue;
+      Add(a - height(k) * patch_.normal, b - height(k + 1) * patch_.normal, other);
+    }
+  }
+
   void Add(const Vec3& a, const Vec3& b, PatchId other) {
     const auto kept = ClipToPolygon(a, b, patch_.Vertices(), patch_.normal, snap_);
     if (!kept || ((*kept)[0] - (*kept)[1]).norm() <= snap_) return;
@@ -95,6 +125,43 @@ class ContactFinder {
 
 std::vector<Contact> FindContacts(const Scene& scene, PatchId receiver) {
   return ContactFinder(scene, receiver).Find();
+}
+
+// Sweeps along x for pairs of patches whose boxes meet.
+ContactSearch::ContactSearch(const Scene& scene) : scene_(scene), near_(scene.patches.size()) {
+  struct Box {
+    Vec3 low, high;
+    PatchId patch;
+  };
+  std::vector<Box> boxes;
+  const double gap = ContactGap(scene);
+  for (PatchId p = 0; p < Size(scene.patches); ++p) {
+    const auto vertices = scene.patches[p].Vertices();
+    Box box{vertices[0], vertices[0], p};
+    for (const Vec3& v : vertices) {
+      box.low = box.low.cwiseMin(v);
+      box.high = box.high.cwiseMax(v);
+    }
+    const double reach = gap + kHanging * Diameter(vertices);
+    box.low.array() -= reach;
+    box.high.array() += reach;
+    boxes.push_back(box);
+  }
+  std::stable_sort(boxes.begin(), boxes.end(),
+                   [](const Box& p, const Box& q) { return p.low.x() < q.low.x(); });
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].low.x() <= boxes[i].high.x(); ++j) {
+      const Box &p = boxes[i], &q = boxes[j];
+      if (p.low.y() > q.high.y() || q.low.y() > p.high.y()) continue;
+      if (p.low.z() > q.high.z() || q.low.z() > p.high.z()) continue;
+      near_[p.patch].push_back(q.patch);
+      near_[q.patch].push_back(p.patch);
+    }
+  for (std::vector<PatchId>& near : near_) std::sort(near.begin(), near.end());
+}
+
+std::vector<Contact> ContactSearch::FindWithHanging(PatchId receiver) const {
+  return ContactFinder(scene_, receiver).FindWithHanging(near_[receiver]);
 }
 
 }  // namespace penumbra

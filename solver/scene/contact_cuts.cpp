@@ -1,0 +1,269 @@
+#include "solver/scene/contact_cuts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "solver/base/size.h"
+#include "solver/geometry/constrained_triangulation.h"
+#include "solver/geometry/convex_pieces.h"
+#include "solver/scene/contacts.h"
+#include "solver/scene/tolerances.h"
+
+namespace penumbra {
+namespace {
+
+// Of the line from stop to stop, how much feet cover where they make a wall.
+constexpr double kCovered = 0.5;
+// The least size of feet that touch each other, beside the patch's diameter: a booth in a hall is a room, the
+// leg of a chair is none.
+constexpr double kLeastRoom = 0.02;
+// A piece narrower than this part of the cut is not cut off: what a sheet of two sides covers.
+constexpr double kLeastWidth = 1e-3;
+// Of each patch, the most feet that are looked at, the longest first, and the most pieces.
+constexpr std::size_t kMostFeet = 512, kMostPieces = 64;
+
+// Where something stands on a patch, in the frame of its plane [m].
+struct Foot {
+  Vec2 a, b;
+  Vec3 ends[2];
+  SolidId solid = kNoSolid;
+
+  double Length() const { return (b - a).norm(); }
+};
+
+// A stretch of a line, from a point along a unit vector, between two distances [m].
+struct Stretch {
+  Vec2 from = Vec2::Zero(), along = Vec2::UnitX();
+  double low = 0, high = 0;
+
+  double HeightOf(const Vec2& p) const { return Cross2(along, p - from); }
+  double PlaceOf(const Vec2& p) const { return along.dot(p - from); }
+};
+
+// Keeps of the stretch what lies in the convex polygon, counter-clockwise.
+void ClipTo(std::span<const Vec2> polygon, Stretch& stretch) {
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec2 edge = polygon[(k + 1) % polygon.size()] - polygon[k];
+    const double rise = Cross2(edge, stretch.along), height = Cross2(edge, stretch.from - polygon[k]);
+    if (rise == 0) continue;
+    if (rise > 0)
+      stretch.low = std::max(stretch.low, -height / rise);
+    else
+      stretch.high = std::min(stretch.high, -height / rise);
+  }
+}
+
+// How much of the stretch these intervals cover together.
+double Covered(const Stretch& stretch, std::vector<std::pair<double, double>> intervals) {
+  std::sort(intervals.begin(), intervals.end());
+  double covered = 0, reached = stretch.low;
+  for (const auto& [low, high] : intervals) {
+    const double end = std::min(high, stretch.high);
+    covered += std::max(0.0, end - std::max(low, reached));
+    reached = std::max(reached, end);
+  }
+  return covered;
+}
+
+class PatchCutter {
+ public:
+  PatchCutter(const Scene& scene, PatchId id)
+      : scene_(scene),
+        patch_(scene.patches[id]),
+        snap_(SnapDistance(patch_)),
+        diameter_(Diameter(patch_.Vertices())),
+        frame_(MakeFrame(patch_.vertex[0], patch_.normal)) {
+    for (const Vec3& v : patch_.Vertices()) outline_.push_back(frame_.ToPlane(v));
+  }
+
+  // The pieces; empty if the patch stays whole.
+  std::vector<Polygon3> Cut(std::span<const Contact> contacts) {
+    AddFeet(contacts);
+    JoinFeet();
+    std::vector<Polygon3> pieces = {Polygon3(patch_.Vertices().begin(), patch_.Vertices().end())};
+    for (std::size_t i = 0; i < feet_.size(); ++i)
+      if (const std::optional<Stretch> wall = WallOf(i)) CutAlong(*wall, pieces);
+    if (pieces.size() == 1) return {};
+    std::vector<Polygon3> small;
+    for (Polygon3& piece : pieces) AddQuadrilaterals(std::move(piece), small);
+    return small;
+  }
+
+ private:
+  void AddFeet(std::span<const Contact> contacts) {
+    for (const Contact& c : contacts)
+      feet_.push_back({frame_.ToPlane(c.a), frame_.ToPlane(c.b), {c.a, c.b}, scene_.SolidOf(c.other)});
+    std::stable_sort(feet_.begin(), feet_.end(),
+                     [](const Foot& p, const Foot& q) { return p.Length() > q.Length(); });
+    if (feet_.size() > kMostFeet) feet_.resize(kMostFeet);
+  }
+
+  bool Touch(const Foot& p, const Foot& q) const {
+    const auto on = [&](const Foot& foot, const Vec2& point) {
+      const Vec2 along = foot.b - foot.a;
+      const double t = std::clamp(along.dot(point - foot.a) / along.squaredNorm(), 0.0, 1.0);
+      return (foot.a + t * along - point).norm() <= snap_;
+    };
+    return on(p, q.a) || on(p, q.b) || on(q, p.a) || on(q, p.b);
+  }
+
+  // Finds of each foot how large the box is around all that touch it, and each other.
+  void JoinFeet() {
+    std::vector<std::size_t> root(feet_.size());
+    std::iota(root.begin(), root.end(), 0);
+    const auto find = [&](std::size_t i) {
+      while (root[i] != i) i = root[i] = root[root[i]];
+      return i;
+    };
+    for (std::size_t i = 0; i < feet_.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (find(i) != find(j) && Touch(feet_[i], feet_[j])) root[find(i)] = find(j);
+    std::vector<Vec2> low(feet_.size(), Vec2::Constant(INFINITY)),
+        high(feet_.size(), Vec2::Constant(-INFINITY));
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+      low[find(i)] = low[find(i)].cwiseMin(feet_[i].a).cwiseMin(feet_[i].b);
+      high[find(i)] = high[find(i)].cwiseMax(feet_[i].a).cwiseMax(feet_[i].b);
+    }
+    for (std::size_t i = 0; i < feet_.size(); ++i) room_.push_back((high[find(i)] - low[find(i)]).norm());
+  }
+
+  // The stretch along a foot that is to be cut; none if it is no wall.
+  std::optional<Stretch> WallOf(std::size_t i) const {
+    const Foot& foot = feet_[i];
+    if (room_[i] < kLeastRoom * diameter_) return std::nullopt;
+    const double length = foot.Length();
+    Stretch wall{foot.a, (foot.b - foot.a) / length, -INFINITY, INFINITY};
+    ClipTo(outline_, wall);
+    std::vector<std::pair<double, double>> in_line;
+    for (const Foot& other : feet_) {
+      const double ha = wall.HeightOf(other.a), hb = wall.HeightOf(other.b);
+      const double ta = wall.PlaceOf(other.a), tb = wall.PlaceOf(other.b);
+      if (std::abs(ha) <= snap_ && std::abs(hb) <= snap_) {
+        in_line.push_back(std::minmax(ta, tb));
+        continue;
+      }
+      if (foot.solid != kNoSolid && other.solid == foot.solid) continue;
+      if (std::min(ha, hb) > snap_ || std::max(ha, hb) < -snap_) continue;
+      const double t = std::abs(ha) <= snap_   ? ta
+                       : std::abs(hb) <= snap_ ? tb
+                                               : ta + (tb - ta) * ha / (ha - hb);
+      if (t <= snap_) wall.low = std::max(wall.low, t);
+      if (t >= length - snap_) wall.high = std::min(wall.high, t);
+    }
+    if (Covered(wall, std::move(in_line)) < kCovered * (wall.high - wall.low)) return std::nullopt;
+    return wall;
+  }
+
+  void CutAlong(const Stretch& wall, std::vector<Polygon3>& pieces) const {
+    const std::size_t count = pieces.size();
+    for (std::size_t i = 0; i < count && pieces.size() < kMostPieces; ++i) {
+      std::vector<Vec2> flat;
+      for (const Vec3& v : pieces[i]) flat.push_back(frame_.ToPlane(v));
+      Stretch inside = wall;
+      ClipTo(flat, inside);
+      if (inside.high - inside.low <= snap_) continue;
+      Polygon3 left, right;
+      if (!Split(pieces[i], flat, wall, left, right)) continue;
+      pieces[i] = std::move(left);
+      pieces.push_back(std::move(right));
+    }
+  }
+
+  // Divides the convex polygon by the line of the stretch; false if one side would be too narrow. Both sides
+  // have the same crossings, to the bit.
+  bool Split(const Polygon3& piece, std::span<const Vec2> flat, const Stretch& line, Polygon3& left,
+             Polygon3& right) const {
+    std::vector<double> height;
+    double lowest = 0, highest = 0, first = INFINITY, last = -INFINITY;
+    for (const Vec2& p : flat) {
+      const double h = line.HeightOf(p);
+      height.push_back(std::abs(h) <= snap_ ? 0 : h);
+      lowest = std::min(lowest, h);
+      highest = std::max(highest, h);
+      first = std::min(first, line.PlaceOf(p));
+      last = std::max(last, line.PlaceOf(p));
+    }
+    if (std::min(highest, -lowest) <= std::max(snap_, kLeastWidth * (last - first))) return false;
+    for (std::size_t k = 0; k < piece.size(); ++k) {
+      const std::size_t next = (k + 1) % piece.size();
+      if (height[k] >= 0) left.push_back(piece[k]);
+      if (height[k] <= 0) right.push_back(piece[k]);
+      if (height[k] * height[next] >= 0) continue;
+      const Vec3 crossing =
+          AtFoot(piece[k] + height[k] / (height[k] - height[next]) * (piece[next] - piece[k]));
+      left.push_back(crossing);
+      right.push_back(crossing);
+    }
+    return left.size() >= 3 && right.size() >= 3;
+  }
+
+  // The end of a foot in this place, to the bit, else the place itself.
+  Vec3 AtFoot(const Vec3& place) const {
+    for (const Foot& foot : feet_)
+      for (const Vec3& end : foot.ends)
+        if ((end - place).norm() <= snap_) return end;
+    return place;
+  }
+
+  void AddQuadrilaterals(Polygon3 piece, std::vector<Polygon3>& pieces) const {
+    if (piece.size() <= 4) {
+      pieces.push_back(std::move(piece));
+      return;
+    }
+    std::vector<Vec2> flat;
+    std::vector<ConstraintSegment> border;
+    for (std::int32_t i = 0; i < Size(piece); ++i) {
+      flat.push_back(frame_.ToPlane(piece[i]));
+      border.push_back({i, (i + 1) % Size(piece), kBorder});
+    }
+    ConstrainedTriangulator triangulator;
+    std::vector<std::array<std::int32_t, 3>> inside;
+    for (const auto& triangle : triangulator.Triangulate(flat, border).triangles)
+      if (triangle.Inside()) inside.push_back(triangle.vertex);
+    for (const ConvexPiece& joined : JoinTriangles(flat, inside)) {
+      Polygon3 polygon;
+      for (int i = 0; i < joined.Size(); ++i) polygon.push_back(piece[joined.vertex[i]]);
+      pieces.push_back(std::move(polygon));
+    }
+  }
+
+  const Scene& scene_;
+  const Patch& patch_;
+  const double snap_, diameter_;  // [m]
+  const Frame frame_;
+  std::vector<Vec2> outline_;
+  std::vector<Foot> feet_;
+  std::vector<double> room_;  // per foot: the size of all that touch it [m]
+};
+
+}  // namespace
+
+void CutAtWalls(Scene& scene) {
+  std::vector<Patch> patches;
+  std::vector<SolidId> solid_of;
+  std::vector<PatchId> first(scene.patches.size());  // of the pieces of each patch
+  const ContactSearch search(scene);
+  for (PatchId id = 0; id < Size(scene.patches); ++id) {
+    const Patch& patch = scene.patches[id];
+    first[id] = Size(patches);
+    const std::vector<Contact> contacts = search.FindWithHanging(id);
+    std::vector<Polygon3> pieces;
+    if (!contacts.empty()) pieces = PatchCutter(scene, id).Cut(contacts);
+    if (pieces.empty()) patches.push_back(patch);
+    for (const Polygon3& piece : pieces) {
+      patches.push_back(MakePatch(piece, patch.material, patch.object, patch.faces));
+      patches.back().normal = patch.normal;  // one plane for all pieces, to the bit
+    }
+    solid_of.resize(patches.size(), scene.SolidOf(id));
+  }
+  scene.patches = std::move(patches);
+  scene.solid_of = std::move(solid_of);
+  for (ConvexSolid& solid : scene.solids)
+    for (ConvexSolid::Side& side : solid.sides)
+      if (side.patch != kNoPatch) side.patch = first[side.patch];
+}
+
+}  // namespace penumbra
