@@ -100,6 +100,20 @@ Json DiagnosticsJson(const PipelineReport& report) {
   return json;
 }
 
+Json PartErrorsJson(const PipelineReport& report) {
+  Json parts = Json::array();
+  for (const PartError& part : report.part_errors)
+    parts.push_back({{"name", part.name}, {"p99", part.whole.p99}, {"points", part.whole.points}});
+  return parts;
+}
+
+// The largest error that was seen, and where: the position, and the face there.
+Json LargestErrorJson(const RepresentationError& whole) {
+  if (whole.worst_face < 0) return nullptr;
+  const Vec3& at = whole.worst_point;
+  return {{"value", whole.max}, {"position", {at.x(), at.y(), at.z()}}, {"patch", whole.worst_face}};
+}
+
 Json ErrorJson(const PipelineReport& report) {
   const RepresentationError& error = report.interpolant_error;
   return {{"interpolant",
@@ -115,6 +129,8 @@ Json ErrorJson(const PipelineReport& report) {
             {"p99", report.whole_error.p99},
             {"p95", report.whole_error.p95},
             {"rms", report.whole_error.rms}}},
+          {"by_object", PartErrorsJson(report)},
+          {"largest", LargestErrorJson(report.whole_error)},
           {"asked", report.error_asked},
           {"met", report.error_met}};
 }
@@ -129,6 +145,25 @@ Json OutcomeJson(const PipelineReport& report) {
             {"relative_imbalance", report.energy.relative_imbalance}}},
           {"error", ErrorJson(report)},
           {"unmet", report.unmet}};
+}
+
+// The parts that err most, and the largest error; empty where nothing was measured.
+std::string PartErrorTable(const PipelineReport& report) {
+  constexpr std::size_t kListed = 5;
+  std::string table;
+  std::vector<PartError> parts = report.part_errors;
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const PartError& a, const PartError& b) { return a.whole.p99 > b.whole.p99; });
+  for (std::size_t i = 0; i < std::min(kListed, parts.size()) && parts.size() > 1; ++i)
+    table += fmt::format("   {}: p99 {:.3g} at {} points\n", parts[i].name, parts[i].whole.p99,
+                         parts[i].whole.points);
+  if (parts.size() > kListed) table += fmt::format("   and {} parts that err less\n", parts.size() - kListed);
+  const RepresentationError& whole = report.whole_error;
+  if (whole.worst_face >= 0)
+    table +=
+        fmt::format("   the largest: {:.3g} on face {} at ({:.4g}, {:.4g}, {:.4g})\n", whole.max,
+                    whole.worst_face, whole.worst_point.x(), whole.worst_point.y(), whole.worst_point.z());
+  return table;
 }
 
 std::string Dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
@@ -206,6 +241,17 @@ PipelineReport PipelineReportFrom(const Json& lasting) {
   whole.at("p99").get_to(report.whole_error.p99);
   whole.at("p95").get_to(report.whole_error.p95);
   whole.at("rms").get_to(report.whole_error.rms);
+  for (const Json& from : error.at("by_object")) {
+    PartError& part = report.part_errors.emplace_back();
+    from.at("name").get_to(part.name);
+    from.at("p99").get_to(part.whole.p99);
+    from.at("points").get_to(part.whole.points);
+  }
+  if (const Json& largest = error.at("largest"); !largest.is_null()) {
+    for (int axis = 0; axis < 3; ++axis)
+      largest.at("position").at(static_cast<std::size_t>(axis)).get_to(report.whole_error.worst_point[axis]);
+    largest.at("patch").get_to(report.whole_error.worst_face);
+  }
   error.at("asked").get_to(report.error_asked);
   error.at("met").get_to(report.error_met);
   lasting.at("unmet").get_to(report.unmet);
@@ -275,6 +321,7 @@ std::string ReportTable(const RunReport& report) {
                          error.points, error.p99, error.p95, error.rms, error.max);
   table += fmt::format("   solution, estimated: {:.3g}; both together: p99 {:.3g}, p95 {:.3g}\n",
                        pipeline.solution_error_estimate, pipeline.whole_error.p99, pipeline.whole_error.p95);
+  table += PartErrorTable(pipeline);
   table +=
       fmt::format("   asked for {:.3g}: {}\n", pipeline.error_asked, pipeline.error_met ? "met" : "not met");
   for (const std::string& line : pipeline.unmet) table += fmt::format("   {}\n", line);

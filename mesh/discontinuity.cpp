@@ -9,8 +9,8 @@
 #include "mesh/wedge_clip.h"
 #include "solver/base/check.h"
 #include "solver/geometry/segment_clip.h"
-#include "solver/scene/tolerances.h"
 #include "solver/scene/contacts.h"
+#include "solver/scene/tolerances.h"
 
 namespace penumbra {
 namespace {

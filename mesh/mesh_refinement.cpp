@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "mesh/refinement_step.h"
 #include "solver/base/check.h"
 #include "solver/base/stopwatch.h"
+#include "solver/scene/scene_parts.h"
 
 namespace penumbra {
 namespace {
@@ -23,7 +26,7 @@ constexpr double kDoubt = 1;
 // were evaluated.
 std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& options,
                             const IrradianceSampler& sampler, SampleCache* samples, RefinedMesh* refined) {
-  const Rgb mean = MeanIrradiance(refined->mesh);
+  const Rgb mean = MeanIrradiance(scene, refined->mesh);
   const std::vector<double> guess = GuessTriangleErrors(scene, refined->mesh, mean);
   std::vector<std::uint32_t> suspects;
   for (std::uint32_t t = 0; t < guess.size(); ++t)
@@ -41,31 +44,99 @@ std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& opt
   return measured.point_evaluations + finer.point_evaluations;
 }
 
-// What can be done about the errors. Leaves that are too small to be divided are unmet.
-std::vector<RefinementStep> FindSteps(std::span<const OmittedOfPatch> omitted,
-                                      const MeshRefinementOptions& options, RefinedMesh* refined) {
+// Patches whose errors are weighed together: all but kShareAbove of their area shall keep to `error`.
+struct Population {
+  std::vector<char> has;  // by patch
+  double area = 0;        // [m^2]
+  double error = 0;
+};
+
+// What is seen, what is not (nobody's eyes vote for the irradiance of a black wall, but who probes it may
+// want it), and the parts of what is seen, lest a large one outvote a small one.
+std::vector<Population> FindPopulations(const Scene& scene, double error) {
+  const std::vector<double> seen = SeenAreas(scene);
+  const std::size_t count = scene.patches.size();
+  Population lit{std::vector<char>(count, 0), 0, error}, unseen = lit;
+  for (std::size_t p = 0; p < count; ++p) {
+    Population& of = seen[p] > 0 ? lit : unseen;
+    of.has[p] = 1;
+    of.area += scene.patches[p].area;
+  }
+  std::vector<Population> populations = {std::move(lit), std::move(unseen)};
+  const std::vector<ScenePart> parts = PartsOf(scene);
+  if (parts.size() < 2) return populations;
+  for (const ScenePart& part : parts) {
+    Population own{std::vector<char>(count, 0), 0, kPartError * error};
+    for (const PatchId p : part.patches) {
+      own.has[static_cast<std::size_t>(p)] = 1;
+      own.area += seen[static_cast<std::size_t>(p)];
+    }
+    if (own.area > 0) populations.push_back(std::move(own));
+  }
+  return populations;
+}
+
+// The area of the population that errs by more than it shall [m^2], of areas by patch.
+double AreaOf(const Population& population, std::span<const double> areas) {
+  double sum = 0;
+  for (std::size_t p = 0; p < areas.size(); ++p) sum += population.has[p] ? areas[p] : 0;
+  return sum;
+}
+
+// What can be done about errors above that. Leaves that are too small to be divided are unmet.
+std::vector<RefinementStep> FindSteps(const Scene& scene, std::span<const OmittedOfPatch> omitted,
+                                      const MeshRefinementOptions& options, double error,
+                                      const RefinedMesh& refined, std::vector<ElementId>* unmet) {
   constexpr int kChildren = 4;
+  const double floor = kErrorFloor * MeanIrradiance(scene, refined.mesh).maxCoeff();
   std::vector<RefinementStep> steps =
-      FindRefinementSteps(refined->mesh, refined->triangulations, refined->errors, omitted, options.error);
-  refined->unmet.clear();
+      FindRefinementSteps(refined.mesh, refined.triangulations, refined.errors, omitted, error, floor);
+  unmet->clear();
   std::erase_if(steps, [&](const RefinementStep& step) {
     if (!step.Divides()) return false;
-    const Element& element = refined->plan.forest[step.leaf];
+    const Element& element = refined.plan.forest[step.leaf];
     if (element.area >= kChildren * options.min_area && element.level < kMaxLevel) return false;
-    refined->unmet.push_back(step.leaf);
+    unmet->push_back(step.leaf);
     return true;
   });
-  std::sort(refined->unmet.begin(), refined->unmet.end());
+  std::sort(unmet->begin(), unmet->end());
   return steps;
 }
 
+// Steps that bring all populations to their errors, the first that promise most for what they cost; each
+// once. Those who have the same error follow each other.
+std::vector<RefinementStep> ChooseSteps(const Scene& scene, std::span<const Population> populations,
+                                        std::span<const OmittedOfPatch> omitted,
+                                        const MeshRefinementOptions& options, RefinedMesh* refined) {
+  std::vector<RefinementStep> chosen, steps;
+  std::vector<double> above;
+  std::set<std::tuple<PatchId, ElementId, std::size_t>> known;
+  for (std::size_t k = 0; k < populations.size(); ++k) {
+    const Population& population = populations[k];
+    if (k == 0 || population.error != populations[k - 1].error) {
+      std::vector<ElementId> unmet;
+      steps = FindSteps(scene, omitted, options, population.error, *refined, &unmet);
+      above = AreaAbove(scene, refined->mesh, refined->errors, population.error);
+      if (k == 0) refined->unmet = std::move(unmet);
+    }
+    const double errs = AreaOf(population, above);
+    if (k == 0) refined->share_above = population.area > 0 ? errs / population.area : 0;
+    if (errs <= kShareAbove * population.area) continue;
+    std::vector<RefinementStep> own;
+    for (const RefinementStep& step : steps)
+      if (population.has[static_cast<std::size_t>(step.patch)]) own.push_back(step);
+    for (const std::size_t i : ChooseRefinementSteps(own, errs - kShareAbove * population.area))
+      if (known.emplace(own[i].patch, own[i].leaf, own[i].discontinuity).second)
+        chosen.push_back(std::move(own[i]));
+  }
+  return chosen;
+}
+
 // Does it: leaves are divided, discontinuities wanted from now on.
-void Take(std::span<const RefinementStep> steps, std::span<const std::size_t> chosen,
-          std::span<const OmittedOfPatch> omitted, MeshPlan* plan) {
+void Take(std::span<const RefinementStep> chosen, std::span<const OmittedOfPatch> omitted, MeshPlan* plan) {
   plan->wanted.resize(omitted.size());
   std::vector<PatchId> divided;
-  for (const std::size_t i : chosen) {
-    const RefinementStep& step = steps[i];
+  for (const RefinementStep& step : chosen) {
     if (step.Divides()) {
       divided.push_back(step.patch);
       plan->forest.Subdivide(step.leaf);
@@ -86,8 +157,7 @@ RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolutio
                        LocalPassCache* local_pass, const MeshPlan* start, SampleCache* samples) {
   PENUMBRA_CHECK(mesh_options.order != InterpolantOrder::kConstant);
   const Scene& scene = solution.forest.scene();
-  double area = 0;
-  for (const Patch& patch : scene.patches) area += patch.area;
+  const std::vector<Population> populations = FindPopulations(scene, options.error);
   SampleCache own_samples;
   if (!samples) samples = &own_samples;
   std::optional<LocalPassCache> own;
@@ -114,13 +184,9 @@ RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolutio
     evaluations += MeasureSuspects(scene, options, sampler, samples, &refined);
     seconds.interpolate += interpolating.Seconds();
 
-    const double above = AreaAbove(refined.mesh, refined.errors, options.error);
-    refined.share_above = area > 0 ? above / area : 0;
-    const std::vector<RefinementStep> steps = FindSteps(omitted, options, &refined);
-    if (round == options.max_rounds) break;
-    const std::vector<std::size_t> chosen = ChooseRefinementSteps(steps, above - kShareAbove * area);
-    if (chosen.empty()) break;
-    Take(steps, chosen, omitted, &refined.plan);
+    const std::vector<RefinementStep> chosen = ChooseSteps(scene, populations, omitted, options, &refined);
+    if (round == options.max_rounds || chosen.empty()) break;
+    Take(chosen, omitted, &refined.plan);
   }
   refined.report.seconds = seconds;
   refined.report.counts.point_evaluations = evaluations;

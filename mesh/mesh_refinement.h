@@ -14,6 +14,7 @@
 #include "mesh/leaf_triangulation.h"
 #include "mesh/local_pass.h"
 #include "mesh/mesh_options.h"
+#include "mesh/representation_error.h"
 #include "mesh/sample_cache.h"
 #include "mesh/triangle_error.h"
 #include "solver/base/progress.h"
@@ -24,7 +25,9 @@
 namespace penumbra {
 
 struct MeshRefinementOptions {
-  double error = 0.02;  // the relative error that all but kShareAbove of the fronts' area shall keep to
+  // The relative error that all but kShareAbove of the area shall keep to, of the fronts that are seen and of
+  // those that are not; of each part of the scene (PartsOf) kPartError times that.
+  double error = 0.02;
   double min_area = 0;  // no leaf becomes smaller [m^2]
   int samples = 1;      // a triangle is measured at samples x samples points (thesis, Appendix A)
   int max_rounds = 8;
@@ -40,7 +43,7 @@ struct RefinedMesh {
   // One a triangle; zero where the interpolants' gradients give no reason to measure.
   std::vector<TriangleError> errors;
   MeshReport report;
-  double share_above = 0;        // of the area, on triangles found to err by more than asked
+  double share_above = 0;        // of the area that is seen, on triangles found to err by more than asked
   std::vector<ElementId> unmet;  // leaves that err by more than asked and cannot be divided
 };
 

@@ -24,6 +24,15 @@ constexpr double kMeasuredShare = 0.02;
 constexpr std::size_t kFewSourcePoints = 400;
 constexpr double kClearlyMet = 0.0025, kClearlyMissed = 0.025;
 
+// The part whose 99th percentile is most beyond the bound, by more than its few points can feign; null if
+// none is.
+const PartError* WorstPart(std::span<const PartError> parts, double bound) {
+  const PartError* worst = nullptr;
+  for (const PartError& part : parts)
+    if (part.whole.p99_at_least > (worst ? worst->whole.p99_at_least : bound)) worst = &part;
+  return worst;
+}
+
 }  // namespace
 
 struct Pipeline::Impl {
@@ -361,6 +370,7 @@ void Pipeline::Measure(const ExecutionContext& context) {
   impl_->DropUnmet("error: ");
   PipelineReport& report = impl_->report;
   report.interpolant_error = report.whole_error = {};
+  report.part_errors.clear();
   report.solution_error_estimate = 0;
   const RunLimits limits = impl_->LimitsSinceSolve(context);
   if (impl_->solver && !impl_->solver->SeenFromLeaves(limits.context())) {
@@ -391,7 +401,13 @@ void Pipeline::Measure(const ExecutionContext& context) {
                                  : MeasureRepresentationError(impl_->scene, mesh, sampler, points, seed);
   report.solution_error_estimate = error.sources.p99;
   report.whole_error = error.whole;
-  report.error_met = std::max(report.interpolant_error.p99, error.whole.p99) <= report.error_asked;
+  report.part_errors = std::move(error.by_part);
+  const PartError* worst = WorstPart(report.part_errors, kPartError * report.error_asked);
+  report.error_met = !worst && std::max(report.interpolant_error.p99, error.whole.p99) <= report.error_asked;
+  if (worst)
+    report.unmet.push_back(
+        fmt::format("error: {} errs by {:.3g} (99th percentile), more than {:g} times what was asked for",
+                    worst->name, worst->whole.p99, kPartError));
   if (!report.error_met)
     report.unmet.push_back(fmt::format(
         "error: {:.3g} of the interpolants and {:.3g} of their sources (99th percentiles) make {:.3g}; the "

@@ -126,7 +126,8 @@ struct PipelineReport {
   // The 99th percentile of the relative error of irradiance, exact but for 2 % of the error asked for, from
   // the solution's sources against that from the interpolants as sources.
   double solution_error_estimate = 0;
-  RepresentationError whole_error;  // of the interpolants, against the latter
+  RepresentationError whole_error;     // of the interpolants, against the latter
+  std::vector<PartError> part_errors;  // the same for each part of the scene that is seen
   double error_asked = 0;
   bool error_met = false;
   std::vector<std::string> unmet;     // what missed the target, and why; one line each

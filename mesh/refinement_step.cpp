@@ -5,7 +5,6 @@
 #include <unordered_set>
 
 #include "mesh/discontinuity_line.h"
-#include "mesh/representation_error.h"
 
 namespace penumbra {
 namespace {
@@ -115,8 +114,8 @@ double Unmended(const RefinementStep& step, const std::unordered_set<std::uint32
 std::vector<RefinementStep> FindRefinementSteps(const IrradianceMesh& mesh,
                                                 std::span<const PatchTriangulation> triangulations,
                                                 std::span<const TriangleError> errors,
-                                                std::span<const OmittedOfPatch> omitted, double error) {
-  const double floor = kErrorFloor * MeanIrradiance(mesh).maxCoeff();
+                                                std::span<const OmittedOfPatch> omitted, double error,
+                                                double floor) {
   std::vector<RefinementStep> steps;
   std::size_t base = 0;
   for (std::size_t p = 0; p < triangulations.size(); ++p) {

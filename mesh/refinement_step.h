@@ -37,11 +37,13 @@ struct RefinementStep {
 
 // All steps that help triangles which err by more than `error` (TriangleError::max): one for each of their
 // leaves and, if `omitted` has one for each patch, for each discontinuity whose jumps tell enough of the
-// error of a triangle that it crosses.
+// error of a triangle that it crosses. Errors are relative to the irradiance, or to `floor` where it is
+// darker [W/m^2].
 std::vector<RefinementStep> FindRefinementSteps(const IrradianceMesh& mesh,
                                                 std::span<const PatchTriangulation> triangulations,
                                                 std::span<const TriangleError> errors,
-                                                std::span<const OmittedOfPatch> omitted, double error);
+                                                std::span<const OmittedOfPatch> omitted, double error,
+                                                double floor);
 
 // Those that mend most for what they cost, best first, until they mend so much area [m^2], or all. What
 // several would mend counts for the first of them.

@@ -2,33 +2,103 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "mesh/mesh_locator.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
-#include "solver/scene/surface_points.h"
+#include "solver/scene/scene_parts.h"
 
 namespace penumbra {
 namespace {
 
-// Of the errors at these points, three each.
-RepresentationError Summarise(std::span<const SurfacePoint> at, const std::vector<double>& errors) {
+constexpr std::size_t kPointsATask = 16;
+// Further points in each part of the scene: so many if there are few parts, so many of all parts together,
+// and so many at least.
+constexpr std::size_t kPartPoints = 40, kAllPartPoints = 400, kFewestPartPoints = 4;
+
+// What is found at some points.
+struct Values {
+  std::vector<SurfacePoint> at;
+  std::vector<Rgb> shown, exact, truth;  // [W/m^2]
+};
+
+void Evaluate(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
+              const IrradianceSampler& better, Values& values) {
+  const MeshLocator locator(scene, mesh);
+  const std::size_t count = values.at.size();
+  for (std::vector<Rgb>* of : {&values.shown, &values.exact, &values.truth}) of->resize(count);
+  ParallelFor(count, kPointsATask, [&](std::size_t i) {
+    const SurfacePoint& at = values.at[i];
+    const auto place = locator.Find(at.patch, at.position);
+    PENUMBRA_CHECK(place.has_value());
+    values.shown[i] = IrradianceAt(mesh, *place).max(0.0);
+    ReceiverPoint receiver;
+    receiver.position = at.position;
+    receiver.normal = scene.patches[static_cast<std::size_t>(at.patch)].normal;
+    values.exact[i] = sampler(at.patch, receiver).irradiance;
+    if (better) values.truth[i] = better(at.patch, receiver).irradiance;
+  });
+}
+
+// Of the errors of values at these points.
+RepresentationError Summarise(const Scene& scene, std::span<const SurfacePoint> at,
+                              std::span<const ValueError> errors) {
   RepresentationError error;
+  if (errors.empty()) return error;
   double squares = 0;
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    squares += errors[i] * errors[i];
-    if (errors[i] <= error.max) continue;
-    error.max = errors[i];
-    error.worst_patch = at[i / 3].patch;
-    error.worst_point = at[i / 3].position;
+  for (const ValueError& value : errors) {
+    squares += value.error * value.error;
+    if (value.error <= error.max) continue;
+    error.max = value.error;
+    error.worst_point = at[value.point].position;
+    error.worst_face = scene.FaceAt(at[value.point].patch, error.worst_point);
   }
-  error.points = at.size();
+  error.points = 1;
+  for (std::size_t i = 1; i < errors.size(); ++i)
+    error.points += errors[i].point != errors[i - 1].point ? 1 : 0;
   error.p99 = Quantile(errors, 0.99);
-  const double deviation = std::sqrt(0.99 * 0.01 / static_cast<double>(at.size()));
+  const double deviation = std::sqrt(0.99 * 0.01 / static_cast<double>(error.points));
   error.p99_at_most = Quantile(errors, std::min(0.99 + deviation, 1.0));
+  error.p99_at_least =
+      Quantile(errors, std::max(0.0, 0.99 - deviation - 1 / static_cast<double>(error.points)));
   error.p95 = Quantile(errors, 0.95);
   error.rms = std::sqrt(squares / static_cast<double>(errors.size()));
   return error;
+}
+
+// Points in each part that is seen; none where there is only one.
+std::vector<SurfacePoint> SpreadOverParts(const Scene& scene, std::span<const double> areas,
+                                          std::span<const ScenePart> parts, std::uint64_t seed) {
+  std::vector<SurfacePoint> points;
+  if (parts.size() < 2) return points;
+  const std::size_t count = std::clamp(kAllPartPoints / parts.size(), kFewestPartPoints, kPartPoints);
+  for (const ScenePart& part : parts) {
+    std::vector<double> weights(areas.size(), 0.0);
+    double total = 0;
+    for (const PatchId p : part.patches)
+      total += weights[static_cast<std::size_t>(p)] = areas[static_cast<std::size_t>(p)];
+    if (total == 0) continue;
+    const std::vector<SurfacePoint> own =
+        SpreadPoints(scene, weights, count, seed + 1 + static_cast<std::uint64_t>(part.patches[0]));
+    points.insert(points.end(), own.begin(), own.end());
+  }
+  return points;
+}
+
+// The errors of the values, sorted into the parts that their points lie in; parts without any are left out.
+std::vector<PartError> SummariseParts(const Scene& scene, std::span<const ScenePart> parts,
+                                      std::span<const SurfacePoint> at, std::span<const ValueError> errors) {
+  std::vector<std::size_t> part_of(scene.patches.size());
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    for (const PatchId p : parts[k].patches) part_of[static_cast<std::size_t>(p)] = k;
+  std::vector<std::vector<ValueError>> own(parts.size());
+  for (const ValueError& value : errors)
+    own[part_of[static_cast<std::size_t>(at[value.point].patch)]].push_back(value);
+  std::vector<PartError> by_part;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (!own[k].empty()) by_part.push_back({parts[k].name, Summarise(scene, at, own[k])});
+  return by_part;
 }
 
 }  // namespace
@@ -55,33 +125,53 @@ double Quantile(std::vector<double> values, double q) {
   return *place;
 }
 
+std::vector<ValueError> SeenErrors(const Scene& scene, std::span<const SurfacePoint> at,
+                                   std::span<const Rgb> shown, std::span<const Rgb> truth) {
+  const std::vector<std::array<bool, 3>> seen = SeenChannels(scene);
+  const std::vector<double> all = RelativeErrors(shown, truth);
+  std::vector<ValueError> errors;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (seen[static_cast<std::size_t>(at[i / 3].patch)][i % 3]) errors.push_back({all[i], i / 3});
+  return errors;
+}
+
+double Quantile(std::span<const ValueError> values, double q) {
+  if (values.empty()) return 0;
+  std::vector<double> errors;
+  for (const ValueError& value : values) errors.push_back(value.error);
+  return Quantile(std::move(errors), q);
+}
+
 MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
                            const IrradianceSampler& better, std::size_t points, std::uint64_t seed,
                            double bound) {
   MeasuredError error;
   if (scene.patches.empty() || points == 0) return error;
-  const std::vector<SurfacePoint> at = SpreadPoints(scene, points, seed);
-  const MeshLocator locator(scene, mesh);
-  std::vector<Rgb> shown(points), exact(points), truth(points);
-  constexpr std::size_t kPointsATask = 16;
-  ParallelFor(points, kPointsATask, [&](std::size_t i) {
-    const auto place = locator.Find(at[i].patch, at[i].position);
-    PENUMBRA_CHECK(place.has_value());
-    shown[i] = IrradianceAt(mesh, *place).max(0.0);
-    ReceiverPoint receiver;
-    receiver.position = at[i].position;
-    receiver.normal = scene.patches[static_cast<std::size_t>(at[i].patch)].normal;
-    exact[i] = sampler(at[i].patch, receiver).irradiance;
-    if (better) truth[i] = better(at[i].patch, receiver).irradiance;
-  });
-  error.interpolant = Summarise(at, RelativeErrors(shown, exact));
+  const std::vector<double> areas = SeenAreas(scene);
+  Values values;
+  values.at = SpreadPoints(scene, areas, points, seed);
+  std::vector<ScenePart> parts;
+  if (better) {
+    parts = PartsOf(scene);
+    const std::vector<SurfacePoint> further = SpreadOverParts(scene, areas, parts, seed);
+    values.at.insert(values.at.end(), further.begin(), further.end());
+  }
+  Evaluate(scene, mesh, sampler, better, values);
+  // Means are those of the first points, which spread evenly; so are all figures but those of parts.
+  const auto errors = [&](const std::vector<Rgb>& shown, const std::vector<Rgb>& truth) {
+    return SeenErrors(scene, std::span(values.at).first(points), std::span(shown).first(points),
+                      std::span(truth).first(points));
+  };
+  error.interpolant = Summarise(scene, values.at, errors(values.shown, values.exact));
   if (!better) return error;
-  error.sources = Summarise(at, RelativeErrors(exact, truth));
-  const std::vector<double> errors = RelativeErrors(shown, truth);
-  error.whole = Summarise(at, errors);
-  error.above =
-      static_cast<double>(std::count_if(errors.begin(), errors.end(), [&](double e) { return e > bound; })) /
-      static_cast<double>(errors.size());
+  error.sources = Summarise(scene, values.at, errors(values.exact, values.truth));
+  const std::vector<ValueError> whole = errors(values.shown, values.truth);
+  error.whole = Summarise(scene, values.at, whole);
+  error.above = static_cast<double>(std::count_if(whole.begin(), whole.end(),
+                                                  [&](const ValueError& e) { return e.error > bound; })) /
+                static_cast<double>(std::max<std::size_t>(1, whole.size()));
+  error.by_part =
+      SummariseParts(scene, parts, values.at, SeenErrors(scene, values.at, values.shown, values.truth));
   return error;
 }
 

@@ -7,6 +7,7 @@
 
 #include "mesh/representation_error.h"
 #include "solver/base/parallel.h"
+#include "solver/scene/scene_parts.h"
 #include "solver/scene/surface_points.h"
 
 namespace penumbra {
@@ -43,7 +44,7 @@ SourceCut ChooseSourceCut(const RadiositySolution& solution, const SourceCells& 
     reflectance[i] = scene.MaterialOf(solution.forest[all[i].leaf].patch).reflectance;
   }
 
-  const std::vector<SurfacePoint> at = SpreadPoints(scene, points, seed);
+  const std::vector<SurfacePoint> at = SpreadPoints(scene, SeenAreas(scene), points, seed);
   std::vector<Rgb> truth(points);
   std::vector<std::vector<Rgb>> shown(kSteps, std::vector<Rgb>(points));
   ParallelFor(points, kPointGrain, [&](std::size_t p) {
@@ -84,7 +85,7 @@ SourceCut ChooseSourceCut(const RadiositySolution& solution, const SourceCells& 
   });
 
   for (std::size_t j = 0; j < kSteps; ++j) {
-    const double p99 = Quantile(RelativeErrors(shown[j], truth), 0.99);
+    const double p99 = Quantile(SeenErrors(scene, at, shown[j], truth), 0.99);
     if (j > 0 && p99 > error) break;
     chosen.score = scores[j];
     chosen.p99 = p99;

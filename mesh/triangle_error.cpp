@@ -9,6 +9,7 @@
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
 #include "solver/geometry/polygon.h"
+#include "solver/scene/scene_parts.h"
 
 namespace penumbra {
 namespace {
@@ -137,17 +138,21 @@ std::vector<double> GuessTriangleErrors(const Scene& scene, const IrradianceMesh
   return guess;
 }
 
-double AreaAbove(const IrradianceMesh& mesh, std::span<const TriangleError> errors, double error) {
-  double twice = 0;
+std::vector<double> AreaAbove(const Scene& scene, const IrradianceMesh& mesh,
+                              std::span<const TriangleError> errors, double error) {
+  std::vector<double> areas(scene.patches.size(), 0.0);
   for (std::uint32_t t = 0; t < errors.size(); ++t)
-    if (errors[t].max > error) twice += TwiceArea(mesh, t);
-  return 0.5 * twice;
+    if (errors[t].max > error)
+      areas[static_cast<std::size_t>(mesh.triangles[t].patch)] += 0.5 * TwiceArea(mesh, t);
+  return areas;
 }
 
-Rgb MeanIrradiance(const IrradianceMesh& mesh) {
+Rgb MeanIrradiance(const Scene& scene, const IrradianceMesh& mesh) {
+  const std::vector<double> seen = SeenAreas(scene);
   Rgb sum = Rgb::Zero();
   double area = 0;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (seen[static_cast<std::size_t>(mesh.triangles[t].patch)] == 0) continue;
     const double a = TwiceArea(mesh, t);
     const QuadraticInterpolant& q = mesh.irradiance[t];
     sum += a / 3 * (q.At(0.5, 0) + q.At(0.5, 0.5) + q.At(0, 0.5));

@@ -38,10 +38,11 @@ MeasuredTriangles MeasureTriangles(const Scene& scene, const IrradianceMesh& mes
 // TriangleError::max; a guide to where to measure. Edges on discontinuities tell nothing.
 std::vector<double> GuessTriangleErrors(const Scene& scene, const IrradianceMesh& mesh, const Rgb& mean);
 
-// The area of the triangles whose largest error is above that [m^2].
-double AreaAbove(const IrradianceMesh& mesh, std::span<const TriangleError> errors, double error);
+// Of each patch the area of the triangles whose largest error is above that [m^2].
+std::vector<double> AreaAbove(const Scene& scene, const IrradianceMesh& mesh,
+                              std::span<const TriangleError> errors, double error);
 
-// The area-weighted mean of the interpolants, by channel [W/m^2].
-Rgb MeanIrradiance(const IrradianceMesh& mesh);
+// The area-weighted mean of the interpolants over the patches that are seen (SeenAreas), by channel [W/m^2].
+Rgb MeanIrradiance(const Scene& scene, const IrradianceMesh& mesh);
 
 }  // namespace penumbra

@@ -71,8 +71,8 @@ Patch MakePatch(std::span<const Vec3> vertices, std::int32_t material, std::int3
 // Patches that are sides of one convex body: what it hides has a single outline from anywhere outside of it.
 struct ConvexSolid {
   struct Side {
-    PatchId patch = kNoPatch;    // the first of its pieces; kNoPatch: missing, as the foot of a block often is
-    Vec3 normal = Vec3::Zero();  // unit, outwards
+    PatchId patch = kNoPatch;  // the first of its pieces; kNoPatch: missing, as the foot of a block often is
+    Vec3 normal = Vec3::Zero();        // unit, outwards
     std::vector<std::int32_t> corner;  // in ConvexSolid::corners, counter-clockwise from outside
     std::vector<std::int32_t> edge;    // from each corner to the next: the number is the same for both sides
   };

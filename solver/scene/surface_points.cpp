@@ -21,17 +21,26 @@ Vec3 PointOn(std::span<const Vec3> polygon, double s, double t) {
 }
 
 std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::size_t count, std::uint64_t seed) {
+  std::vector<double> areas;
+  for (const Patch& patch : scene.patches) areas.push_back(patch.area);
+  return SpreadPoints(scene, areas, count, seed);
+}
+
+std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::span<const double> weights, std::size_t count,
+                                       std::uint64_t seed) {
   PENUMBRA_CHECK(!scene.patches.empty());
   std::vector<double> up_to;
   double total = 0;
-  for (const Patch& patch : scene.patches) up_to.push_back(total += patch.area);
+  for (const double weight : weights) up_to.push_back(total += weight);
   Random random(seed);
   std::vector<SurfacePoint> points;
   points.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double at = (static_cast<double>(i) + random.Uniform()) / static_cast<double>(count) * total;
     const auto found = std::upper_bound(up_to.begin(), up_to.end(), at);
-    const std::size_t p = std::min(static_cast<std::size_t>(found - up_to.begin()), up_to.size() - 1);
+    // Rounding may put `at` at the total itself: that is of the last patch which weighs anything.
+    const auto p = static_cast<std::size_t>(
+        (found == up_to.end() ? std::lower_bound(up_to.begin(), up_to.end(), total) : found) - up_to.begin());
     const double s = random.Uniform(), t = random.Uniform();
     points.push_back({static_cast<PatchId>(p), PointOn(scene.patches[p].Vertices(), s, t)});
   }

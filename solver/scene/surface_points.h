@@ -24,5 +24,8 @@ struct SurfacePoint {
 // One random point in each of `count` equal shares of the fronts' total area, patch after patch. The same
 // seed gives the same points. REQUIRES: the scene has patches.
 std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::size_t count, std::uint64_t seed);
+// The same with these weights, one a patch, in the place of areas. REQUIRES: one of them is not 0.
+std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::span<const double> weights, std::size_t count,
+                                       std::uint64_t seed);
 
 }  // namespace penumbra

@@ -217,7 +217,7 @@ struct BoxesUnderLight {
         "max %.4f p99 %.4f p95 %.4f rms %.4f (worst on patch %d at %g %g %g), %zu triangles, %zu "
         "evaluations, "
         "%zu discontinuities, %zu activated, %zu refused, %zu contacts refused, %zu dropped\n",
-        e.max, e.p99, e.p95, e.rms, e.worst_patch, e.worst_point.x(), e.worst_point.y(), e.worst_point.z(),
+        e.max, e.p99, e.p95, e.rms, e.worst_face, e.worst_point.x(), e.worst_point.y(), e.worst_point.z(),
         c.triangles, c.point_evaluations, c.discontinuities, c.activated, c.refused, c.refused_contacts,
         c.dropped_segments);
     return e;

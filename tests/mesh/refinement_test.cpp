@@ -408,7 +408,7 @@ TEST(RefinementSteps, AreFoundWhereTheyHelp) {
     part.jump.kink.gradient = told * kMeasured * 10 / kKinkError;
     part.jump.kink.largest_value = 1e9;
     const std::vector<OmittedOfPatch> omitted = {{{}, {{3, 2, {part}}}}};
-    return FindRefinementSteps(mesh, std::span(&patch, 1), errors, omitted, kError);
+    return FindRefinementSteps(mesh, std::span(&patch, 1), errors, omitted, kError, 0);
   };
   constexpr ElementId kLeaf = 7;
   for (const bool split : {false, true}) {
