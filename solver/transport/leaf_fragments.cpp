@@ -5,8 +5,8 @@
 
 #include "solver/base/parallel.h"
 #include "solver/geometry/segment_clip.h"
-#include "solver/scene/tolerances.h"
 #include "solver/scene/contacts.h"
+#include "solver/scene/tolerances.h"
 
 namespace penumbra {
 namespace {
