@@ -22,6 +22,8 @@ constexpr double kCovered = 0.5;
 constexpr double kLeastRoom = 0.02;
 // A piece narrower than this part of the cut is not cut off: what a sheet of two sides covers.
 constexpr double kLeastWidth = 1e-3;
+// A patch smaller than this part of the largest that reflects is the side of some furniture, and in one room.
+constexpr double kLeastPatch = 0.1;
 // Of each patch, the most feet that are looked at, the longest first, and the most pieces.
 constexpr std::size_t kMostFeet = 512, kMostPieces = 64;
 
@@ -242,6 +244,10 @@ class PatchCutter {
 }  // namespace
 
 void CutAtWalls(Scene& scene) {
+  double largest = 0;
+  for (PatchId id = 0; id < Size(scene.patches); ++id)
+    if ((scene.MaterialOf(id).reflectance > 0).any())
+      largest = std::max(largest, Diameter(scene.patches[id].Vertices()));
   std::vector<Patch> patches;
   std::vector<SolidId> solid_of;
   std::vector<PatchId> first(scene.patches.size());  // of the pieces of each patch
@@ -249,9 +255,9 @@ void CutAtWalls(Scene& scene) {
   for (PatchId id = 0; id < Size(scene.patches); ++id) {
     const Patch& patch = scene.patches[id];
     first[id] = Size(patches);
-    const std::vector<Contact> contacts = search.FindWithHanging(id);
     std::vector<Polygon3> pieces;
-    if (!contacts.empty()) pieces = PatchCutter(scene, id).Cut(contacts);
+    if (Diameter(patch.Vertices()) >= kLeastPatch * largest)
+      pieces = PatchCutter(scene, id).Cut(search.FindWithHanging(id));
     if (pieces.empty()) patches.push_back(patch);
     for (const Polygon3& piece : pieces) {
       patches.push_back(MakePatch(piece, patch.material, patch.object, patch.faces));

@@ -15,7 +15,8 @@ namespace penumbra {
 //  (1) if it and what goes on in its line cover at least half of the line from what stops it on one side (the
 //      patch's outline, or another foot) to what stops it on the other, so that a doorway does not make it
 //      less of a wall;
-//  (2) if it is not small beside the patch, together with what it touches.
+//  (2) if it is not small beside the patch, together with what it touches, nor the patch beside the scene's
+//  largest.
 //
 // The feet of one convex solid do not stop each other: a block on a floor covers what they enclose, and is no
 // wall unless it reaches from wall to wall. A side of a solid that was cut stays one side of it: all its

@@ -1,0 +1,151 @@
+// Patches are cut along the walls that stand on them, and nowhere else.
+
+#include "solver/scene/contact_cuts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "solver/base/random.h"
+#include "solver/scene/convex_solids.h"
+#include "tests/visibility/test_scenes.h"
+
+namespace penumbra::scene_test {
+namespace {
+
+constexpr double kRounding = 1e-12;  // of a room of some metres, with the crossings of some cuts
+
+Scene Cut(Scene scene) {
+  FindConvexSolids(scene);
+  CutAtWalls(scene);
+  return scene;
+}
+
+void Add(Scene& scene, const Polygon3& polygon) { scene.patches.push_back(MakePatch(polygon, 0, 0, {0})); }
+
+// A floor of 8 m by 4 m, the first patch.
+Scene Floor() {
+  Scene scene;
+  AddMaterial(scene, 0.5, 0);
+  Add(scene, {{0, 0, 0}, {8, 0, 0}, {8, 4, 0}, {0, 4, 0}});
+  return scene;
+}
+
+// The pieces that lie where the floor lay.
+std::vector<Patch> PiecesOfFloor(const Scene& scene) {
+  std::vector<Patch> pieces;
+  for (const Patch& patch : scene.patches) {
+    bool flat = true;
+    for (const Vec3& v : patch.Vertices()) flat = flat && v.z() == 0;
+    if (flat) pieces.push_back(patch);
+  }
+  return pieces;
+}
+
+// No patch has corners on both sides of a wall from end to end, with a doorway or without, thick or thin, on
+// the floor or a centimetre above it.
+TEST(CutAtWalls, NoPieceReachesUnderAWall) {
+  for (const double doorway : {0.0, 0.005, 0.9, 1.9})
+    for (const double above : {0.0, 0.01}) {
+      Scene scene = Floor();
+      Add(scene, {{5, 0, above}, {5, 4 - doorway, above}, {5, 4 - doorway, 2}, {5, 0, 2}});
+      scene = Cut(scene);
+      EXPECT_EQ(PiecesOfFloor(scene).size(), 2U) << doorway << " m, " << above << " m above";
+      double area = 0;
+      for (const Patch& piece : PiecesOfFloor(scene)) {
+        area += piece.area;
+        bool left = false, right = false;
+        for (const Vec3& v : piece.Vertices()) {
+          left = left || v.x() < 5;
+          right = right || v.x() > 5;
+        }
+        EXPECT_FALSE(left && right);
+      }
+      EXPECT_NEAR(area, 32, kRounding);
+    }
+}
+
+// What stands free on the floor is furniture: a box, a screen, a wall with more doorway than wall. So is what
+// hangs higher.
+TEST(CutAtWalls, LeavesFurnitureAlone) {
+  Scene box = Floor();
+  AddBox(box, {2, 1, 0}, {3, 2, 1}, false, 0);
+  EXPECT_EQ(PiecesOfFloor(Cut(box)).size(), 2U);  // the floor, and the bottom of the box
+  Scene screen = Floor();
+  Add(screen, {{5, 1, 0}, {5, 2.5, 0}, {5, 2.5, 2}, {5, 1, 2}});
+  EXPECT_EQ(PiecesOfFloor(Cut(screen)).size(), 1U);
+  Scene doorway = Floor();
+  Add(doorway, {{5, 0, 0}, {5, 1.9, 0}, {5, 1.9, 2}, {5, 0, 2}});
+  EXPECT_EQ(PiecesOfFloor(Cut(doorway)).size(), 1U);
+  Scene lintel = Floor();
+  Add(lintel, {{5, 0, 1}, {5, 4, 1}, {5, 4, 2}, {5, 0, 2}});
+  EXPECT_EQ(PiecesOfFloor(Cut(lintel)).size(), 1U);
+}
+
+// A box that reaches from wall to wall is a wall, and stays one solid though others cut its sides.
+TEST(CutAtWalls, KeepsSolidsWhole) {
+  Scene scene = Floor();
+  AddBox(scene, {4, 0, 0}, {4.25, 4, 2}, false, 0);
+  Add(scene, {{4.25, 2, 0}, {8, 2, 0}, {8, 2, 2}, {4.25, 2, 2}});
+  const std::size_t before = scene.patches.size();
+  scene = Cut(scene);
+  ASSERT_EQ(scene.solids.size(), 1U);
+  EXPECT_GT(scene.patches.size(), before);
+  std::size_t pieces = 0;
+  for (std::size_t p = 0; p < scene.patches.size(); ++p)
+    if (scene.SolidOf(static_cast<PatchId>(p)) == 0) {
+      ++pieces;
+      for (const Vec3& v : scene.patches[p].Vertices()) {
+        EXPECT_GE(v.x(), 4);
+        EXPECT_LE(v.x(), 4.25);
+      }
+    }
+  EXPECT_EQ(pieces, 7U);  // the side that the other wall meets is two
+}
+
+// Closets of any number of walls, turned at random with the whole scene: areas add up, pieces keep the plane
+// to the bit, and none lies on both sides of a closet's wall.
+TEST(CutAtWalls, Closets) {
+  constexpr std::uint64_t kSeed = 20261130;
+  Random random(kSeed);
+  double worst = 0;
+  for (int i = 0; i < 200; ++i) {
+    const int walls = 3 + static_cast<int>(random.Uniform() * 14);
+    const double radius = 0.4 + random.Uniform(), turn = 2 * std::numbers::pi * random.Uniform();
+    const Vec3 centre(2 + 4 * random.Uniform(), 2, 0);
+    Scene scene = Floor();
+    const auto corner = [&](int k, double z) {
+      const double angle = turn + 2 * std::numbers::pi * (k % walls) / walls;
+      return Vec3(centre + Vec3(radius * std::cos(angle), radius * std::sin(angle), z));
+    };
+    for (int k = 0; k < walls; ++k)
+      Add(scene, {corner(k, 0), corner(k, 2), corner(k + 1, 2), corner(k + 1, 0)});
+    const Motion motion = RandomMotion(random, 10);
+    const Scene moved = Mapped(scene, motion);
+    const Scene cut = Cut(moved);
+    double inside = 0, area = 0;
+    for (const Patch& piece : cut.patches) {
+      if (piece.normal != moved.patches[0].normal) continue;
+      area += piece.area;
+      int within = 0;
+      for (int k = 0; k < walls; ++k) {
+        const Patch& wall = moved.patches[static_cast<std::size_t>(k + 1)];
+        double low = 0, high = 0;
+        for (const Vec3& v : piece.Vertices()) {
+          low = std::min(low, wall.normal.dot(v - wall.vertex[0]));
+          high = std::max(high, wall.normal.dot(v - wall.vertex[0]));
+        }
+        if (low > -1e-9) ++within;
+      }
+      if (within == walls) inside += piece.area;
+    }
+    const double closet = 0.5 * walls * radius * radius * std::sin(2 * std::numbers::pi / walls);
+    worst = std::max({worst, std::abs(area - 32) / 32, std::abs(inside - closet) / closet});
+  }
+  std::printf("seed %llu: areas within %.2g\n", static_cast<unsigned long long>(kSeed), worst);
+  EXPECT_LE(worst, 1e-8);
+}
+
+}  // namespace
+}  // namespace penumbra::scene_test
