@@ -24,7 +24,10 @@
 
 namespace penumbra {
 
-enum class DiscontinuityKind : std::uint8_t { kVE, kEV, kHorizon, kContact, kEEE };
+// kNear is none in the strict sense: beside an edge of a source that hangs closely above the receiver the
+// irradiance falls within a few times the height, and a mesh that is coarser has to follow it as it follows
+// discontinuities.
+enum class DiscontinuityKind : std::uint8_t { kVE, kEV, kHorizon, kContact, kEEE, kNear };
 
 // The lowest derivative of the irradiance that jumps. Generic VE, EV and EEE events are D2, a horizon is D1
 // (so is an event whose source edge and blocker edge share a plane), a contact D0.
@@ -47,10 +50,10 @@ struct Discontinuity {
   DiscontinuityDegree degree = DiscontinuityDegree::kD2;
   PatchId receiver = kNoPatch;
   PatchId source = kNoPatch;   // kNoPatch for a contact
-  PatchId blocker = kNoPatch;  // kNoPatch for a horizon; the touching patch for a contact
-  // VE: the source's vertex and the blocker's edge that meet; EV: the source's edge and the blocker's vertex.
-  // EEE: the source's edge, or -1, and that of the blocker. An edge has the number of the vertex where it
-  // starts.
+  PatchId blocker = kNoPatch;  // kNoPatch for a horizon and a near edge; the touching patch for a contact
+  // VE: the source's vertex and the blocker's edge that meet; EV: the source's edge and the blocker's vertex;
+  // near: the source's edge. EEE: the source's edge, or -1, and that of the blocker. An edge has the number
+  // of the vertex where it starts.
   std::int32_t source_part = -1, blocker_part = -1;
   PatchEdge second_blocker_edge, third_blocker_edge;  // EEE; the third where there is no edge of the source
   // Of a D1 event: the edges that lie in one plane.
@@ -113,6 +116,8 @@ class DiscontinuityFinder {
   //  beside the
   //      contact.
   //  (6) With options.triple_edge_tolerance also the pieces of EEE events.
+  //  (7) Beside an edge of a source that hangs at most kHanging of its length above the receiver lines run
+  //  along the edge, ever farther from it.
   // Safe from any thread.
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
                                   const DiscontinuityOptions& options) const;

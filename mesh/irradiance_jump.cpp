@@ -286,6 +286,28 @@ IrradianceJump Horizon(const View& view) {
   return jump;
 }
 
+// Of a line beside an edge that hangs at the height h above the receiver, at the distance q h. Beside a long
+// edge the irradiance is (1 - q / sqrt(1 + q^2)) / 2 of the source's radiosity. What takes the place of a
+// jump of the second derivative is that derivative, at q = 0, where it changes its sign, that of the next
+// line.
+IrradianceJump NearEdge(const View& view, std::int32_t edge) {
+  constexpr double kInflection = 0.5;
+  const Vec3 &a = view.source.vertex[static_cast<std::size_t>(edge)],
+             &b = view.source.vertex[static_cast<std::size_t>((edge + 1) % view.source.size)];
+  const Vec3 along = (b - a).normalized();
+  const Vec3 from = view.x - a;
+  const Vec3 off = from - from.dot(along) * along;
+  const double height = std::abs(view.normal.dot(off));
+  if (height == 0) return {};
+  const double q = std::sqrt(std::max(0.0, off.squaredNorm() - height * height)) / height;
+  const double bend = std::max(q, kInflection);
+  IrradianceJump jump;
+  jump.curvature = 1.5 * bend * std::pow(1 + bend * bend, -2.5) / (height * height);
+  jump.largest_gradient = 0.5 * std::pow(1 + q * q, -1.5) / height;
+  jump.largest_value = 0.5 * (1 - q / std::sqrt(1 + q * q));
+  return jump;
+}
+
 }  // namespace
 
 std::int32_t CoplanarEdge(const Patch& source, std::int32_t k, const Vec3& a, const Vec3& b,
@@ -306,6 +328,7 @@ IrradianceJump JumpAt(const Scene& scene, const Silhouettes& silhouettes, const 
   if (d.source == kNoPatch) return {};
   const View view = {x, scene.patches[d.receiver].normal, across, scene.patches[d.source]};
   if (d.kind == DiscontinuityKind::kHorizon) return Horizon(view);
+  if (d.kind == DiscontinuityKind::kNear) return NearEdge(view, d.source_part);
   if (d.shared_source_edge >= 0)
     return EdgeEdge(scene, silhouettes, view, d.shared_source_edge, d.shared_blocker_edge.patch,
                     d.shared_blocker_edge.k);
