@@ -35,6 +35,39 @@ bool SameSegment(const Discontinuity& d, const Vec2& a, const Vec2& b, double to
   return (near(d.end[0], a) && near(d.end[1], b)) || (near(d.end[0], b) && near(d.end[1], a));
 }
 
+// Beside the edges of a light that hangs closely above a floor lines run along them, as far away as the
+// height times ever larger factors; what weighs them falls with the distance. None beside a light that hangs
+// higher.
+TEST(DiscontinuityFinder, LinesAlongEdgesThatHangClosely) {
+  constexpr double kHalf = 0.5, kClose = 0.001;
+  for (const double height : {kClose, 0.1}) {
+    Scene scene = EmptyScene();
+    const PatchId floor = AddSquare(scene, 0, 0, 0, 2, true);
+    const PatchId light = AddSquare(scene, 0, 0, height, kHalf, false, 1);
+    const PatchVisibility visibility(scene);
+    const DiscontinuityFinder finder(scene, visibility);
+    DiscontinuityOptions options = AtLeast(0);
+    options.weight = DiscontinuityWeight::kIrradiance;
+    std::set<long> offsets;  // from the edges, in thousandths of the height
+    double nearest = 0, farthest = 0;
+    for (const Discontinuity& d : finder.Find(floor, Strengths(scene, light, 10), options)) {
+      ASSERT_EQ(d.kind, DiscontinuityKind::kNear);
+      EXPECT_EQ(d.source, light);
+      EXPECT_EQ(d.blocker, kNoPatch);
+      const Vec2 middle = 0.5 * (d.end[0] + d.end[1]) - Vec2(2, 2);  // in the frame of the floor's corner
+      const double offset = (middle.cwiseAbs().maxCoeff() - kHalf) / height;
+      offsets.insert(std::lround(1000 * offset));
+      if (std::abs(offset) < 0.1) nearest = d.weight;
+      if (offset > 14) farthest = d.weight;
+    }
+    EXPECT_EQ(offsets.size(), height == kClose ? 15U : 0U);
+    if (height != kClose) continue;
+    EXPECT_GT(nearest, 100 * farthest);
+    EXPECT_GT(farthest, 0);
+    EXPECT_LE(nearest, 10);
+  }
+}
+
 // A square light (half side l, height H) over a plane with a floating square blocker (half side b, height h):
 // seen through each corner of the light the blocker's shadow is a square of half side b H / (H - h), moved
 // against the corner by l h / (H - h). The boundaries of umbra and penumbra are among their sides, by similar
