@@ -76,8 +76,7 @@ void SolveRun::Run(std::optional<MeshKind> kind, bool measure) {
     else if (!stored_)
       pipeline_.Solve(context);
     // What interpolants show refines the sources, which are the same whatever is made of them.
-    const bool refines =
-        !stored_ && !arguments_.solving.dense && arguments_.solving.refine != RefineBy::kTransport;
+    const bool refines = !stored_ && RefinesLight(arguments_.solving);
     if (refines && !context.Cancelled()) pipeline_.BuildMesh(MeshKind::kInterpolant, context);
     // Where a limit has ended that, asking for the same once more would change nothing.
     const bool is_made = refines && kind == MeshKind::kInterpolant;

@@ -99,11 +99,6 @@ struct Pipeline::Impl {
     return std::make_unique<PointIrradiance>(Solution(), visibility, options.point, leaves);
   }
 
-  // Whether the interpolants' means make the last correction.
-  bool RefinesShown() const {
-    return options.refine != RefineBy::kTransport && !options.dense && !options.source_error;
-  }
-
   // What is left of the limits to Solve(); none without it.
   RunLimits LimitsSinceSolve(const ExecutionContext& context) const {
     return RunLimits(context, begun ? options.time_limit : std::nullopt,
@@ -122,7 +117,7 @@ struct Pipeline::Impl {
                                                           : InterpolantOrder::kLinear;
     const bool refines =
         kind == MeshKind::kInterpolant && solver && options.refine != RefineBy::kTransport && !as_it_is;
-    return refines ? shown.MakeRefined(*solver, mesh_options, context)
+    return refines ? shown.MakeRefined(*solver, mesh_options, RefinesLight(options), context)
                    : shown.Make(Solution(), mesh_options, context);
   }
 
@@ -234,7 +229,7 @@ bool Pipeline::Converged() const { return impl_->solver && impl_->solver->Conver
 bool Pipeline::Correct(const ExecutionContext& context) {
   Link(context);
   const bool done = impl_->Run(context, [this](HierarchicalSolver& solver, const ExecutionContext& running) {
-    return solver.CorrectAll(running, /*but_the_last=*/impl_->RefinesShown());
+    return solver.CorrectAll(running, /*but_the_last=*/RefinesLight(impl_->options));
   });
   if (!done) impl_->Forget();  // some passes may have been made
   return done;

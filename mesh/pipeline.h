@@ -89,6 +89,12 @@ struct ResolvedOptions {
 };
 ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options);
 
+// Whether interpolants, once they are made of a solution, refine its light: cut its sources by what they show
+// and give them their means, which then is the last correction. The light of a dense solve stays as it was
+// solved, that of --refine transport as its links made it, and that of corrections by --source-error as these
+// cut it. Everything that may change the light asks here.
+bool RefinesLight(const PipelineOptions& options);
+
 // How the interpolants of a mesh are made.
 enum class MeshKind {
   kFlat,         // quadtree leaves, the constant basis

@@ -47,6 +47,10 @@ SceneTotals Total(const Scene& scene) {
 
 }  // namespace
 
+bool RefinesLight(const PipelineOptions& options) {
+  return options.refine != RefineBy::kTransport && !options.dense && !options.source_error;
+}
+
 ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   const SceneTotals totals = Total(scene);
   // What the walls would receive if all light stayed in and spread evenly.

@@ -57,7 +57,7 @@ bool ShownMesh::Make(const RadiositySolution& solution, const MeshOptions& optio
   return FirstLook(solution, options, kNearShare * options_.error, context);
 }
 
-bool ShownMesh::MakeRefined(HierarchicalSolver& solver, const MeshOptions& options,
+bool ShownMesh::MakeRefined(HierarchicalSolver& solver, const MeshOptions& options, bool light_too,
                             const ExecutionContext& context) {
   Begin();
   const bool can_want = options.discontinuities.can_want();
@@ -68,8 +68,7 @@ bool ShownMesh::MakeRefined(HierarchicalSolver& solver, const MeshOptions& optio
   if (!can_want) first.discontinuities.min_wanted_weight = first.discontinuities.min_weight;
   if (!FirstLook(solver.solution(), first, options_.solver.correction_tolerance, context)) return false;
   if (mesh_.triangles.empty()) return true;
-  const bool sources_too = options_.solver.source_error == 0;
-  if (!sources_too || SettleSources(solver, first, context)) RefineLeaves(solver.solution(), last, context);
+  if (!light_too || SettleSources(solver, first, context)) RefineLeaves(solver.solution(), last, context);
   return true;
 }
 

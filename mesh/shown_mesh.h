@@ -44,10 +44,10 @@ class ShownMesh {
 
   // Makes the mesh of the solution's leaves. False if it was cancelled, which leaves the mesh before.
   bool Make(const RadiositySolution& solution, const MeshOptions& options, const ExecutionContext& context);
-  // The same, and then refines it: the solver's sources, unless they are refined by links
-  // (SolverOptions::source_error), and leaves. What is cancelled once there is a mesh
-  // leaves the last whole one, and true.
-  bool MakeRefined(HierarchicalSolver& solver, const MeshOptions& options, const ExecutionContext& context);
+  // The same, and then refines it: the solver's sources, if the light is to be refined too, and leaves. What
+  // is cancelled once there is a mesh leaves the last whole one, and true.
+  bool MakeRefined(HierarchicalSolver& solver, const MeshOptions& options, bool light_too,
+                   const ExecutionContext& context);
   // Shows a mesh that was made elsewhere.
   void Take(IrradianceMesh mesh);
   // After another PatchVisibility has taken the place of the present one.

@@ -332,8 +332,7 @@ void SolverSession::DoInterpolants(const ExecutionContext& context) {
   pipeline_->CountLimits();
   pipeline_->BuildMesh(MeshKind::kInterpolant, context, /*as_it_is=*/!settled_);
   if (context.Cancelled()) return;
-  const PipelineOptions& options = pipeline_->options();
-  const bool refined = settled_ && !options.dense && options.refine != RefineBy::kTransport;
+  const bool refined = settled_ && RefinesLight(pipeline_->options());
   std::shared_ptr<Snapshot> next =
       refined ? NextLight(before->corrections) : std::make_shared<Snapshot>(*before);
   next->converged = before->converged;

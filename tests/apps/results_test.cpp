@@ -268,6 +268,29 @@ TEST(Solve, ReportHoldsEveryField) {
   EXPECT_TRUE(report.at("unmet").is_array());
 }
 
+// A point's exact irradiance comes from the light that the dense solver found, whatever the mesh that is
+// shown is refined by.
+TEST(Solve, DenseLightIsTheReference) {
+  const Sandbox sandbox;
+  sandbox.Write("points.csv", "x,y,z,nx,ny,nz\n0.11,0.21,0,0,0,1\n0.3,0.4,0.2,0,1,0\n");
+  const auto exact = [&](std::vector<std::string> options) {
+    std::vector<std::string> arguments = {"probe", "floating-cube", "--points", "points.csv", "--solver",
+                                          "dense", "--divisions",   "2",        "--error",    "0.1"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome probe = sandbox.Run(arguments);
+    EXPECT_EQ(probe.status, 0) << probe.err;
+    std::vector<std::vector<std::string>> rows;
+    const std::vector<std::string> lines = Lines(probe.out);
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      const std::vector<std::string> fields = Fields(lines[i]);
+      rows.emplace_back(fields.begin() + 7, fields.begin() + 10);
+    }
+    EXPECT_EQ(rows.size(), 2U);
+    return rows;
+  };
+  EXPECT_EQ(exact({}), exact({"--refine", "transport"}));
+}
+
 // The dense solver finds the furnace's irradiance with every basis, and reports how well its matrix closes.
 TEST(Solve, DenseFurnace) {
   const Sandbox sandbox;

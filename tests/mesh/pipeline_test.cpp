@@ -111,6 +111,30 @@ TEST(Pipeline, CancelledStepsLeaveWhatWas) {
   EXPECT_TRUE(pipeline.Converged());
 }
 
+// The light that a dense system was solved for is a reference: what is shown of it refines the mesh alone. So
+// does what links alone refine, and what is corrected by parts of leaves.
+TEST(Pipeline, MeshesLeaveReferencesAsTheyAre) {
+  const Scene scene = FurnishedRoom();
+  for (const int kind : {0, 1, 2}) {
+    PipelineOptions options;
+    options.error = 0.2;
+    options.error_points = 20;
+    if (kind == 0) options.dense = DenseOptions{.tolerance = 0.01, .max_points = 100};
+    if (kind == 0) options.divisions = 1;
+    if (kind == 1) options.refine = RefineBy::kTransport;
+    if (kind == 2) options.source_error = 0.2;
+    EXPECT_FALSE(RefinesLight(options));
+    Pipeline pipeline(scene, options);
+    pipeline.Solve({});
+    const RadiositySolution before = pipeline.solution();
+    pipeline.BuildMesh(MeshKind::kInterpolant, {});
+    EXPECT_TRUE(SameLight(before, pipeline.solution())) << kind;
+    pipeline.Measure({});
+    EXPECT_TRUE(SameLight(before, pipeline.solution())) << kind;
+    EXPECT_GT(pipeline.mesh().triangles.size(), before.forest.AllLeaves().size());
+  }
+}
+
 // Corrections that are cancelled on their way keep the passes that were made, and nothing that was made of
 // the light before them.
 TEST(Pipeline, CancelledCorrectionsKeepWholePasses) {

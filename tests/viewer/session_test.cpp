@@ -277,17 +277,24 @@ TEST(SolverSession, ShowsWhatAnotherSolved) {
   EXPECT_EQ(session.snapshot()->light->solution().forest.size(), pipeline.solution().forest.size());
 }
 
-// A dense system has no iterations, and a time limit ends a solve with a word.
+// A dense system has no iterations, its light stays whatever is shown of it, and a time limit ends a solve
+// with a word.
 TEST(SolverSession, SolvesDenseSystemsAndKeepsLimits) {
   const auto scene = viewer_test::ShadowScene();
   PipelineOptions options = Loose();
   options.dense.emplace();
+  options.refine = RefineBy::kBoth;
   SolverSession dense(scene, options);
   dense.Converge();
   dense.Iterate();
   dense.Correct();
+  ASSERT_TRUE(Rest(dense));
+  const std::vector<Rgb> solved = dense.snapshot()->light->solution().irradiance;
   dense.BuildMesh(MeshKind::kInterpolant);
   ASSERT_TRUE(Rest(dense));
+  const std::vector<Rgb>& shown = dense.snapshot()->light->solution().irradiance;
+  ASSERT_EQ(shown.size(), solved.size());
+  for (std::size_t e = 0; e < solved.size(); ++e) EXPECT_TRUE((shown[e] == solved[e]).all()) << e;
   EXPECT_TRUE(dense.snapshot()->Mesh(MeshKind::kInterpolant));
   EXPECT_TRUE(dense.snapshot()->iterations.empty());
 
