@@ -32,7 +32,7 @@ struct FormFactorArguments {
   SceneArguments scene;
   std::string from, to;
   std::string method = kExact;
-  double tolerance = AreaFormFactorOptions().tolerance;
+  std::optional<double> tolerance;
   std::uint64_t rays = 1'000'000;
 };
 
@@ -114,7 +114,8 @@ void PrintFormFactor(const FormFactorArguments& arguments) {
     options["from"] = arguments.from;
     options["to"] = arguments.to;
     options["method"] = arguments.method;
-    if (Integrates(arguments.method)) options["tolerance"] = arguments.tolerance;
+    if (Integrates(arguments.method))
+      options["tolerance"] = arguments.tolerance.value_or(AreaFormFactorOptions().tolerance);
     if (arguments.method == kMonteCarlo) options["rays"] = arguments.rays;
     PrintOptionsUsed(options);
   }
@@ -132,8 +133,9 @@ void PrintFormFactor(const FormFactorArguments& arguments) {
           IsAtPoints(arguments.method) ? MakeOcclusionMethod(arguments.method) : nullptr;
       AreaFormFactorOptions options;
       options.method = method.get();
-      options.tolerance = arguments.tolerance;
-      options.clear_tolerance = std::min(options.clear_tolerance, arguments.tolerance);
+      options.tolerance = arguments.tolerance.value_or(options.tolerance);
+      // What was asked for is given; without a word, what is cheap.
+      if (arguments.tolerance) options.clear_tolerance = options.small = options.tolerance;
       options.context = &context;
       estimate = AreaFormFactor(scene, from, to, options);
     }
@@ -167,8 +169,9 @@ Command AddFormFactorCommand(CLI::App& program) {
       ->type_name("METHOD")
       ->capture_default_str();
   AddNumber(*app, "--tolerance", &arguments->tolerance, kPositive,
-            "auto, exact and their like: the relative error that is asked for, of each pair of faces with "
-            "something in between");
+            "auto, exact and their like: the error that is asked for, relative to the factor; of factors "
+            "that are less than it, relative to itself. Left out: 1e-7 where something stands in between, "
+            "and what roundings allow where nothing does");
   AddInteger(*app, "--rays", &arguments->rays, std::uint64_t{1}, std::uint64_t{1} << 40,
              "monte-carlo: the number of rays");
   app->footer(

@@ -16,6 +16,13 @@ namespace {
 // Of many pairs, each is known this well before it is decided which deserve more.
 constexpr double kRoughTolerance = 1e-2;
 
+// Where some pairs of many are blocked, the others together need not err by less than this share of what
+// those may.
+constexpr double kShareOfClear = 0.1;
+
+// Points that each of many pairs may cost at least.
+constexpr std::size_t kLeastOfMany = 2000;
+
 // Counts pairs from several threads, and tells the context.
 class PairCounter {
  public:
@@ -87,19 +94,20 @@ FormFactorEstimate AreaFormFactor(const Scene& scene, const PatchHierarchy& patc
   const AreaPart &receiver = swap ? to : from, &source = swap ? from : to;
   const Patch &receiver_patch = scene.patches[static_cast<std::size_t>(receiver.patch)],
               &source_patch = scene.patches[static_cast<std::size_t>(source.patch)];
-  const std::optional<TubeEnds> ends =
+  std::optional<TubeEnds> ends =
       ClipToEachOther(receiver.polygon, receiver_patch, source.polygon, source_patch);
   if (!ends) return {};
   std::vector<PatchId> found, blockers;
   FindBetween(patches, *ends, receiver_patch, source_patch, found);
   if (!FindTubeBlockers(scene, *ends, receiver.patch, source.patch, found, blockers)) return {};
-  const FormFactorEstimate integral =
-      IntegratePair(scene, *ends, receiver.patch, source.patch, std::move(blockers), options);
-  return {integral.factor / from_area, integral.error / from_area};
+  const PartPair pair = {receiver.patch, source.patch, std::move(*ends), from_area};
+  const FormFactorEstimate integral = IntegratePair(scene, pair, std::move(blockers), options);
+  return {integral.factor / from_area, integral.error / from_area, integral.clear, integral.points};
 }
 
 FormFactorEstimate AreaFormFactor(const Scene& scene, std::span<const AreaPart> from,
                                   std::span<const AreaPart> to, const AreaFormFactorOptions& options) {
+  if (from.empty() || to.empty()) return {};
   std::vector<PatchId> all(scene.patches.size());
   std::iota(all.begin(), all.end(), 0);
   const PatchHierarchy patches(scene, std::move(all));
@@ -125,22 +133,38 @@ FormFactorEstimate AreaFormFactor(const Scene& scene, std::span<const AreaPart> 
     // First as well as is cheap, then those that matter as well as matters for the sum.
     AreaFormFactorOptions rough = options;
     rough.tolerance = std::max(options.tolerance, kRoughTolerance);
+    rough.clear_tolerance = std::max(options.clear_tolerance, kRoughTolerance);
     solve("estimate", which, rough);
-    double flux = 0, error = 0;
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      flux += Area(from[k / to.size()]) * pairs[k].factor;
-      error += flux_error(k);
-    }
-    const double asked = options.tolerance * flux;
-    if (error > asked) {
-      const double share = 0.5 * asked / static_cast<double>(pairs.size());
-      std::erase_if(which, [&](std::size_t k) { return flux_error(k) <= share; });
+    double flux = 0, area = 0;
+    for (const AreaPart& part : from) area += Area(part);
+    for (std::size_t k = 0; k < pairs.size(); ++k) flux += Area(from[k / to.size()]) * pairs[k].factor;
+    const double whole = area * AllowedError(flux / area, options.tolerance);
+    const bool all_clear = std::all_of(pairs.begin(), pairs.end(),
+                                       [](const auto& pair) { return pair.clear || pair.error == 0; });
+    for (const bool clear : {true, false}) {
+      double asked = whole;
+      if (clear)
+        asked = std::max(area * AllowedError(flux / area, options.clear_tolerance),
+                         all_clear ? 0 : kShareOfClear * whole);
+      std::vector<std::size_t> kind;
+      double error = 0;
+      for (const std::size_t k : which) {
+        if (pairs[k].clear != clear) continue;
+        kind.push_back(k);
+        error += flux_error(k);
+      }
+      if (error <= asked) continue;
+      const double share = 0.5 * asked / static_cast<double>(kind.size());
+      std::erase_if(kind, [&](std::size_t k) { return flux_error(k) <= share; });
       AreaFormFactorOptions fine = options;
-      fine.tolerance = 0;
-      fine.enough = asked / static_cast<double>(2 * which.size());
-      solve("integrate", which, fine);
+      fine.tolerance = fine.clear_tolerance = 0;
+      fine.enough = asked / static_cast<double>(2 * kind.size());
+      fine.small = options.small / static_cast<double>(kind.size());
+      fine.enough_points = std::max(kLeastOfMany, options.enough_points / kind.size());
+      solve("integrate", kind, fine);
     }
   }
+  const bool all_clear = std::all_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.clear; });
   double area = 0;
   FormFactorEstimate sum;
   for (std::size_t i = 0; i < from.size(); ++i) {
@@ -149,10 +173,14 @@ FormFactorEstimate AreaFormFactor(const Scene& scene, std::span<const AreaPart> 
     for (std::size_t j = 0; j < to.size(); ++j) {
       sum.factor += weight * pairs[i * to.size() + j].factor;
       sum.error += weight * pairs[i * to.size() + j].error;
+      sum.points += pairs[i * to.size() + j].points;
     }
   }
   if (area == 0) return {};
-  return {sum.factor / area, sum.error / area};
+  sum.factor /= area;
+  sum.error /= area;
+  sum.clear = all_clear;
+  return sum;
 }
 
 }  // namespace penumbra

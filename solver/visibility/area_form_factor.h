@@ -29,20 +29,26 @@ struct AreaPart {
 std::vector<AreaPart> PartsOfFace(const Scene& scene, std::int32_t face);
 
 struct FormFactorEstimate {
-  double factor = 0;  // the fraction of the diffuse flux that leaves one front and reaches the other
-  double error = 0;   // how far off the factor may be
+  double factor = 0;       // the fraction of the diffuse flux that leaves one front and reaches the other
+  double error = 0;        // how far off the factor may be
+  bool clear = false;      // nothing stands between
+  std::size_t points = 0;  // at which it was looked
 };
 
 struct AreaFormFactorOptions {
-  // Largest error relative to the factor that is asked for, where something stands between.
+  // Largest error relative to the factor that is asked for, where something stands between; of factors that
+  // are less than the tolerance, relative to that, and never less than a rounding of 1.
   double tolerance = 1e-7;
+  // The same where nothing stands between: roundings set the limit.
+  double clear_tolerance = 2e-13;
   // An error that is small enough whatever the factor [m^2]: of the factor times the sender's area. A pair in
   // a sum gets its share of what the whole may err.
   double enough = 0;
-  // Where nothing stands between, roundings set the limit.
-  double clear_tolerance = 2e-13;
-  // Points that one pair of parts may cost; then the error is what it is.
+  // Points that one pair of parts may cost; then the error is what it is. Where that is small beside 1
+  // already [1], fewer are enough: penumbras past many edges take three times as many for every digit.
   std::size_t max_points = 10'000'000;
+  double small = 1e-7;
+  std::size_t enough_points = 200'000;
   // Takes the points on the first area whatever the sizes: for tests of reciprocity.
   bool points_on_first = false;
   // How occlusion is found at a point; null: the fastest exact way.

@@ -55,8 +55,8 @@ struct Cell {
 // The integral, over a convex part of one patch, of the form factor to a convex part of another.
 class PairIntegral {
  public:
-  PairIntegral(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
-               std::vector<PatchId> blockers, const AreaFormFactorOptions& options);
+  PairIntegral(const Scene& scene, const PartPair& parts, std::vector<PatchId> blockers,
+               const AreaFormFactorOptions& options);
 
   // [m^2]
   FormFactorEstimate Integrate();
@@ -75,6 +75,7 @@ class PairIntegral {
 
   const Scene& scene_;
   PatchId receiver_;
+  double sender_area_;  // [m^2]
   Polygon3 source_part_;
   SightPair pair_;
   AreaFormFactorOptions options_;
@@ -82,11 +83,16 @@ class PairIntegral {
   std::vector<Cell> cells_;
 };
 
-PairIntegral::PairIntegral(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
-                           std::vector<PatchId> blockers, const AreaFormFactorOptions& options)
-    : scene_(scene), receiver_(receiver), source_part_(ends.source), options_(options) {
-  const Patch& patch = scene.patches[receiver];
-  pair_.source = source;
+PairIntegral::PairIntegral(const Scene& scene, const PartPair& parts, std::vector<PatchId> blockers,
+                           const AreaFormFactorOptions& options)
+    : scene_(scene),
+      receiver_(parts.receiver),
+      sender_area_(parts.sender_area),
+      source_part_(parts.ends.source),
+      options_(options) {
+  const TubeEnds& ends = parts.ends;
+  const Patch& patch = scene.patches[receiver_];
+  pair_.source = parts.source;
   pair_.frame = PolygonFrame(ends.receiver);
   pair_.frame.n = patch.normal;
   for (const Vec3& v : ends.receiver) pair_.area.push_back(pair_.frame.ToPlane(v));
@@ -350,8 +356,11 @@ FormFactorEstimate PairIntegral::Integrate() {
       shadowed = shadowed || cell.shadowed;
     }
     const double asked =
-        std::max(options_.enough, value * (shadowed ? options_.tolerance : options_.clear_tolerance));
+        std::max(options_.enough,
+                 sender_area_ * AllowedError(value / sender_area_,
+                                             shadowed ? options_.tolerance : options_.clear_tolerance));
     if (error <= asked || points >= options_.max_points) break;
+    if (error <= options_.small * sender_area_ && points >= options_.enough_points) break;
     if (options_.context && options_.context->Cancelled()) break;
     first_error = std::max(first_error, error);
     share = std::max(share, ShareOfDigits(first_error, error, asked));
@@ -389,14 +398,18 @@ FormFactorEstimate PairIntegral::Integrate() {
       kFormFactorError +
       4 * std::numeric_limits<double>::epsilon() * scene_.patches[receiver_].extent * nearness +
       (shadowed ? kShadowNoise : 0);
-  return {value, error + rounding * value};
+  return {value, error + rounding * value, !shadowed, points};
 }
 
 }  // namespace
 
-FormFactorEstimate IntegratePair(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
-                                 std::vector<PatchId> blockers, const AreaFormFactorOptions& options) {
-  return PairIntegral(scene, ends, receiver, source, std::move(blockers), options).Integrate();
+double AllowedError(double factor, double tolerance) {
+  return std::max(tolerance * std::max(factor, tolerance), std::numeric_limits<double>::epsilon());
+}
+
+FormFactorEstimate IntegratePair(const Scene& scene, const PartPair& pair, std::vector<PatchId> blockers,
+                                 const AreaFormFactorOptions& options) {
+  return PairIntegral(scene, pair, std::move(blockers), options).Integrate();
 }
 
 }  // namespace penumbra

@@ -330,5 +330,53 @@ TEST(AreaFormFactor, FacesOfAJoinedPatch) {
   EXPECT_NEAR(sum, 0.19982489569838738, 1e-13);
 }
 
+// A form factor costs what its tolerance asks for: of faces that bend by 2e-6 at a common edge, which see
+// next to nothing of each other, of a room's walls, and past blockers. The errors told hold.
+TEST(AreaFormFactor, ALooserToleranceCostsLess) {
+  Scene flat;
+  AddMaterial(flat, 0.5, 0);
+  Add(flat, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, 0);
+  Add(flat, {{0, 0, 0}, {1, 1, 0}, {0, 1, 2e-6}}, 0);
+  // By this program, integrated to 2e-18 in ten million points.
+  constexpr double kFlat = 8.2694614576e-13;
+  const FormFactorEstimate bent = Between(flat, Whole(flat, 0), Whole(flat, 1), AreaFormFactorOptions());
+  EXPECT_NEAR(bent.factor, kFlat, bent.error + 2e-18);
+  EXPECT_LE(bent.error, 1e-15);
+  EXPECT_LE(bent.points, 2000U);
+
+  Random random(4121);
+  std::size_t loose_points = 0, tight_points = 0;
+  for (int i = 0; i < Count(20); ++i) {
+    const Scene scene = RandomPair(random, i % 5);
+    AreaFormFactorOptions loose = Asked(1e-2), tight = Asked(1e-6);
+    loose.clear_tolerance = loose.tolerance;
+    tight.clear_tolerance = tight.tolerance;
+    const FormFactorEstimate about = Between(scene, Whole(scene, 0), Whole(scene, 1), loose),
+                             better = Between(scene, Whole(scene, 0), Whole(scene, 1), tight);
+    EXPECT_LE(std::abs(about.factor - better.factor), about.error + better.error) << i;
+    EXPECT_LE(about.error, std::max(1e-2 * about.factor, 1e-4) * (1 + 1e-9)) << i;
+    EXPECT_LE(about.points, better.points) << i;
+    loose_points += about.points;
+    tight_points += better.points;
+  }
+  std::printf("seed 4121: %zu points to 1e-2, %zu to 1e-6\n", loose_points, tight_points);
+  EXPECT_LE(2 * loose_points, tight_points);
+}
+
+// What is small beside 1 already is not followed to any end.
+TEST(AreaFormFactor, WhatIsSmallBesideOneEnds) {
+  Random random(4122);
+  for (int i = 0; i < Count(10); ++i) {
+    const Scene scene = RandomPair(random, i % 5);
+    AreaFormFactorOptions options;
+    options.tolerance = options.clear_tolerance = 1e-15;
+    options.small = 1e-3;
+    options.enough_points = 5000;
+    const FormFactorEstimate found = Between(scene, Whole(scene, 0), Whole(scene, 1), options);
+    EXPECT_LE(found.error, 1e-3) << i;
+    EXPECT_LE(found.points, 50'000U) << i;
+  }
+}
+
 }  // namespace
 }  // namespace penumbra::scene_test
