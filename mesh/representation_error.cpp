@@ -103,9 +103,18 @@ std::vector<PartError> SummariseParts(const Scene& scene, std::span<const SceneP
 
 }  // namespace
 
-std::vector<double> RelativeErrors(std::span<const Rgb> shown, std::span<const Rgb> truth) {
+Rgb NoLight(const Scene& scene) {
+  constexpr double kRounding = 1e-12;
+  double strongest = 0;
+  for (const Patch& patch : scene.patches)
+    strongest = std::max(strongest, scene.materials[patch.material].emittance.maxCoeff());
+  return Rgb::Constant(kRounding * strongest);
+}
+
+std::vector<double> RelativeErrors(std::span<const Rgb> shown, std::span<const Rgb> truth, const Rgb& least) {
   Rgb mean = Rgb::Zero();
   for (const Rgb& e : truth) mean += e / static_cast<double>(truth.size());
+  mean = mean.max(least / kErrorFloor);
   std::vector<double> errors;
   errors.reserve(3 * truth.size());
   for (std::size_t i = 0; i < truth.size(); ++i)
@@ -128,7 +137,7 @@ double Quantile(std::vector<double> values, double q) {
 std::vector<ValueError> SeenErrors(const Scene& scene, std::span<const SurfacePoint> at,
                                    std::span<const Rgb> shown, std::span<const Rgb> truth) {
   const std::vector<std::array<bool, 3>> seen = SeenChannels(scene);
-  const std::vector<double> all = RelativeErrors(shown, truth);
+  const std::vector<double> all = RelativeErrors(shown, truth, NoLight(scene));
   std::vector<ValueError> errors;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (seen[static_cast<std::size_t>(at[i / 3].patch)][i % 3]) errors.push_back({all[i], i / 3});

@@ -35,8 +35,14 @@ struct RepresentationError {
   Vec3 worst_point = Vec3::Zero();  // [m]
 };
 
-// Point by point, the channels of a point in turn. The means are those of `truth`.
-std::vector<double> RelativeErrors(std::span<const Rgb> shown, std::span<const Rgb> truth);
+// Light that is less than this is none: what roundings let through between surfaces that do not see each
+// other, 1e-12 of what the strongest emitter sends out [W/m^2].
+Rgb NoLight(const Scene& scene);
+
+// Point by point, the channels of a point in turn. The means are those of `truth`; where they are less than
+// `least`, that counts.
+std::vector<double> RelativeErrors(std::span<const Rgb> shown, std::span<const Rgb> truth,
+                                   const Rgb& least = Rgb::Zero());
 
 // The value that the fraction q of them does not pass. REQUIRES: some.
 double Quantile(std::vector<double> values, double q);
