@@ -15,6 +15,9 @@
 namespace penumbra {
 namespace {
 
+// Of the memory that a solve may take: a file is made whole in memory, compressed, beside what it is made of.
+constexpr double kKeptForFile = 0.5;
+
 void Solve(SceneArguments arguments, const std::optional<std::string>& output) {
   if (output) CheckWritable(*output);
   if (arguments.report) CheckWritable(*arguments.report);
@@ -22,6 +25,7 @@ void Solve(SceneArguments arguments, const std::optional<std::string>& output) {
   if (loaded.stored)
     throw UsageError(
         fmt::format("'{}' is a solution already; give the scene to solve it anew", arguments.scene));
+  if (output) arguments.solving.memory_kept = kKeptForFile;
   SolveRun run(arguments, loaded);
   run.Run(MeshKind::kInterpolant, true);
   if (output) WriteResult(output, run.SolutionFile());

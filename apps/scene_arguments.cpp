@@ -247,8 +247,8 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
              "Most iterations of gathering and refining")
       ->group(group);
   AddNumber(app, "--time-limit", &solving->time_limit, kPositive,
-            "End a solve after this many seconds, with the last whole step's light, and its mesh without "
-            "refining it")
+            "End the work after this many seconds, reading included, with the last whole step's light, its "
+            "mesh without refining it, and no more measured than there was time for")
       ->group(group);
   AddNumber(app, "--memory-limit", &solving->memory_limit, kPositive,
             "End them in the same way when the program takes this many bytes of memory")

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <utility>
 
 #include "apps/interruptible.h"
@@ -16,8 +17,13 @@ namespace {
 
 Pipeline StartPipeline(const SceneArguments& arguments, LoadedScene& loaded) {
   if (loaded.stored) return Pipeline(loaded.scene, loaded.stored->solving, std::move(loaded.stored->state));
-  if (loaded.restart) return Pipeline(loaded.scene, arguments.solving, std::move(loaded.restart->state));
-  return Pipeline(loaded.scene, arguments.solving);
+  // Reading took its part of the time.
+  PipelineOptions solving = arguments.solving;
+  solving.limits_from =
+      std::chrono::steady_clock::now() - std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                             std::chrono::duration<double>(loaded.seconds));
+  if (loaded.restart) return Pipeline(loaded.scene, solving, std::move(loaded.restart->state));
+  return Pipeline(loaded.scene, solving);
 }
 
 // What a file keeps of the options: the same for every number of threads.

@@ -65,21 +65,24 @@ struct DiscontinuityFinder::Impl {
   const PatchVisibility& visibility;
   Silhouettes silhouettes;
   double gap;  // ContactGap() [m]
+  ContactSearch contacts;
 
   Impl(const Scene& s, const PatchVisibility& v)
-      : scene(s), visibility(v), silhouettes(s), gap(ContactGap(s)) {}
+      : scene(s), visibility(v), silhouettes(s), gap(ContactGap(s)), contacts(s) {}
 
   // Fills in weights and jumps, and keeps what is long and heavy enough.
   class Collector {
    public:
     Collector(const Impl& finder, const Receiver& receiver, const DiscontinuityOptions& options,
-              std::vector<Discontinuity>& found)
+              const ExecutionContext& context, std::vector<Discontinuity>& found)
         : finder_(finder),
           receiver_(receiver),
           options_(options),
+          context_(context),
           size_(std::sqrt(receiver.patch.area)),
           found_(found) {}
 
+    bool Cancelled() const { return context_.Cancelled(); }
     bool TooLight(double weight) const {
       return options_.weight == DiscontinuityWeight::kThesis && weight < options_.min_weight;
     }
@@ -122,6 +125,7 @@ struct DiscontinuityFinder::Impl {
     const Impl& finder_;
     const Receiver& receiver_;
     const DiscontinuityOptions& options_;
+    const ExecutionContext& context_;
     double size_;
     std::vector<Discontinuity>& found_;
   };
@@ -181,7 +185,7 @@ void DiscontinuityFinder::Impl::AddContacts(const Receiver& r, Collector& out) c
   contact.kind = DiscontinuityKind::kContact;
   contact.degree = DiscontinuityDegree::kD0;
   contact.geometric_weight = kInfiniteWeight;
-  for (const Contact& found : penumbra::FindContacts(scene, r.id)) {
+  for (const Contact& found : contacts.Find(r.id)) {
     contact.blocker = found.other;
     out.Add(contact, found.a, found.b);
   }
@@ -243,6 +247,7 @@ void DiscontinuityFinder::Impl::AddVertexEdge(const Receiver& r, const SourceVie
     const double hs = r.Height(v);
     if (hs <= r.snap) continue;
     for (const PatchId blocker : blockers) {
+      if (out.Cancelled()) return;
       const Patch& patch = scene.patches[blocker];
       for (std::int32_t k = 0; k < patch.size; ++k) {
         const Vec3 &a = patch.vertex[k], &b = patch.vertex[(k + 1) % patch.size];
@@ -304,6 +309,7 @@ void DiscontinuityFinder::Impl::AddEdgeVertex(const Receiver& r, const SourceVie
   std::stable_sort(corners.begin(), corners.end(),
                    [](const Use& a, const Use& b) { return a.corner < b.corner; });
   for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (out.Cancelled()) return;
     if (i > 0 && corners[i].corner == corners[i - 1].corner) continue;
     AddCornerEvents(r, s, blockers, corners[i].blocker, corners[i].part, out);
   }
@@ -425,11 +431,14 @@ DiscontinuityFinder::DiscontinuityFinder(DiscontinuityFinder&&) noexcept = defau
 
 std::vector<Discontinuity> DiscontinuityFinder::Find(PatchId receiver,
                                                      std::span<const double> source_strength,
-                                                     const DiscontinuityOptions& options) const {
+                                                     const DiscontinuityOptions& options,
+                                                     const ExecutionContext& context) const {
   PENUMBRA_CHECK(source_strength.size() == impl_->scene.patches.size());
   std::vector<Discontinuity> found = FindContacts(receiver, options);
   for (const PatchPair& pair : impl_->visibility.SourcesOf(receiver)) {
-    const std::vector<Discontinuity> more = FindFrom(receiver, pair, source_strength[pair.source], options);
+    if (context.Cancelled()) break;
+    const std::vector<Discontinuity> more =
+        FindFrom(receiver, pair, source_strength[pair.source], options, context);
     found.insert(found.end(), more.begin(), more.end());
   }
   return found;
@@ -439,18 +448,19 @@ std::vector<Discontinuity> DiscontinuityFinder::FindContacts(PatchId receiver,
                                                              const DiscontinuityOptions& options) const {
   const Receiver r = impl_->ReceiverOf(receiver);
   std::vector<Discontinuity> found;
-  Impl::Collector out(*impl_, r, options, found);
+  const ExecutionContext whole;
+  Impl::Collector out(*impl_, r, options, whole, found);
   impl_->AddContacts(r, out);
   return found;
 }
 
 std::vector<Discontinuity> DiscontinuityFinder::FindFrom(PatchId receiver, const PatchPair& pair,
-                                                         double strength,
-                                                         const DiscontinuityOptions& options) const {
+                                                         double strength, const DiscontinuityOptions& options,
+                                                         const ExecutionContext& context) const {
   std::vector<Discontinuity> found;
   if (!Counts(strength, options)) return found;
   const Receiver r = impl_->ReceiverOf(receiver);
-  Impl::Collector out(*impl_, r, options, found);
+  Impl::Collector out(*impl_, r, options, context, found);
   const Patch& source = impl_->scene.patches[pair.source];
   const double rounding = std::max(r.snap, SnapDistance(source));
   const SourceView s = {pair.source, source, strength, rounding,
@@ -461,7 +471,8 @@ std::vector<Discontinuity> DiscontinuityFinder::FindFrom(PatchId receiver, const
   const Blockers blockers = impl_->visibility.Blockers(pair);
   impl_->AddVertexEdge(r, s, blockers, out);
   impl_->AddEdgeVertex(r, s, blockers, out);
-  if (options.triple_edge_tolerance > 0) impl_->AddTripleEdges(r, s, blockers, options, out);
+  if (options.triple_edge_tolerance > 0 && !context.Cancelled())
+    impl_->AddTripleEdges(r, s, blockers, options, out);
   return found;
 }
 

@@ -18,6 +18,7 @@
 
 #include "mesh/mesh_options.h"
 #include "mesh/silhouettes.h"
+#include "solver/base/progress.h"
 #include "solver/geometry/polygon.h"
 #include "solver/scene/scene.h"
 #include "solver/visibility/patch_visibility.h"
@@ -118,15 +119,17 @@ class DiscontinuityFinder {
   //  (6) With options.triple_edge_tolerance also the pieces of EEE events.
   //  (7) Beside an edge of a source that hangs at most kHanging of its length above the receiver lines run
   //  along the edge, ever farther from it.
-  // Safe from any thread.
+  // Safe from any thread. Of no use if it was cancelled.
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
-                                  const DiscontinuityOptions& options) const;
+                                  const DiscontinuityOptions& options,
+                                  const ExecutionContext& context = ExecutionContext()) const;
 
   // The parts that Find() joins: the contacts, and what one of SourcesOf() the receiver casts, if its
-  // strength [W/m^2] counts.
+  // strength [W/m^2] counts; of no use if it was cancelled.
   std::vector<Discontinuity> FindContacts(PatchId receiver, const DiscontinuityOptions& options) const;
   std::vector<Discontinuity> FindFrom(PatchId receiver, const PatchPair& pair, double strength,
-                                      const DiscontinuityOptions& options) const;
+                                      const DiscontinuityOptions& options,
+                                      const ExecutionContext& context = ExecutionContext()) const;
   // The geometric weight, and the form factor of a source, are 1 at most.
   static bool Counts(double strength, const DiscontinuityOptions& options) {
     return strength > 0 && strength >= options.min_weight;

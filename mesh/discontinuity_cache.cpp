@@ -23,7 +23,8 @@ DiscontinuityCache::DiscontinuityCache(const Scene& scene, const PatchVisibility
     : scene_(scene), visibility_(visibility), finder_(scene, visibility), receivers_(scene.patches.size()) {}
 
 std::vector<Discontinuity> DiscontinuityCache::Find(PatchId receiver, std::span<const double> source_strength,
-                                                    const DiscontinuityOptions& options) {
+                                                    const DiscontinuityOptions& options,
+                                                    const ExecutionContext& context) {
   PENUMBRA_CHECK(source_strength.size() == receivers_.size());
   Receiver& known = receivers_[receiver];
   const std::span<const PatchPair> pairs = visibility_.SourcesOf(receiver);
@@ -41,11 +42,13 @@ std::vector<Discontinuity> DiscontinuityCache::Find(PatchId receiver, std::span<
     Source& source = known.sources[i];
     const double least = options.min_weight / strength;
     if (!source.traced || least < source.least) {
-      source.traced = true;
-      source.least = kHeadroom * least;
       DiscontinuityOptions unit = options;
-      unit.min_weight = source.least;
-      source.edges = finder_.FindFrom(receiver, pairs[i], 1, unit);
+      unit.min_weight = kHeadroom * least;
+      std::vector<Discontinuity> edges = finder_.FindFrom(receiver, pairs[i], 1, unit, context);
+      if (context.Cancelled()) return found;
+      source.traced = true;
+      source.least = unit.min_weight;
+      source.edges = std::move(edges);
       ++known.counts.traced;
     } else {
       ++known.counts.kept;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesh/discontinuity.h"
+#include "solver/base/progress.h"
 
 namespace penumbra {
 
@@ -21,9 +22,10 @@ class DiscontinuityCache {
   // What DiscontinuityFinder::Find() gives, to the byte. A source is traced the first time that it is strong
   // enough to count, and again only when it has become so much brighter that weaker edges of its come to
   // count, or other options than the strengths are asked for. Safe from several threads for different
-  // receivers.
+  // receivers. Of no use if it was cancelled; what was found whole is kept.
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
-                                  const DiscontinuityOptions& options);
+                                  const DiscontinuityOptions& options,
+                                  const ExecutionContext& context = ExecutionContext());
 
   // Pairs of receiver and source since the beginning: how often one was traced, and how often what was known
   // was enough.

@@ -16,9 +16,10 @@ DiscontinuityList ListDiscontinuities(const RadiositySolution& solution, const P
   ParallelFor(found.size(), 1, [&](std::size_t p) {
     if (context.Cancelled()) return;
     const auto patch = static_cast<PatchId>(p);
-    found[p] = finder.Find(patch, strength, light.ToFindOn(patch, options));
+    found[p] = finder.Find(patch, strength, light.ToFindOn(patch, options), context);
   });
   DiscontinuityList list;
+  if (context.Cancelled()) return list;
   for (std::size_t p = 0; p < found.size(); ++p) {
     const Frame frame = PolygonFrame(scene.patches[p].Vertices());
     for (const Discontinuity& d : found[p]) {

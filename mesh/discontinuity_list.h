@@ -21,8 +21,8 @@ struct DiscontinuityList {
 };
 
 // What may become an edge of the mesh, if only because refinement asks for it: what
-// DiscontinuityFinder::Find() finds on all patches, for the radiosities of the solution. Those of the first
-// receivers, if it was cancelled.
+// DiscontinuityFinder::Find() finds on all patches, for the radiosities of the solution. None, if it was
+// cancelled.
 DiscontinuityList ListDiscontinuities(const RadiositySolution& solution, const PatchVisibility& visibility,
                                       const DiscontinuityOptions& options, const ExecutionContext& context);
 

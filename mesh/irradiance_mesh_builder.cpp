@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "mesh/discontinuity.h"
@@ -74,12 +75,15 @@ Nodes NumberNodes(const IrradianceMesh& mesh, bool midpoints) {
   return nodes;
 }
 
+double Uncertainty(const Patch& patch, double gap) { return std::max(kOnLine * SnapDistance(patch), gap); }
+
 class Sampling {
  public:
   Sampling(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
            SampleCache* cache, const ExecutionContext& context)
       : mesh_(mesh), sampler_(sampler), cache_(cache), context_(context), scene_(scene) {
-    for (const Patch& patch : scene.patches) uncertainty_.push_back(SampleUncertainty(scene, patch));
+    const double gap = ContactGap(scene);
+    for (const Patch& patch : scene.patches) uncertainty_.push_back(Uncertainty(patch, gap));
   }
 
   // The nodes' samples, from the triangles that they name.
@@ -102,6 +106,7 @@ class Sampling {
       context_.Report("interpolate", done_before + (done_after - done_before) * static_cast<double>(begin) /
                                                        static_cast<double>(unknown.size()));
       ParallelFor(size, kNodesATask, [&](std::size_t k) {
+        if (context_.Cancelled()) return;
         const std::size_t i = unknown[begin + k];
         results[i] = sampler_(nodes[i].patch, At(nodes[i]));
       });
@@ -150,10 +155,16 @@ IrradianceSampler NearSampler(const PointIrradiance& exact, double tolerance) {
   };
 }
 
+IrradianceSampler WhileGoing(IrradianceSampler sampler, const ExecutionContext& context) {
+  return [sampler = std::move(sampler), &context](PatchId patch, const ReceiverPoint& at) {
+    return context.Cancelled() ? PointIrradianceResult() : sampler(patch, at);
+  };
+}
+
 // What comes within the contact gap touches the node. This holds for all nodes, not only those on contacts:
 // where a shadow's edge starts at a foot, vertices lie within the gap beside it.
 double SampleUncertainty(const Scene& scene, const Patch& patch) {
-  return std::max(kOnLine * SnapDistance(patch), ContactGap(scene));
+  return Uncertainty(patch, ContactGap(scene));
 }
 
 BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangulation> patches,

@@ -27,6 +27,8 @@ namespace penumbra {
 using IrradianceSampler = std::function<PointIrradianceResult(PatchId, const ReceiverPoint&)>;
 // PointIrradiance::NearlyOnPatch() with that tolerance. `exact` must outlive it.
 IrradianceSampler NearSampler(const PointIrradiance& exact, double tolerance);
+// The same, which gives nothing any more once it was cancelled. Both must outlive it.
+IrradianceSampler WhileGoing(IrradianceSampler sampler, const ExecutionContext& context);
 
 // ReceiverPoint::uncertainty of samples on the patch [m].
 double SampleUncertainty(const Scene& scene, const Patch& patch);

@@ -49,9 +49,10 @@ PatchDSets Activate(const ElementForest& forest, const PatchVisibility& visibili
 // The discontinuities on the patch that may become edges, those of the plan marked.
 std::vector<Discontinuity> FindOnPatch(PatchId patch, std::span<const double> strength,
                                        const LightBeside& light, const MeshPlan& plan,
-                                       const DiscontinuityOptions& options, LocalPassCache* cache) {
+                                       const DiscontinuityOptions& options, LocalPassCache* cache,
+                                       const ExecutionContext& context) {
   std::vector<Discontinuity> found =
-      cache->discontinuities.Find(patch, strength, light.ToFindOn(patch, options));
+      cache->discontinuities.Find(patch, strength, light.ToFindOn(patch, options), context);
   if (static_cast<std::size_t>(patch) >= plan.wanted.size()) return found;
   for (const Discontinuity& wanted : plan.wanted[static_cast<std::size_t>(patch)])
     for (Discontinuity& d : found) d.wanted |= SameTrace(d, wanted);
@@ -105,7 +106,7 @@ std::vector<PatchTriangulation> TriangulatePatches(
   const DiscontinuityCache::Counts before = cache->discontinuities.counts();
   ParallelFor(count, 1, [&](std::size_t p) {
     if (options.enabled() && !context.Cancelled())
-      found[p] = FindOnPatch(static_cast<PatchId>(p), strength, light, plan, options, cache);
+      found[p] = FindOnPatch(static_cast<PatchId>(p), strength, light, plan, options, cache, context);
   });
   report.counts.pairs_traced += cache->discontinuities.counts().traced - before.traced;
   report.counts.pairs_kept += cache->discontinuities.counts().kept - before.kept;
@@ -117,6 +118,7 @@ std::vector<PatchTriangulation> TriangulatePatches(
   std::iota(patches_to_do.begin(), patches_to_do.end(), std::size_t{0});
   for (int round = 0; !patches_to_do.empty() && !context.Cancelled(); ++round) {
     ParallelFor(patches_to_do.size(), 1, [&](std::size_t i) {
+      if (context.Cancelled()) return;
       const std::size_t p = patches_to_do[i];
       dsets[p] = Activate(forest, visibility, static_cast<PatchId>(p), found[p], activating, light);
     });
@@ -150,9 +152,10 @@ std::vector<PatchTriangulation> TriangulatePatches(
   context.Report("triangulate", 0);
   if (!context.Cancelled()) {
     borders.resize(count);
-    ParallelFor(count, 1,
-                [&](std::size_t p) { borders[p] = PatchBorders(forest, static_cast<PatchId>(p), dsets[p]); });
-    WeldOutlines(scene, borders);
+    ParallelFor(count, 1, [&](std::size_t p) {
+      if (!context.Cancelled()) borders[p] = PatchBorders(forest, static_cast<PatchId>(p), dsets[p]);
+    });
+    if (!context.Cancelled()) WeldOutlines(scene, borders);
     ParallelFor(count, 1, [&](std::size_t p) {
       if (context.Cancelled()) return;
       patches[p] = TriangulateLeaves(forest, static_cast<PatchId>(p), dsets[p], std::move(borders[p]),

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesh/refinement_step.h"
+#include "mesh/representation_error.h"
 #include "solver/base/check.h"
 #include "solver/base/stopwatch.h"
 #include "solver/scene/scene_parts.h"
@@ -26,7 +27,7 @@ constexpr double kDoubt = 1;
 // were evaluated.
 std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& options,
                             const IrradianceSampler& sampler, SampleCache* samples, RefinedMesh* refined) {
-  const Rgb mean = MeanIrradiance(scene, refined->mesh);
+  const Rgb mean = MeanIrradiance(scene, refined->mesh).max(NoLight(scene) / kErrorFloor);
   const std::vector<double> guess = GuessTriangleErrors(scene, refined->mesh, mean);
   std::vector<std::uint32_t> suspects;
   for (std::uint32_t t = 0; t < guess.size(); ++t)
@@ -182,10 +183,12 @@ RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolutio
     refined.mesh = std::move(built.mesh);
     evaluations += built.point_evaluations;
     evaluations += MeasureSuspects(scene, options, sampler, samples, &refined);
+    if (context.Cancelled()) return {};
     seconds.interpolate += interpolating.Seconds();
 
     const std::vector<RefinementStep> chosen = ChooseSteps(scene, populations, omitted, options, &refined);
-    if (round == options.max_rounds || chosen.empty()) break;
+    const bool most = refined.mesh.triangles.size() > options.max_triangles;
+    if (round == options.max_rounds || most || chosen.empty()) break;
     Take(chosen, omitted, &refined.plan);
   }
   refined.report.seconds = seconds;

@@ -31,6 +31,7 @@ struct MeshRefinementOptions {
   double min_area = 0;  // no leaf becomes smaller [m^2]
   int samples = 1;      // a triangle is measured at samples x samples points (thesis, Appendix A)
   int max_rounds = 8;
+  std::size_t max_triangles = 2'000'000;  // no round begins with more: some 2 GB with their samples
 };
 
 // Of the fronts' area: what the 99th percentile leaves, less what measuring at single points overlooks.

@@ -23,6 +23,8 @@ constexpr double kMeasuredShare = 0.02;
 // is between these: where so few cannot tell whether it is 1 %.
 constexpr std::size_t kFewSourcePoints = 400;
 constexpr double kClearlyMet = 0.0025, kClearlyMissed = 0.025;
+// Rays that measure the energy balance, and those from each patch that look for open sides.
+constexpr std::size_t kEnergyRays = std::size_t{1} << 18, kViewRays = 64;
 
 // The part whose 99th percentile is most beyond the bound, by more than its few points can feign; null if
 // none is.
@@ -96,13 +98,29 @@ struct Pipeline::Impl {
   std::unique_ptr<const PointIrradiance> MakeIrradiance(const ExecutionContext& context) {
     const std::shared_ptr<const LeafVisibility> leaves = solver ? solver->SeenFromLeaves(context) : nullptr;
     if (solver && !leaves) return nullptr;
-    return std::make_unique<PointIrradiance>(Solution(), visibility, options.point, leaves);
+    PointIrradianceOptions how = options.point;
+    if (solver) how.part_of_tolerance = solver->PartOfTolerance();
+    return std::make_unique<PointIrradiance>(Solution(), visibility, how, leaves);
   }
 
+  void BeginLimits() { begun = options.limits_from.value_or(RunLimits::Clock::now()); }
   // What is left of the limits to Solve(); none without it.
   RunLimits LimitsSinceSolve(const ExecutionContext& context) const {
     return RunLimits(context, begun ? options.time_limit : std::nullopt,
-                     begun ? options.memory_limit : std::nullopt, begun.value_or(RunLimits::Clock::now()));
+                     begun ? options.memory_limit : std::nullopt, begun.value_or(RunLimits::Clock::now()),
+                     options.memory_kept);
+  }
+
+  // Whether measuring was ended: what was not measured to the end is not told.
+  bool EndedMeasuring(const RunLimits& limits) {
+    if (!limits.context().Cancelled()) return false;
+    report.interpolant_error = report.whole_error = {};
+    report.part_errors.clear();
+    report.solution_error_estimate = 0;
+    report.error_met = false;
+    if (const std::optional<std::string> limit = limits.Exceeded())
+      report.unmet.push_back(fmt::format("error: not measured, ended by {}", *limit));
+    return true;
   }
 
   // Makes the mesh of that kind, from the solution as it is; for interpolants refines what they show, unless
@@ -256,7 +274,7 @@ std::optional<IterationReport> Pipeline::Relight(const ExecutionContext& context
 }
 
 void Pipeline::SolveOverLinks(const ExecutionContext& context) {
-  CountLimits();
+  impl_->BeginLimits();
   const RunLimits limits = impl_->LimitsSinceSolve(context);
   const ExecutionContext& running = limits.context();
   running.Report("iterate", 0);
@@ -271,7 +289,7 @@ void Pipeline::SolveOverLinks(const ExecutionContext& context) {
 }
 
 void Pipeline::Solve(const ExecutionContext& context) {
-  CountLimits();
+  impl_->BeginLimits();
   const RunLimits limits = impl_->LimitsSinceSolve(context);
   const ExecutionContext& running = limits.context();
   Link(running);
@@ -286,7 +304,12 @@ void Pipeline::Solve(const ExecutionContext& context) {
   for (int i = 0; i < most && !Converged() && !running.Cancelled(); ++i) {
     running.Report("iterate", static_cast<double>(i) / most);
     Iterate(running);
+    if (IsStuck(impl_->report.iterations)) break;
   }
+  if (impl_->solver->Full())
+    impl_->report.unmet.push_back(
+        fmt::format("iterate: links are not refined to the end: they would be more than {} million",
+                    impl_->resolved.solver.max_links / 1'000'000));
   const std::vector<IterationReport>& iterations = impl_->report.iterations;
   const double residual = iterations.empty() ? INFINITY : iterations.back().residual;
   if (!Converged() && !running.Cancelled())
@@ -342,12 +365,16 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context, bool as
                     report.counts.refused_contacts, impl_->resolved.discontinuities.max_leaf_dsets));
 }
 
-void Pipeline::Diagnose() {
+void Pipeline::Diagnose(const ExecutionContext& context) {
   PENUMBRA_CHECK(impl_->locator != nullptr);
   PipelineReport& report = impl_->report;
-  report.energy = MeasureEnergy(solution());
-  report.links = DiagnoseLinks(solution());
-  report.views = DiagnoseViews(impl_->scene);
+  const EnergyBalance energy = MeasureEnergy(solution(), kEnergyRays, 1, context);
+  LinkDiagnostics links = DiagnoseLinks(solution(), context);
+  ViewDiagnostics views = DiagnoseViews(impl_->scene, kViewRays, 1, context);
+  if (context.Cancelled()) return;
+  report.energy = energy;
+  report.links = std::move(links);
+  report.views = std::move(views);
   report.quality = MeasureQuality(impl_->shown.mesh());
   if (impl_->solver) report.bounces = impl_->solver->MeanIrradianceByBounce(impl_->options.bounces);
   report.warnings.clear();
@@ -361,18 +388,16 @@ void Pipeline::Diagnose() {
 void Pipeline::Measure(const ExecutionContext& context) {
   PENUMBRA_CHECK(impl_->shown.triangulations().size() == impl_->scene.patches.size());
   context.Report("measure", 0);
-  Diagnose();
+  const RunLimits limits = impl_->LimitsSinceSolve(context);
+  const ExecutionContext& running = limits.context();
+  Diagnose(running);
   impl_->DropUnmet("error: ");
   PipelineReport& report = impl_->report;
   report.interpolant_error = report.whole_error = {};
   report.part_errors.clear();
   report.solution_error_estimate = 0;
-  const RunLimits limits = impl_->LimitsSinceSolve(context);
-  if (impl_->solver && !impl_->solver->SeenFromLeaves(limits.context())) {
-    report.error_met = false;
-    report.unmet.push_back("error: not measured, since there was no time to find what the leaves see");
-    return;
-  }
+  const auto ended = [&] { return impl_->EndedMeasuring(limits); };
+  if (ended() || (impl_->solver && !impl_->solver->SeenFromLeaves(running) && ended())) return;
   const std::size_t points = impl_->options.error_points;
   if (points == 0) {
     report.error_met = false;
@@ -381,12 +406,14 @@ void Pipeline::Measure(const ExecutionContext& context) {
   }
   const std::uint64_t seed = impl_->options.seed;
   const IrradianceMesh& mesh = impl_->shown.mesh();
-  const PointIrradiance better = impl_->shown.BetterIrradiance(impl_->Solution());
+  const std::unique_ptr<const PointIrradiance> better =
+      impl_->shown.BetterIrradiance(impl_->Solution(), running);
+  if (!better && ended()) return;
   const double tolerance = kMeasuredShare * report.error_asked;
-  const IrradianceSampler sampler = NearSampler(irradiance(), tolerance);
+  const IrradianceSampler sampler = WhileGoing(NearSampler(irradiance(), tolerance), running);
   const auto measure = [&](std::size_t at) {
-    return MeasureError(impl_->scene, mesh, sampler, NearSampler(better, tolerance), at, seed,
-                        report.error_asked);
+    return MeasureError(impl_->scene, mesh, sampler, WhileGoing(NearSampler(*better, tolerance), running), at,
+                        seed, report.error_asked);
   };
   MeasuredError error = measure(std::min(points, kFewSourcePoints));
   if (points > kFewSourcePoints && error.above > kClearlyMet && error.above < kClearlyMissed)
@@ -394,6 +421,7 @@ void Pipeline::Measure(const ExecutionContext& context) {
   report.interpolant_error = error.interpolant.points == points
                                  ? error.interpolant
                                  : MeasureRepresentationError(impl_->scene, mesh, sampler, points, seed);
+  if (ended()) return;
   report.solution_error_estimate = error.sources.p99;
   report.whole_error = error.whole;
   report.part_errors = std::move(error.by_part);
@@ -423,6 +451,12 @@ const IrradianceMesh& Pipeline::mesh() const { return impl_->shown.mesh(); }
 std::optional<MeshKind> Pipeline::mesh_kind() const { return impl_->mesh_kind; }
 std::span<const TriangleError> Pipeline::triangle_errors() const { return impl_->shown.triangle_errors(); }
 const PipelineReport& Pipeline::report() const { return impl_->report; }
+
+DiscontinuityList Pipeline::Discontinuities() const {
+  const ExecutionContext context;
+  const RunLimits limits = impl_->LimitsSinceSolve(context);
+  return ListDiscontinuities(solution(), visibility(), resolved().discontinuities, limits.context());
+}
 
 std::optional<Rgb> Pipeline::Interpolated(PatchId patch, const Vec3& point, double reach) const {
   PENUMBRA_CHECK(impl_->locator != nullptr);

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/discontinuity_list.h"
 #include "mesh/irradiance_mesh.h"
 #include "mesh/mesh_options.h"
 #include "mesh/representation_error.h"
@@ -66,12 +68,17 @@ struct PipelineOptions {
   bool multigrid = false;
   // Limits to Solve(), which then ends with the last whole step: in the dark, where that was not even
   // linking. They go on for BuildMesh(), which leaves out refining by what is shown, or where there was no
-  // time for interpolants shows the mean of each leaf.
+  // time for interpolants shows the mean of each leaf, and for Measure(), which leaves out the rest.
   std::optional<double> time_limit;    // [s]
   std::optional<double> memory_limit;  // [bytes] of the whole process
-  int bounces = 0;                     // whose mean irradiance is reported
-  PointIrradianceOptions point;        // Appendix A, 9 and 10
-  std::size_t error_points = 1000;     // random points that measure the interpolants' error; 0 leaves it out
+  // The share of that which is kept for what is made of a solution that a limit has ended: a mesh of its
+  // leaves, and a file.
+  double memory_kept = 0.1;
+  // When that time began, reading included; left out, it begins with Solve().
+  std::optional<std::chrono::steady_clock::time_point> limits_from;
+  int bounces = 0;                  // whose mean irradiance is reported
+  PointIrradianceOptions point;     // Appendix A, 9 and 10
+  std::size_t error_points = 1000;  // random points that measure the interpolants' error; 0 leaves it out
   std::uint64_t seed = 1;
   // Solves the dense system of a uniform mesh directly instead. Linear and quadratic elements hand on their
   // means.
@@ -199,9 +206,10 @@ class Pipeline {
   void BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is = false);
   // The limits of what is done from here on begin anew, as Solve() begins them: for those who do its steps.
   void CountLimits();
-  // Measures the energy balance, and the soundness of scene, links and triangles. REQUIRES: BuildMesh() after
+  // Measures the energy balance, and the soundness of scene, links and triangles: nothing, if it was
+  // cancelled. REQUIRES: BuildMesh() after
   // the last step.
-  void Diagnose();
+  void Diagnose(const ExecutionContext& context = ExecutionContext());
   // That, and the error at random points. REQUIRES: the same; the mesh was made here.
   void Measure(const ExecutionContext& context);
   // PipelineOptions::error_points of what is measured from here on.
@@ -219,6 +227,10 @@ class Pipeline {
   // below 0 [W/m^2]. REQUIRES:
   // BuildMesh().
   std::optional<Rgb> Interpolated(PatchId patch, const Vec3& point, double reach = 0) const;
+
+  // The discontinuities that there are, for a file (ListDiscontinuities); none where a limit does not leave
+  // the time to find them.
+  DiscontinuityList Discontinuities() const;
 
   const PipelineReport& report() const;
 

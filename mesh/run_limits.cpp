@@ -21,10 +21,11 @@ std::uint64_t ResidentBytes() {
 }
 
 RunLimits::RunLimits(const ExecutionContext& outer, std::optional<double> seconds,
-                     std::optional<double> bytes, Clock::time_point begin)
+                     std::optional<double> bytes, Clock::time_point begin, double kept)
     : outer_(outer),
       seconds_(seconds),
       bytes_(bytes),
+      kept_(kept),
       begin_(begin),
       inner_([&outer](std::string_view phase, double fraction) { outer.Report(phase, fraction); }) {
   if (!watched()) return;
@@ -45,7 +46,7 @@ RunLimits::~RunLimits() {
 void RunLimits::Check() {
   const std::chrono::duration<double> elapsed = Clock::now() - begin_;
   if (seconds_ && elapsed.count() > *seconds_) late_ = true;
-  if (bytes_ && static_cast<double>(ResidentBytes()) > *bytes_) large_ = true;
+  if (bytes_ && static_cast<double>(ResidentBytes()) > (1 - kept_) * *bytes_) large_ = true;
   if (late_ || large_ || outer_.Cancelled()) inner_.Cancel();
 }
 

@@ -23,9 +23,10 @@ class RunLimits {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // `seconds` from `begin` on; `bytes` that the whole process may take.
+  // `seconds` from `begin` on; `bytes` that the whole process may take, of which this share is kept for what
+  // comes after the run.
   RunLimits(const ExecutionContext& outer, std::optional<double> seconds, std::optional<double> bytes,
-            Clock::time_point begin = Clock::now());
+            Clock::time_point begin = Clock::now(), double kept = 0);
   ~RunLimits();
   RunLimits(const RunLimits&) = delete;
   RunLimits& operator=(const RunLimits&) = delete;
@@ -42,6 +43,7 @@ class RunLimits {
 
   const ExecutionContext& outer_;
   std::optional<double> seconds_, bytes_;
+  double kept_;
   Clock::time_point begin_;
   ExecutionContext inner_;
   std::atomic<bool> late_{false}, large_{false}, done_{false};

@@ -79,19 +79,26 @@ void ShownMesh::Take(IrradianceMesh mesh) {
   triangle_errors_.clear();
 }
 
-PointIrradiance ShownMesh::BetterIrradiance(const RadiositySolution& solution) {
-  const SourceCells cells = Cells(solution);
-  HierarchicalSolver better(scene_, visibility_, options_.solver, solution);
-  better.CorrectTo(cells.LeafIrradiance(), cells.Fragments(cells.Cut(0), /*whole_leaves=*/true), {});
-  return irradiance_.Get()->WithSources(SourceSet::FromSolution(better.solution()));
+std::unique_ptr<const PointIrradiance> ShownMesh::BetterIrradiance(const RadiositySolution& solution,
+                                                                   const ExecutionContext& context) {
+  const SourceCells cells = Cells(solution, context);
+  if (context.Cancelled()) return nullptr;
+  HierarchicalSolver better(scene_, visibility_, options_.solver, solution, context);
+  if (!better.CorrectTo(cells.LeafIrradiance(), cells.Fragments(cells.Cut(0), /*whole_leaves=*/true),
+                        context))
+    return nullptr;
+  return std::make_unique<const PointIrradiance>(
+      irradiance_.Get()->WithSources(SourceSet::FromSolution(better.solution())));
 }
 
-SourceCells ShownMesh::Cells(const RadiositySolution& solution) {
+SourceCells ShownMesh::Cells(const RadiositySolution& solution, const ExecutionContext& context) {
   return SourceCells(solution, plan_.forest, triangulations_, mesh_, *irradiance_.Get(),
-                     kFinestScore * options_.error);
+                     kFinestScore * options_.error, context);
 }
 
-IrradianceSampler ShownMesh::Sampler(double tolerance) { return NearSampler(*irradiance_.Get(), tolerance); }
+IrradianceSampler ShownMesh::Sampler(double tolerance, const ExecutionContext& context) {
+  return WhileGoing(NearSampler(*irradiance_.Get(), tolerance), context);
+}
 
 LocalPassCache& ShownMesh::LocalPass() {
   if (!local_pass_) local_pass_ = std::make_unique<LocalPassCache>(scene_, visibility_);
@@ -115,7 +122,7 @@ bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& 
     const Stopwatch stopwatch;
     if (!irradiance_.Get(context)) return false;
     report_.seconds.interpolate += stopwatch.Seconds();
-    sampler = Sampler(tolerance);
+    sampler = Sampler(tolerance, context);
   }
   MeshResult result = RunLocalPass(visibility_, solution, sampler, options, context, &LocalPass());
   if (context.Cancelled()) return false;
@@ -159,11 +166,12 @@ std::optional<double> ShownMesh::RefineSources(HierarchicalSolver& solver, std::
                                                const ExecutionContext& context) {
   const Stopwatch stopwatch;
   context.Report("refine sources", 0);
-  const SourceCells cells = Cells(solver.solution());
+  const SourceCells cells = Cells(solver.solution(), context);
+  if (context.Cancelled()) return std::nullopt;
   const double change = cells.Change();
   if (!score)
     score = ChooseSourceCut(solver.solution(), cells, *irradiance_.Get(), kFinestScore * options_.error,
-                            kSourceShare * options_.error, kCutPoints, options_.seed + 1)
+                            kSourceShare * options_.error, kCutPoints, options_.seed + 1, context)
                 .score;
   const bool done = solver.CorrectTo(cells.LeafIrradiance(),
                                      cells.Fragments(cells.Cut(*score), /*whole_leaves=*/false), context);
@@ -183,7 +191,9 @@ void ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOption
   for (int turn = 1; refined && turn <= kMostTurns && refined->share_above <= kShareAbove; ++turn) {
     const std::size_t points =
         std::clamp(refined->report.counts.point_evaluations / kEvaluationsALook, kFewestLooks, kMostLooks);
-    const double seen = LookAround(points, options_.seed + 1 + static_cast<std::uint64_t>(turn), tolerance);
+    const double seen =
+        LookAround(points, options_.seed + 1 + static_cast<std::uint64_t>(turn), tolerance, context);
+    if (context.Cancelled()) return;
     if (seen <= kOverlooked * options_.error) return;
     onward *= std::clamp(kOverlooked * options_.error / seen, kLeastOnward, kMostOnward);
     refined = Refine(solution, options, onward, tolerance, &samples, context);
@@ -198,10 +208,11 @@ void ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOption
 }
 
 // The 99th percentile of the interpolants' error as so many random points see it, at most.
-double ShownMesh::LookAround(std::size_t points, std::uint64_t seed, double tolerance) {
+double ShownMesh::LookAround(std::size_t points, std::uint64_t seed, double tolerance,
+                             const ExecutionContext& context) {
   const Stopwatch stopwatch;
   const RepresentationError seen =
-      MeasureRepresentationError(scene_, mesh_, Sampler(tolerance), points, seed);
+      MeasureRepresentationError(scene_, mesh_, Sampler(tolerance, context), points, seed);
   report_.counts.point_evaluations += points;
   report_.seconds.interpolate += stopwatch.Seconds();
   return seen.p99_at_most;
@@ -214,14 +225,14 @@ std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, 
                                              double error, double tolerance, SampleCache* samples,
                                              const ExecutionContext& context) {
   const Stopwatch stopwatch;
-  irradiance_.Get();  // of the sources as they have become
+  if (!irradiance_.Get(context)) return std::nullopt;  // of the sources as they have become
   seconds_of_sources_ += stopwatch.Seconds();
   MeshRefinementOptions refinement;
   refinement.error = error;
   refinement.min_area = options_.solver.min_area;
   refinement.samples = options_.error_samples;
-  RefinedMesh refined = RefineMesh(visibility_, solution, Sampler(tolerance), options, refinement, context,
-                                   &LocalPass(), &plan_, samples);
+  RefinedMesh refined = RefineMesh(visibility_, solution, Sampler(tolerance, context), options, refinement,
+                                   context, &LocalPass(), &plan_, samples);
   if (context.Cancelled()) return std::nullopt;
   mesh_ = std::move(refined.mesh);
   triangulations_ = std::move(refined.triangulations);

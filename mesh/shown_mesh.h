@@ -54,8 +54,10 @@ class ShownMesh {
   void ForgetVisibility() { local_pass_.reset(); }
 
   // Exact irradiance from the finest sources that the interpolants give, with the bounces over the links of
-  // what these differ by: between walls that face each other a difference comes back many times.
-  PointIrradiance BetterIrradiance(const RadiositySolution& solution);
+  // what these differ by: between walls that face each other a difference comes back many times. Null if it
+  // was cancelled.
+  std::unique_ptr<const PointIrradiance> BetterIrradiance(const RadiositySolution& solution,
+                                                          const ExecutionContext& context);
 
   const IrradianceMesh& mesh() const { return mesh_; }
   // What it was made of; empty if it was made elsewhere.
@@ -81,9 +83,10 @@ class ShownMesh {
   std::optional<RefinedMesh> Refine(const RadiositySolution& solution, const MeshOptions& options,
                                     double error, double tolerance, SampleCache* samples,
                                     const ExecutionContext& context);
-  double LookAround(std::size_t points, std::uint64_t seed, double tolerance);
-  SourceCells Cells(const RadiositySolution& solution);
-  IrradianceSampler Sampler(double tolerance);
+  double LookAround(std::size_t points, std::uint64_t seed, double tolerance,
+                    const ExecutionContext& context);
+  SourceCells Cells(const RadiositySolution& solution, const ExecutionContext& context);
+  IrradianceSampler Sampler(double tolerance, const ExecutionContext& context);
   LocalPassCache& LocalPass();
   void Add(MeshReport latest);
 

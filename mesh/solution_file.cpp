@@ -149,8 +149,7 @@ std::string EncodeSolution(const Pipeline& pipeline, const std::string& options,
   DescribeElements(archive, copy);
   DescribeLight(archive, pipeline.solution());
   DescribeMesh(archive, pipeline.mesh(), kind);
-  DescribeDiscontinuities(archive, ListDiscontinuities(pipeline.solution(), pipeline.visibility(),
-                                                       pipeline.resolved().discontinuities, {}));
+  DescribeDiscontinuities(archive, pipeline.Discontinuities());
 
   const std::string image = file.Finish();
   const std::size_t length = kSolutionHeaderSize + image.size();

@@ -193,7 +193,7 @@ class Divider {
 
 SourceCells::SourceCells(const RadiositySolution& solution, const ElementForest& mesh_forest,
                          std::span<const PatchTriangulation> patches, const IrradianceMesh& mesh,
-                         const PointIrradiance& exact, double finest)
+                         const PointIrradiance& exact, double finest, const ExecutionContext& context)
     : solution_(solution) {
   const Scene& scene = solution.forest.scene();
   const Rgb mean_radiosity = MeanReflected(solution);
@@ -208,9 +208,10 @@ SourceCells::SourceCells(const RadiositySolution& solution, const ElementForest&
   std::vector<std::vector<SourceCell>> by_patch(patches.size());
   ParallelFor(patches.size(), 1, [&](std::size_t p) {
     const PatchTriangulation& patch = patches[p];
+    if (context.Cancelled()) return;
     if ((scene.MaterialOf(patch.patch).reflectance == 0).all()) return;
     Divider divider(solution, mesh, mean_radiosity, finest, by_patch[p]);
-    for (std::size_t begin = 0, end = 0; begin < patch.leaves.size(); begin = end) {
+    for (std::size_t begin = 0, end = 0; begin < patch.leaves.size() && !context.Cancelled(); begin = end) {
       const ElementId leaf = in_solution(patch.leaves[begin]);
       while (end < patch.leaves.size() && in_solution(patch.leaves[end]) == leaf) ++end;
       const std::uint32_t from = patch.first_triangle[begin], to = patch.first_triangle[end];

@@ -17,6 +17,7 @@
 
 #include "mesh/irradiance_mesh.h"
 #include "mesh/leaf_triangulation.h"
+#include "solver/base/progress.h"
 #include "solver/transport/point_irradiance.h"
 #include "solver/transport/solution.h"
 
@@ -37,10 +38,12 @@ class SourceCells {
  public:
   // From a mesh that was made of `patches`, whose leaves are the solution's or lie below them. Cells are
   // divided while their score is above `finest`, a few levels at most. `exact` tells who sees whom.
+  // Of no use if it was cancelled.
   // REQUIRES: `mesh_forest`, to which the patches' leaves belong, is the solution's or was grown from it.
   SourceCells(const RadiositySolution& solution, const ElementForest& mesh_forest,
               std::span<const PatchTriangulation> patches, const IrradianceMesh& mesh,
-              const PointIrradiance& exact, double finest);
+              const PointIrradiance& exact, double finest,
+              const ExecutionContext& context = ExecutionContext());
 
   // Depth first, leaf after leaf, leaves ascending.
   std::span<const SourceCell> cells() const { return cells_; }

@@ -22,7 +22,7 @@ constexpr std::size_t kSteps = 36;
 
 SourceCut ChooseSourceCut(const RadiositySolution& solution, const SourceCells& cells,
                           const PointIrradiance& exact, double finest, double error, std::size_t points,
-                          std::uint64_t seed) {
+                          std::uint64_t seed, const ExecutionContext& context) {
   const Scene& scene = solution.forest.scene();
   const std::span<const SourceCell> all = cells.cells();
   SourceCut chosen;
@@ -48,6 +48,7 @@ SourceCut ChooseSourceCut(const RadiositySolution& solution, const SourceCells& 
   std::vector<Rgb> truth(points);
   std::vector<std::vector<Rgb>> shown(kSteps, std::vector<Rgb>(points));
   ParallelFor(points, kPointGrain, [&](std::size_t p) {
+    if (context.Cancelled()) return;
     ReceiverPoint receiver;
     receiver.position = at[p].position;
     receiver.normal = scene.patches[static_cast<std::size_t>(at[p].patch)].normal;
@@ -84,7 +85,7 @@ SourceCut ChooseSourceCut(const RadiositySolution& solution, const SourceCells& 
     for (std::size_t j = 0; j < kSteps; ++j) shown[j][p] = sum += gain * change[j];
   });
 
-  for (std::size_t j = 0; j < kSteps; ++j) {
+  for (std::size_t j = 0; j < kSteps && !context.Cancelled(); ++j) {
     const double p99 = Quantile(SeenErrors(scene, at, shown[j], truth), 0.99);
     if (j > 0 && p99 > error) break;
     chosen.score = scores[j];

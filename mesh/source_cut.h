@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "mesh/source_cells.h"
+#include "solver/base/progress.h"
 #include "solver/transport/point_irradiance.h"
 #include "solver/transport/solution.h"
 
@@ -22,9 +23,9 @@ struct SourceCut {
 
 // The coarsest cut by score whose p99 is at most `error` at random points that spread evenly over the fronts;
 // the finest there is if none is good enough. Every point is looked at once, with the finest sources: what
-// coarser ones would make of it follows from the same form factors.
+// coarser ones would make of it follows from the same form factors. Of no use if it was cancelled.
 SourceCut ChooseSourceCut(const RadiositySolution& solution, const SourceCells& cells,
                           const PointIrradiance& exact, double finest, double error, std::size_t points,
-                          std::uint64_t seed);
+                          std::uint64_t seed, const ExecutionContext& context = ExecutionContext());
 
 }  // namespace penumbra

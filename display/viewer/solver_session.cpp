@@ -351,6 +351,7 @@ void SolverSession::DoMeasure(const ExecutionContext& context) {
   if (context.Cancelled()) return;
   pipeline_->SetErrorPoints(points);
   pipeline_->Measure(context);
+  if (context.Cancelled()) return;
   auto next = std::make_shared<Snapshot>(*snapshot());
   next->measured = pipeline_->report();
   Publish(std::move(next));

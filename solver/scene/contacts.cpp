@@ -16,12 +16,12 @@ namespace {
 // Finds the contacts of one receiver, one other patch after the other.
 class ContactFinder {
  public:
-  ContactFinder(const Scene& scene, PatchId receiver)
+  ContactFinder(const Scene& scene, PatchId receiver, double gap)
       : scene_(scene),
         id_(receiver),
         patch_(scene.patches[receiver]),
         snap_(SnapDistance(patch_)),
-        gap_(ContactGap(scene)),
+        gap_(gap),
         low_(patch_.vertex[0]),
         high_(patch_.vertex[0]) {
     for (const Vec3& v : patch_.Vertices()) {
@@ -33,6 +33,11 @@ class ContactFinder {
   std::vector<Contact> Find() {
     for (std::size_t p = 0; p < scene_.patches.size(); ++p)
       if (static_cast<PatchId>(p) != id_) Meet(static_cast<PatchId>(p));
+    return std::move(found_);
+  }
+
+  std::vector<Contact> Find(std::span<const PatchId> others) {
+    for (const PatchId other : others) Meet(other);
     return std::move(found_);
   }
 
@@ -124,17 +129,17 @@ class ContactFinder {
 }  // namespace
 
 std::vector<Contact> FindContacts(const Scene& scene, PatchId receiver) {
-  return ContactFinder(scene, receiver).Find();
+  return ContactFinder(scene, receiver, ContactGap(scene)).Find();
 }
 
 // Sweeps along x for pairs of patches whose boxes meet.
-ContactSearch::ContactSearch(const Scene& scene) : scene_(scene), near_(scene.patches.size()) {
+ContactSearch::ContactSearch(const Scene& scene)
+    : scene_(scene), gap_(ContactGap(scene)), near_(scene.patches.size()) {
   struct Box {
     Vec3 low, high;
     PatchId patch;
   };
   std::vector<Box> boxes;
-  const double gap = ContactGap(scene);
   for (PatchId p = 0; p < Size(scene.patches); ++p) {
     const auto vertices = scene.patches[p].Vertices();
     Box box{vertices[0], vertices[0], p};
@@ -142,7 +147,7 @@ ContactSearch::ContactSearch(const Scene& scene) : scene_(scene), near_(scene.pa
       box.low = box.low.cwiseMin(v);
       box.high = box.high.cwiseMax(v);
     }
-    const double reach = gap + kHanging * Diameter(vertices);
+    const double reach = gap_ + kHanging * Diameter(vertices);
     box.low.array() -= reach;
     box.high.array() += reach;
     boxes.push_back(box);
@@ -161,7 +166,11 @@ ContactSearch::ContactSearch(const Scene& scene) : scene_(scene), near_(scene.pa
 }
 
 std::vector<Contact> ContactSearch::FindWithHanging(PatchId receiver) const {
-  return ContactFinder(scene_, receiver).FindWithHanging(near_[receiver]);
+  return ContactFinder(scene_, receiver, gap_).FindWithHanging(near_[receiver]);
+}
+
+std::vector<Contact> ContactSearch::Find(PatchId receiver) const {
+  return ContactFinder(scene_, receiver, gap_).Find(near_[receiver]);
 }
 
 }  // namespace penumbra

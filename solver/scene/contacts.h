@@ -30,12 +30,16 @@ class ContactSearch {
  public:
   explicit ContactSearch(const Scene& scene);
 
+  // FindContacts().
+  std::vector<Contact> Find(PatchId receiver) const;
+
   // All contacts on the front of the receiver, and the feet of what hangs closely above it: the edges of
   // other patches that rise from at most kHanging above it, projected onto it.
   std::vector<Contact> FindWithHanging(PatchId receiver) const;
 
  private:
   const Scene& scene_;
+  double gap_;                              // ContactGap() [m]
   std::vector<std::vector<PatchId>> near_;  // per patch, ascending: whose boxes come that near
 };
 

@@ -23,7 +23,7 @@ const Link* FindLink(const std::vector<Link>& links, ElementId receiver, Element
 
 }  // namespace
 
-LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution) {
+LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution, const ExecutionContext& context) {
   const Scene& scene = solution.forest.scene();
   LinkDiagnostics diagnostics;
   diagnostics.closure.assign(scene.patches.size(), 0);
@@ -34,6 +34,7 @@ LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution) {
   };
   std::vector<Exchange> exchanges;
   for (const Link& link : solution.links.links) {
+    if (context.Cancelled()) return diagnostics;
     const Element& receiver = solution.forest[link.receiver];
     const Element& source = solution.forest[link.source];
     const double flux = receiver.area * link.form_factor;
@@ -64,7 +65,7 @@ LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution) {
         diagnostics.patch_reciprocity,
         std::abs(difference) / std::min(scene.patches[pair.first].area, scene.patches[pair.second].area));
   }
-  const std::vector<double> free_area = FreeAreas(scene);
+  const std::vector<double> free_area = FreeAreas(scene, context);
   double flux = 0, area = 0;
   for (std::size_t p = 0; p < scene.patches.size(); ++p) {
     diagnostics.covered_area += scene.patches[p].area - free_area[p];
@@ -80,14 +81,16 @@ LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution) {
   return diagnostics;
 }
 
-ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch, std::uint64_t seed) {
+ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch, std::uint64_t seed,
+                              const ExecutionContext& context) {
   ViewDiagnostics diagnostics;
-  if (scene.patches.empty() || rays_per_patch == 0) return diagnostics;
+  if (scene.patches.empty() || rays_per_patch == 0 || context.Cancelled()) return diagnostics;
   const RayCaster caster(scene);
   const double lift = ContactGap(scene);
   std::vector<std::size_t> away(scene.patches.size()), back(scene.patches.size());
   ParallelFor(scene.patches.size(), 8, [&](std::size_t p) {
     const Patch& patch = scene.patches[p];
+    if (context.Cancelled()) return;
     for (std::size_t i = 0; i < rays_per_patch; ++i) {
       const DiffuseRay ray =
           MakeDiffuseRay(patch.Vertices(), patch.normal, lift, p * rays_per_patch + i, seed);

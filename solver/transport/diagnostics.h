@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/base/progress.h"
 #include "solver/transport/solution.h"
 
 namespace penumbra {
@@ -28,7 +29,9 @@ struct LinkDiagnostics {
   std::size_t link_pairs = 0, patch_pairs = 0;
   double link_reciprocity = 0, patch_reciprocity = 0;  // the worst
 };
-LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution);
+// Of no use if it was cancelled.
+LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution,
+                              const ExecutionContext& context = ExecutionContext());
 
 struct ViewDiagnostics {
   std::size_t rays = 0;
@@ -37,7 +40,8 @@ struct ViewDiagnostics {
   std::vector<std::int32_t> reversed_faces;
 };
 // Sends as many rays from each patch, by a low-discrepancy rule, cosine distributed. Deterministic for a
-// given seed.
-ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch = 64, std::uint64_t seed = 1);
+// given seed. Of no use if it was cancelled.
+ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch = 64, std::uint64_t seed = 1,
+                              const ExecutionContext& context = ExecutionContext());
 
 }  // namespace penumbra

@@ -31,7 +31,8 @@ const Sender& SenderOfRay(const std::vector<Sender>& senders, const std::vector<
 
 }  // namespace
 
-EnergyBalance MeasureEnergy(const RadiositySolution& solution, std::size_t rays, std::uint64_t seed) {
+EnergyBalance MeasureEnergy(const RadiositySolution& solution, std::size_t rays, std::uint64_t seed,
+                            const ExecutionContext& context) {
   const Scene& scene = solution.forest.scene();
   EnergyBalance balance;
   for (const ElementId id : solution.forest.AllLeaves()) {
@@ -41,6 +42,7 @@ EnergyBalance MeasureEnergy(const RadiositySolution& solution, std::size_t rays,
     balance.absorbed += element.area * ((1 - material.reflectance) * solution.irradiance[id]).sum();
   }
 
+  if (context.Cancelled()) return balance;
   const SourceSet sources = SourceSet::FromSolution(solution);
   std::vector<Sender> senders;
   std::vector<double> cumulative;
@@ -60,6 +62,7 @@ EnergyBalance MeasureEnergy(const RadiositySolution& solution, std::size_t rays,
   enum : char { kFront, kBack, kAway };
   std::vector<char> fate(rays);
   ParallelFor(rays, kRayGrain, [&](std::size_t i) {
+    if (context.Cancelled()) return;
     const Sender& sender = SenderOfRay(senders, cumulative, i, rays);
     const std::span<const Vec3> polygon(sender.node->vertex.data(),
                                         static_cast<std::size_t>(sender.node->size));

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "solver/base/progress.h"
 #include "solver/transport/solution.h"
 
 namespace penumbra {
@@ -19,8 +20,9 @@ struct EnergyBalance {
 };
 
 // Rays leave the leaves and fragments by a low-discrepancy rule, as many from each as its share of the flux,
-// cosine distributed. Their error is about 1 / rays for smooth scenes. Deterministic for a given seed.
+// cosine distributed. Their error is about 1 / rays for smooth scenes. Deterministic for a given seed. Of no
+// use if it was cancelled.
 EnergyBalance MeasureEnergy(const RadiositySolution& solution, std::size_t rays = std::size_t{1} << 18,
-                            std::uint64_t seed = 1);
+                            std::uint64_t seed = 1, const ExecutionContext& context = ExecutionContext());
 
 }  // namespace penumbra

@@ -17,15 +17,16 @@ constexpr double kThroughGaps = 1e-4;
 
 }  // namespace
 
-std::vector<double> FreeAreas(const Scene& scene) {
+std::vector<double> FreeAreas(const Scene& scene, const ExecutionContext& context) {
   // Every front shines alike, so that irradiance is the share of the hemisphere that fronts fill.
   Scene bright = scene;
   for (Material& material : bright.materials) material.emittance = Rgb::Ones();
   const PatchVisibility unused;
   const PointIrradiance seen(bright, unused, SourceSet::Emitters(bright));
-  const std::vector<Fragment> parts = CutLeavesAtContacts(ElementForest(scene));
+  const std::vector<Fragment> parts = CutLeavesAtContacts(ElementForest(scene), context);
   std::vector<double> area(scene.patches.size());
   ParallelFor(area.size(), 1, [&](std::size_t p) {
+    if (context.Cancelled()) return;
     const Patch& patch = scene.patches[p];
     const auto is_free = [&](std::span<const Vec3> part) {
       ReceiverPoint at;

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "solver/base/progress.h"
 #include "solver/scene/scene.h"
 
 namespace penumbra {
@@ -15,6 +16,7 @@ namespace penumbra {
 // [m^2]. Exact but for slivers that are not cut off (CutLeavesAtContacts) and for what light comes through
 // gaps that count as closed (ContactGap). In an open scene a part that looks at nothing but the sky is not
 // free by this. Parallel, and the same for any number of threads.
-std::vector<double> FreeAreas(const Scene& scene);
+// Of no use if it was cancelled.
+std::vector<double> FreeAreas(const Scene& scene, const ExecutionContext& context = ExecutionContext());
 
 }  // namespace penumbra

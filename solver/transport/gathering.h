@@ -25,6 +25,9 @@ struct PointIrradianceOptions {
   // Where there is no method and this is positive: backprojection, which collapses segments of blockers'
   // outlines that are shorter than this, relative to the source's diameter as seen.
   double min_backprojection_segment = 0;
+  // The part of their tolerance to which samples for interpolants keep (PointIrradiance::NearlyOnPatch): what
+  // is left out comes back with every bounce, and in rooms that are nearly white there are many.
+  double part_of_tolerance = 1;
 };
 
 // The light that a point receives from one patch.

@@ -7,6 +7,7 @@
 
 #include "solver/base/parallel.h"
 #include "solver/base/stopwatch.h"
+#include "solver/transport/closure.h"
 #include "solver/transport/leaf_cells.h"
 #include "solver/transport/leaf_fragments.h"
 #include "solver/transport/point_irradiance.h"
@@ -20,12 +21,18 @@ constexpr std::size_t kExactGrain = 8;  // leaves that a task corrects
 constexpr double kDark = 0.5;
 // By what passes that prepare the parts of leaves may err, and how it falls: by about what a pass gains.
 constexpr double kCoarsestCells = 0.1, kCellStep = 4;
+// Below this a pass that cuts nothing further is the last of them.
+constexpr double kFineCells = 1e-3;
 
 // How multigridding begins, and by what the bound falls from one iteration to the next. Coarse links need not
 // settle better than this.
 constexpr double kCoarsestEps = 64;  // x eps
 constexpr double kEpsStep = 4;
 constexpr double kCoarseCutoff = 0.01;
+
+// Rooms are nearly white where so much light is still to come for each unit that is there: reflectances above
+// 0.95. Below that the links' errors, some thousandths, come back some twenty times, which corrections mend.
+constexpr double kNearlyWhite = 20;
 
 // The area of an element for which eps is meant: a 16 x 16 mesh of all fronts together.
 double ReferenceArea(const Scene& scene) {
@@ -39,13 +46,23 @@ std::optional<LinkSet> LinkRoots(const ElementForest& forest, const PatchVisibil
                                  LinkFormFactors form_factors, const ExecutionContext& context) {
   std::vector<LinkGroup> groups(forest.size());
   for (std::size_t p = 0; p < groups.size(); ++p) {
+    if (context.Cancelled()) return std::nullopt;
     groups[p].receiver = ElementForest::Root(static_cast<PatchId>(p));
     for (const PatchPair& pair : visibility.SourcesOf(static_cast<PatchId>(p)))
       groups[p].candidates.push_back({ElementForest::Root(pair.source), visibility.Blockers(pair)});
   }
   const std::vector<LinkSet> formed = FormLinkGroups(forest, groups, form_factors, context);
   if (context.Cancelled()) return std::nullopt;
-  return ReplaceLinks({}, {}, formed);
+  LinkSet links = ReplaceLinks({}, {}, formed, context);
+  if (context.Cancelled()) return std::nullopt;
+  return links;
+}
+
+// How many links there would be at most, once a plan is done.
+std::size_t CountLinks(const RadiositySolution& solution, const RefinementPlan& plan) {
+  std::size_t count = solution.links.links.size() - plan.links_split;
+  for (const LinkGroup& group : plan.groups) count += group.candidates.size();
+  return count;
 }
 
 }  // namespace
@@ -76,9 +93,18 @@ void HierarchicalSolver::Restore(Snapshot before) {
   solution_.radiosity_spread = std::move(before.radiosity_spread);
   solution_.spread_below = std::move(before.spread_below);
   correction_ = std::move(before.correction);
+  closure_.resize(std::min(closure_.size(), before.elements));
   fragment_offset_ = std::move(before.fragment_offset);
   converged_ = before.converged;
   push_pull_->Update();
+}
+
+bool IsStuck(std::span<const IterationReport> reports) {
+  constexpr double kNearer = 0.9;  // that an iteration without new links brings the light at least
+  if (reports.size() < 2) return false;
+  const IterationReport &last = reports[reports.size() - 1], &before = reports[reports.size() - 2];
+  return last.links_split == 0 && before.links_split == 0 && last.eps == before.eps &&
+         !(last.residual < kNearer * before.residual);
 }
 
 HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility,
@@ -91,17 +117,20 @@ HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility
   std::optional<LinkSet> links = LinkRoots(solution_.forest, visibility, options.form_factors, context);
   linked_ = links.has_value();
   if (links) solution_.links = std::move(*links);
+  root_links_ = solution_.links.links.size();
   push_pull_ = std::make_unique<PushPull>(solution_);
 }
 
 HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility,
-                                       const SolverOptions& options, RadiositySolution solution)
+                                       const SolverOptions& options, RadiositySolution solution,
+                                       const ExecutionContext& context)
     : scene_(scene),
       visibility_(visibility),
       options_(options),
       eps_(options.eps),
       solution_(std::move(solution)),
       push_pull_(std::make_unique<PushPull>(solution_)) {
+  Balance(context);
   // What corrected a leaf is what its links do not bring.
   const std::vector<Rgb> linked = push_pull_->Transport(solution_.radiosity);
   correction_.assign(solution_.forest.size(), Rgb::Zero());
@@ -113,11 +142,48 @@ HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility
 
 HierarchicalSolver::~HierarchicalSolver() = default;
 
+// Brings the links into balance where the room is nearly white. False if it was cancelled.
+bool HierarchicalSolver::Balance(const ExecutionContext& context) {
+  if (push_pull_->IsBalanced()) return !context.Cancelled();
+  if (!nearly_white_) {
+    double whitest = 0;
+    for (const Patch& patch : scene_.patches)
+      whitest = std::max(whitest, scene_.materials[patch.material].reflectance.maxCoeff());
+    nearly_white_ = whitest > kNearlyWhite / (1 + kNearlyWhite) &&
+                    LightToCome(*push_pull_, solution_, context).maxCoeff() > kNearlyWhite;
+  }
+  if (!*nearly_white_) return !context.Cancelled();
+  closure_.resize(solution_.forest.size(), -1);
+  std::vector<ElementId> unknown;
+  for (const ElementId leaf : push_pull_->leaves())
+    if (closure_[static_cast<std::size_t>(leaf)] < 0) unknown.push_back(leaf);
+  const std::vector<double> found = LeafClosures(solution_.forest, visibility_, unknown, context);
+  if (context.Cancelled()) return false;
+  for (std::size_t i = 0; i < unknown.size(); ++i) closure_[static_cast<std::size_t>(unknown[i])] = found[i];
+  std::vector<double> closure;
+  for (const ElementId leaf : push_pull_->leaves())
+    closure.push_back(closure_[static_cast<std::size_t>(leaf)]);
+  push_pull_->Balance(closure);
+  return true;
+}
+
+double HierarchicalSolver::PartOfTolerance() const {
+  return to_come_ > kNearlyWhite ? kNearlyWhite / to_come_ : 1;
+}
+
+PointIrradianceOptions HierarchicalSolver::HowToSample() const {
+  PointIrradianceOptions options;
+  options.part_of_tolerance = PartOfTolerance();
+  return options;
+}
+
 bool HierarchicalSolver::Settle(double cutoff, IterationReport& report, const ExecutionContext& context) {
+  if (!Balance(context)) return false;
   const Settled settled = penumbra::Settle(*push_pull_, solution_, correction_, options_.scheme,
                                            options_.acceleration, cutoff, context);
   report.residual = settled.residual;
   report.sweeps += settled.sweeps;
+  to_come_ = settled.to_come;
   return !context.Cancelled();
 }
 
@@ -128,7 +194,9 @@ bool HierarchicalSolver::Apply(const RefinementPlan& plan, Snapshot& before,
   const std::vector<LinkSet> formed =
       FormLinkGroups(solution_.forest, plan.groups, options_.form_factors, context);
   if (context.Cancelled()) return false;
-  LinkSet replaced = std::exchange(solution_.links, ReplaceLinks(solution_.links, plan.dropped, formed));
+  LinkSet links = ReplaceLinks(solution_.links, plan.dropped, formed, context);
+  if (context.Cancelled()) return false;
+  LinkSet replaced = std::exchange(solution_.links, std::move(links));
   if (!before.links) before.links = std::move(replaced);
   TakeCorrectionsBack();
   push_pull_->Update();
@@ -153,8 +221,14 @@ std::optional<IterationReport> HierarchicalSolver::Iterate(const ExecutionContex
   bool going = Settle(cutoff, report, context);
   const auto oracle = MakeOracle(options_.oracle, {eps_, options_.min_area, ReferenceArea(scene_)});
   while (going) {
+    const std::size_t elements = solution_.forest.size();
     const RefinementPlan plan = PlanRefinement(solution_, *push_pull_, *oracle);
     if (plan.links_split == 0) break;
+    if (CountLinks(solution_, plan) > root_links_ + options_.max_links) {
+      solution_.forest.Truncate(elements);
+      full_ = true;
+      break;
+    }
     report.links_split += plan.links_split;
     going = Apply(plan, before, context);
   }
@@ -168,7 +242,8 @@ std::optional<IterationReport> HierarchicalSolver::Iterate(const ExecutionContex
     Restore(std::move(before));
     return std::nullopt;
   }
-  converged_ = eps_ == options_.eps && report.links_split == 0 && report.residual <= options_.relative_cutoff;
+  const bool refined = full_ || (eps_ == options_.eps && report.links_split == 0);
+  converged_ = refined && report.residual <= options_.relative_cutoff;
   eps_ = std::max(options_.eps, eps_ / kEpsStep);
   report.elements = solution_.forest.size();
   report.links = solution_.links.links.size();
@@ -198,6 +273,8 @@ std::optional<IterationReport> HierarchicalSolver::Relight(const ExecutionContex
   const Stopwatch stopwatch;
   Snapshot before = TakeSnapshot();
   TakeCorrectionsBack();
+  nearly_white_.reset();
+  push_pull_->Update();
   for (const ElementId leaf : push_pull_->leaves()) push_pull_->Light(leaf, solution_.irradiance[leaf]);
   push_pull_->Pull();
   IterationReport report;
@@ -220,7 +297,7 @@ std::optional<double> HierarchicalSolver::CorrectByCells(double error, const Exe
   const LeafCellOptions options = {error, kDark * MeanReflected(solution_), options_.min_area};
   std::vector<std::vector<Polygon3>> parts = leaf_parts_;
   if (parts.empty()) {
-    const std::vector<Fragment> cuts = CutLeavesAtContacts(forest);
+    const std::vector<Fragment> cuts = CutLeavesAtContacts(forest, context);
     parts.resize(leaves.size());
     for (std::size_t i = 0; i < leaves.size(); ++i) {
       for (const Fragment& cut : FragmentsOf(cuts, leaves[i])) parts[i].push_back(cut.polygon);
@@ -230,7 +307,7 @@ std::optional<double> HierarchicalSolver::CorrectByCells(double error, const Exe
   }
   const std::shared_ptr<const LeafVisibility> seen = SeenFromLeaves(context);
   if (!seen) return std::nullopt;
-  const PointIrradiance exact(solution_, visibility_, {}, seen);
+  const PointIrradiance exact(solution_, visibility_, HowToSample(), seen);
   std::vector<std::vector<Fragment>> pieces(leaves.size());
   std::vector<Rgb> irradiance(forest.size(), Rgb::Zero());
   ParallelFor(leaves.size(), 1, [&](std::size_t i) {
@@ -269,7 +346,7 @@ std::optional<double> HierarchicalSolver::Correct(LeafSampling sampling, const E
   if (options_.source_error > 0) return CorrectByCells(options_.source_error, context);
   Snapshot before = TakeSnapshot();
   if (fragment_offset_.empty()) {
-    solution_.fragments = CutLeavesAtContacts(solution_.forest);
+    solution_.fragments = CutLeavesAtContacts(solution_.forest, context);
     fragment_offset_.assign(solution_.fragments.size(), Rgb::Zero());
     LightFragments();
   }
@@ -279,7 +356,7 @@ std::optional<double> HierarchicalSolver::Correct(LeafSampling sampling, const E
     Restore(std::move(before));
     return std::nullopt;
   }
-  const PointIrradiance irradiance(solution_, visibility_, {}, seen);
+  const PointIrradiance irradiance(solution_, visibility_, HowToSample(), seen);
   std::vector<LeafIrradiance> exact(leaves.size());
   ParallelFor(leaves.size(), kExactGrain, [&](std::size_t i) {
     if (!context.Cancelled())
@@ -376,9 +453,18 @@ std::vector<Rgb> HierarchicalSolver::MeanIrradianceByBounce(int bounces) const {
 
 bool HierarchicalSolver::CorrectAll(const ExecutionContext& context, bool but_the_last) {
   const bool cells = options_.source_error > 0 && options_.max_corrections > 0;
+  const auto parts = [&] {
+    std::size_t count = 0;
+    for (const std::vector<Polygon3>& leaf : leaf_parts_) count += leaf.size();
+    return count;
+  };
   for (double error = kCoarsestCells; cells && error > options_.source_error && !context.Cancelled();
-       error /= kCellStep)
-    CorrectByCells(error, context);
+       error /= kCellStep) {
+    const std::size_t before = parts();
+    if (!CorrectByCells(error, context)) break;
+    // Where parts are as small as they may become, a smaller error cuts no more.
+    if (error < kFineCells && parts() == before) break;
+  }
   // All passes but the last only need to come near: the last one, here or by CorrectTo(), replaces what they
   // added.
   const int passes = options_.max_corrections - (but_the_last ? 1 : 0);
@@ -394,6 +480,7 @@ std::vector<IterationReport> HierarchicalSolver::Solve(const ExecutionContext& c
   while (!converged_ && static_cast<int>(reports.size()) < options_.max_iterations && !context.Cancelled()) {
     const std::optional<IterationReport> report = Iterate(context);
     if (report) reports.push_back(*report);
+    if (IsStuck(reports)) break;
     context.Report("iterate", static_cast<double>(reports.size()) / options_.max_iterations);
   }
   CorrectAll(context);

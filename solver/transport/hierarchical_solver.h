@@ -34,6 +34,8 @@ struct SolverOptions {
   // Converged when no radiosity is farther off, relative to the largest reflected one (Appendix A, 7).
   double relative_cutoff = 1e-4;
   int max_iterations = 100;  // each gathers until it settles, then refines
+  // Refinement ends before there are so many more links than between roots: some 800 MB.
+  std::size_t max_links = 8'000'000;
   IterationScheme scheme = IterationScheme::kJacobi;
   Acceleration acceleration = Acceleration::kAnderson;
   OracleKind oracle = OracleKind::kTransport;
@@ -60,6 +62,10 @@ struct IterationReport {
   double seconds = 0;
 };
 
+// Whether another iteration would change nothing: the last ones split no link and brought the light no
+// nearer.
+bool IsStuck(std::span<const IterationReport> reports);
+
 class HierarchicalSolver {
  public:
   // Links the roots. Cancelled, it leaves a solution without links. The scene and the visibility must outlive
@@ -68,7 +74,7 @@ class HierarchicalSolver {
                      const ExecutionContext& context = ExecutionContext());
   // Goes on from a solution of the same scene: its links and its light, corrections included.
   HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
-                     RadiositySolution solution);
+                     RadiositySolution solution, const ExecutionContext& context = ExecutionContext());
   ~HierarchicalSolver();
   HierarchicalSolver(const HierarchicalSolver&) = delete;
   HierarchicalSolver& operator=(const HierarchicalSolver&) = delete;
@@ -116,7 +122,11 @@ class HierarchicalSolver {
   // Whether the roots were linked, which a cancelled construction did not do.
   bool Linked() const { return linked_; }
   bool Converged() const { return converged_; }
+  // Links would have been split, but were too many (SolverOptions::max_links).
+  bool Full() const { return full_; }
   const RadiositySolution& solution() const { return solution_; }
+  // PointIrradianceOptions::part_of_tolerance, by how much light comes back.
+  double PartOfTolerance() const;
   // What the leaves of the solution see: found when it is first asked for after they changed.
   // Null if it was cancelled.
   std::shared_ptr<const LeafVisibility> SeenFromLeaves(const ExecutionContext& context = ExecutionContext());
@@ -128,6 +138,8 @@ class HierarchicalSolver {
   void Restore(Snapshot snapshot);
 
   bool Settle(double cutoff, IterationReport& report, const ExecutionContext& context);
+  bool Balance(const ExecutionContext& context);
+  PointIrradianceOptions HowToSample() const;
   bool Apply(const RefinementPlan& plan, Snapshot& before, const ExecutionContext& context);
   void TakeCorrectionsBack();
   void LightFragments();
@@ -144,9 +156,13 @@ class HierarchicalSolver {
   std::vector<Rgb> correction_;       // per element: exact less linked irradiance of leaves [W/m^2]
   std::vector<Rgb> fragment_offset_;  // per fragment: exact irradiance less its leaf's [W/m^2]
   bool linked_ = true;
+  std::optional<bool> nearly_white_;  // once it is known
+  double to_come_ = 0;                // LightToCome() when the light last settled
+  std::vector<double> closure_;       // per element, of leaves that were asked for; negative where unknown
   std::vector<std::vector<Polygon3>>
       leaf_parts_;  // per leaf in ascending order, of LeafCells; empty at first
-  bool converged_ = false;
+  bool converged_ = false, full_ = false;
+  std::size_t root_links_ = 0;
 };
 
 }  // namespace penumbra

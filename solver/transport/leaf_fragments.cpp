@@ -30,10 +30,10 @@ void CutAll(const Contact& contact, const Vec3& normal, double snap, double leas
   }
 }
 
-std::vector<Fragment> CutLeavesOf(const ElementForest& forest, PatchId id) {
+std::vector<Fragment> CutLeavesOf(const ElementForest& forest, const ContactSearch& search, PatchId id) {
   std::vector<Fragment> fragments;
   const Patch& patch = forest.scene().patches[id];
-  const std::vector<Contact> contacts = FindContacts(forest.scene(), id);
+  const std::vector<Contact> contacts = search.Find(id);
   if (contacts.empty()) return fragments;
   const double snap = SnapDistance(patch);
   for (const ElementId leaf : forest.Leaves(id)) {
@@ -55,10 +55,13 @@ std::vector<Fragment> CutLeavesOf(const ElementForest& forest, PatchId id) {
 
 }  // namespace
 
-std::vector<Fragment> CutLeavesAtContacts(const ElementForest& forest) {
+std::vector<Fragment> CutLeavesAtContacts(const ElementForest& forest, const ExecutionContext& context) {
   std::vector<std::vector<Fragment>> by_patch(forest.scene().patches.size());
-  ParallelFor(by_patch.size(), 1,
-              [&](std::size_t p) { by_patch[p] = CutLeavesOf(forest, static_cast<PatchId>(p)); });
+  if (context.Cancelled()) return {};
+  const ContactSearch search(forest.scene());
+  ParallelFor(by_patch.size(), 1, [&](std::size_t p) {
+    if (!context.Cancelled()) by_patch[p] = CutLeavesOf(forest, search, static_cast<PatchId>(p));
+  });
   std::vector<Fragment> fragments;
   for (std::vector<Fragment>& own : by_patch)
     std::move(own.begin(), own.end(), std::back_inserter(fragments));

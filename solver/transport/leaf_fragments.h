@@ -8,12 +8,14 @@
 
 #include <vector>
 
+#include "solver/base/progress.h"
 #include "solver/transport/solution.h"
 
 namespace penumbra {
 
 // The fragments of all leaves that a contact crosses, without light, by leaf. Each leaf's fragments are
-// convex and tile it.
-std::vector<Fragment> CutLeavesAtContacts(const ElementForest& forest);
+// convex and tile it. Of no use if it was cancelled.
+std::vector<Fragment> CutLeavesAtContacts(const ElementForest& forest,
+                                          const ExecutionContext& context = ExecutionContext());
 
 }  // namespace penumbra

@@ -51,8 +51,8 @@ void Keep(PatchPair pair, std::span<const PatchId> blockers, Lists& lists) {
 
 class Filter {
  public:
-  explicit Filter(const ElementForest& forest)
-      : forest_(forest), scene_(forest.scene()), leaves_below_(forest.size(), 0) {
+  Filter(const ElementForest& forest, const ExecutionContext& context)
+      : forest_(forest), scene_(forest.scene()), context_(context), leaves_below_(forest.size(), 0) {
     for (std::size_t i = forest.size(); i-- > 0;) {  // children come after their parents
       const Element& element = forest.elements()[i];
       if (element.IsLeaf()) leaves_below_[i] = 1;
@@ -62,6 +62,7 @@ class Filter {
   }
 
   void Descend(ElementId id, const Lists& above, PatchLists& out) const {
+    if (context_.Cancelled()) return;
     const Element& element = forest_[id];
     Lists own = Narrow(id, above);
     if (element.IsLeaf()) {
@@ -84,6 +85,7 @@ class Filter {
     Lists own;
     std::vector<PatchId> all, first_met;
     for (PatchPair pair : above.pairs) {
+      if (context_.Cancelled()) break;
       const std::span<const PatchId> blockers = above.Blockers(pair);
       if (leaves * blockers.size() < kWorthwhile) {
         Keep(pair, blockers, own);
@@ -101,6 +103,7 @@ class Filter {
 
   const ElementForest& forest_;
   const Scene& scene_;
+  const ExecutionContext& context_;
   std::vector<std::size_t> leaves_below_;
 };
 
@@ -111,7 +114,7 @@ LeafVisibility::LeafVisibility(const ElementForest& forest, const PatchVisibilit
     : range_(forest.size(), {0, 0}) {
   const std::size_t count = forest.scene().patches.size();
   std::vector<PatchLists> found(count);
-  const Filter filter(forest);
+  const Filter filter(forest, context);
   ParallelFor(count, 1, [&](std::size_t p) {
     if (context.Cancelled()) return;
     Lists root;
@@ -119,7 +122,8 @@ LeafVisibility::LeafVisibility(const ElementForest& forest, const PatchVisibilit
       Keep(pair, patches.Blockers(pair), root);
     filter.Descend(ElementForest::Root(static_cast<PatchId>(p)), root, found[p]);
   });
-  for (const PatchLists& patch : found)
+  for (PatchLists& patch : found) {
+    if (context.Cancelled()) return;
     for (std::size_t i = 0; i < patch.leaves.size(); ++i) {
       const auto offset = static_cast<std::uint32_t>(blockers_.size());
       const std::size_t first = pairs_.size();
@@ -130,6 +134,8 @@ LeafVisibility::LeafVisibility(const ElementForest& forest, const PatchVisibilit
       blockers_.insert(blockers_.end(), patch.lists[i].blockers.begin(), patch.lists[i].blockers.end());
       range_[static_cast<std::size_t>(patch.leaves[i])] = {first, pairs_.size()};
     }
+    patch = {};  // memory for what comes
+  }
 }
 
 }  // namespace penumbra

@@ -75,9 +75,11 @@ class ListedFactors {
 
 class Former {
  public:
-  Former(const ElementForest& forest, ElementId receiver, LinkFormFactors form_factors)
+  Former(const ElementForest& forest, ElementId receiver, LinkFormFactors form_factors,
+         const ExecutionContext& context)
       : forest_(forest),
         form_factors_(form_factors),
+        context_(context),
         receiver_(forest[receiver]),
         id_(receiver),
         patch_(forest.scene().patches[receiver_.patch]),
@@ -85,13 +87,17 @@ class Former {
         radius_(Radius(receiver_, centre_)) {}
 
   LinkSet Form(std::span<const LinkCandidate> candidates) {
-    for (const LinkCandidate& candidate : candidates) Consider(candidate);
+    for (const LinkCandidate& candidate : candidates) {
+      if (context_.Cancelled()) return {};
+      Consider(candidate);
+    }
     // Points outermost: what a point sees of a blocker serves all sources. Groups of equal rules share their
     // points.
     for (int refinement : {0, kNearRefinement}) {
       std::vector<std::size_t> whole;
       for (std::size_t i = 0; i < pending_.size(); ++i) {
         if (pending_[i].refinement != refinement) continue;
+        if (context_.Cancelled()) return {};
         if (pending_[i].lit.empty()) {
           whole.push_back(i);
         } else {
@@ -100,7 +106,10 @@ class Former {
       }
       if (!whole.empty()) Average(Cubature(receiver_.Vertices(), refinement), whole);
     }
-    for (const Pending& pending : pending_) Finish(pending);
+    for (const Pending& pending : pending_) {
+      if (context_.Cancelled()) return {};
+      Finish(pending);
+    }
     return std::move(set_);
   }
 
@@ -184,6 +193,7 @@ class Former {
     AreaFormFactorOptions options;
     options.tolerance = kExactLinkTolerance;
     options.max_points = kExactLinkPoints;
+    options.context = &context_;
     const PatchHierarchy between(forest_.scene(), {blockers.begin(), blockers.end()});
     return AreaFormFactor(forest_.scene(), between, part(receiver_), part(source), options).factor;
   }
@@ -191,6 +201,7 @@ class Former {
   // Adds the means and the mean squares of the point form factors of the given links.
   void Average(const std::vector<CubaturePoint>& rule, std::span<const std::size_t> which) {
     for (const CubaturePoint& point : rule) {
+      if (context_.Cancelled()) return;
       ReceiverPoint at;
       at.position = point.position;
       at.normal = patch_.normal;
@@ -248,6 +259,7 @@ class Former {
 
   const ElementForest& forest_;
   LinkFormFactors form_factors_;
+  const ExecutionContext& context_;
   const Element& receiver_;
   ElementId id_;
   const Patch& patch_;
@@ -262,8 +274,8 @@ class Former {
 }  // namespace
 
 LinkSet FormLinks(const ElementForest& forest, ElementId receiver, std::span<const LinkCandidate> candidates,
-                  LinkFormFactors form_factors) {
-  return Former(forest, receiver, form_factors).Form(candidates);
+                  LinkFormFactors form_factors, const ExecutionContext& context) {
+  return Former(forest, receiver, form_factors, context).Form(candidates);
 }
 
 }  // namespace penumbra

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/base/progress.h"
 #include "solver/transport/solution.h"
 
 namespace penumbra {
@@ -34,8 +35,9 @@ struct LinkCandidate {
 // The links of one receiver to all candidates that it may see, in their order; `blockers` indices start at 0
 // there. Candidates whose fronts do not face the receiver or which one blocker hides wholly get no link.
 // Points of the receiver behind the source's plane count as dark, so that the form factor is that of the
-// whole receiver.
+// whole receiver. Of no use if it was cancelled.
 LinkSet FormLinks(const ElementForest& forest, ElementId receiver, std::span<const LinkCandidate> candidates,
-                  LinkFormFactors form_factors = LinkFormFactors::kCubature);
+                  LinkFormFactors form_factors = LinkFormFactors::kCubature,
+                  const ExecutionContext& context = ExecutionContext());
 
 }  // namespace penumbra

@@ -24,7 +24,8 @@ std::vector<LinkSet> FormLinkGroups(const ElementForest& forest, std::span<const
                                     LinkFormFactors form_factors, const ExecutionContext& context);
 
 // The links that are not dropped (one flag a link; empty: none is) and those of `formed`, by receiver, then
-// source.
-LinkSet ReplaceLinks(const LinkSet& links, std::span<const char> dropped, std::span<const LinkSet> formed);
+// source. Of no use if it was cancelled.
+LinkSet ReplaceLinks(const LinkSet& links, std::span<const char> dropped, std::span<const LinkSet> formed,
+                     const ExecutionContext& context = ExecutionContext());
 
 }  // namespace penumbra

@@ -147,6 +147,7 @@ PointIrradianceResult PointIrradiance::OnPatch(PatchId patch, const ReceiverPoin
 
 PointIrradianceResult PointIrradiance::NearlyOnPatch(PatchId patch, const ReceiverPoint& given,
                                                      double tolerance) const {
+  tolerance *= options_.part_of_tolerance;
   const ReceiverPoint at = Nudged(given);
   Gathering gathering(scene_, sources_, at, options_, nullptr);
   if (options_.method != nullptr || forest_ == nullptr) {

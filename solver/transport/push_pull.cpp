@@ -27,6 +27,7 @@ Rgb SourceRadiosity(const ElementForest& forest, const Link& link, std::span<con
 PushPull::PushPull(RadiositySolution& solution) : solution_(solution) { Update(); }
 
 void PushPull::Update() {
+  scale_.clear();
   const ElementForest& forest = solution_.forest;
   const std::size_t count = forest.size(), patches = forest.scene().patches.size();
   first_link_.assign(count + 1, 0);
@@ -71,11 +72,24 @@ Rgb PushPull::Gathered(ElementId receiver, std::span<const Rgb> radiosity) const
   return sum;
 }
 
-// Adds what parents have gathered to their children's.
+void PushPull::Balance(std::span<const double> closure) {
+  scale_.clear();
+  const std::vector<Rgb> sum = Transport(std::vector<Rgb>(solution_.forest.size(), Rgb::Ones()));
+  scale_.assign(solution_.forest.size(), 1);
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    const auto leaf = static_cast<std::size_t>(leaves_[i]);
+    if (sum[leaf][0] > 0) scale_[leaf] = closure[i] / sum[leaf][0];
+  }
+}
+
+// Adds what parents have gathered to their children's, and brings leaves into balance.
 void PushPull::Push(std::size_t patch, std::span<Rgb> irradiance) const {
   for (const ElementId id : ElementsOf(patch)) {
     const ElementId first = solution_.forest[id].first_child;
-    if (first == kNoElement) continue;
+    if (first == kNoElement) {
+      if (!scale_.empty()) irradiance[static_cast<std::size_t>(id)] *= scale_[static_cast<std::size_t>(id)];
+      continue;
+    }
     for (std::size_t q = 0; q < 4; ++q)
       irradiance[static_cast<std::size_t>(first) + q] += irradiance[static_cast<std::size_t>(id)];
   }

@@ -26,8 +26,13 @@ class PushPull {
   explicit PushPull(RadiositySolution& solution);
 
   // To be called when links or elements have changed: indexes them, and gives new elements the light of their
-  // parents.
+  // parents. Links are out of balance again.
   void Update();
+
+  // From here on what the links bring to a leaf is scaled so that unit radiosity everywhere brings it as much
+  // as is said, by leaf in the order of leaves() [1].
+  void Balance(std::span<const double> closure);
+  bool IsBalanced() const { return !scale_.empty(); }
 
   // The links of a receiver, as indices into the solution's.
   std::size_t FirstLink(ElementId receiver) const { return first_link_[static_cast<std::size_t>(receiver)]; }
@@ -71,6 +76,7 @@ class PushPull {
   std::vector<std::size_t> first_of_patch_;  // per patch, into order_
   std::vector<ElementId> order_;             // patch by patch, parents before their children
   std::vector<ElementId> leaves_;
+  std::vector<double> scale_;  // per element, of leaves, by which links bring more than they say; or empty
 };
 
 }  // namespace penumbra

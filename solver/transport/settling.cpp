@@ -12,6 +12,10 @@ namespace {
 // The most sweeps that one settling makes: without acceleration rooms of reflectance 0.99 need some 1,400.
 constexpr std::size_t kMaxSweeps = 5000;
 
+// Sweeps that bring the light no nearer than it has been are the last: what is left are roundings, or light
+// that grows on the links without end.
+constexpr std::size_t kStagnant = 100;
+
 // The most terms of the bound's partial sum, and the gain from one more below which it is left at that.
 constexpr int kMostTerms = 200;
 constexpr double kWorthAnotherTerm = 0.9;
@@ -26,11 +30,12 @@ double Residual(const Rgb& change, const Rgb& to_come, const PushPull& push_pull
 
 }  // namespace
 
-Rgb LightToCome(const PushPull& push_pull, const RadiositySolution& solution) {
+Rgb LightToCome(const PushPull& push_pull, const RadiositySolution& solution,
+                const ExecutionContext& context) {
   const ElementForest& forest = solution.forest;
   std::vector<Rgb> term(forest.size(), Rgb::Ones()), sum(forest.size(), Rgb::Zero());
   Rgb bound = Rgb::Constant(INFINITY);
-  for (int m = 0; m < kMostTerms; ++m) {
+  for (int m = 0; m < kMostTerms && !context.Cancelled(); ++m) {
     std::vector<Rgb> next = push_pull.Transport(term);
     for (std::size_t e = 0; e < next.size(); ++e)
       next[e] *= forest.scene().MaterialOf(forest.elements()[e].patch).reflectance;
@@ -57,7 +62,7 @@ Rgb LightToCome(const PushPull& push_pull, const RadiositySolution& solution) {
 Settled Settle(PushPull& push_pull, RadiositySolution& solution, std::span<const Rgb> correction,
                IterationScheme scheme, Acceleration acceleration, double cutoff,
                const ExecutionContext& context) {
-  const Rgb to_come = LightToCome(push_pull, solution);
+  const Rgb to_come = LightToCome(push_pull, solution, context);
   const std::span<const ElementId> leaves = push_pull.leaves();
   std::vector<double> area;
   for (const ElementId leaf : leaves) area.push_back(solution.forest[leaf].area);
@@ -69,12 +74,18 @@ Settled Settle(PushPull& push_pull, RadiositySolution& solution, std::span<const
     return light;
   };
   Settled settled;
+  double nearest = INFINITY;
+  std::size_t stagnant = 0;
+  settled.to_come = to_come.maxCoeff();
   while (settled.sweeps < kMaxSweeps && !context.Cancelled()) {
     const std::vector<Rgb> before = light_of_leaves();
     settled.residual = Residual(push_pull.Sweep(scheme, correction), to_come, push_pull);
     ++settled.sweeps;
     // What a sweep leaves is bound by its change from wherever it began: a guess need not be good.
     if (settled.residual <= cutoff) break;
+    stagnant = settled.residual < nearest ? 0 : stagnant + 1;
+    nearest = std::min(nearest, settled.residual);
+    if (stagnant == kStagnant) break;
     // The last word is a sweep's.
     if (acceleration == Acceleration::kNone || settled.sweeps == kMaxSweeps) continue;
     std::vector<Rgb> guess = light_of_leaves();

@@ -23,12 +23,15 @@ enum class Acceleration : std::uint8_t {
 // For closed rooms of reflectance r it is r / (1 - r); open ones have less. It holds for the links as they
 // are, whose form factors need not add up to 1, by partial sums and a geometric bound of the rest (a
 // Collatz-Wielandt bound of M's norm). Infinite if light grows on the links without end.
-Rgb LightToCome(const PushPull& push_pull, const RadiositySolution& solution);
+// Cancelled, it gives what it has come to.
+Rgb LightToCome(const PushPull& push_pull, const RadiositySolution& solution,
+                const ExecutionContext& context = ExecutionContext());
 
 struct Settled {
   // What is missing from any radiosity is at most this much, relative to the largest reflected radiosity.
   double residual = 1;
   std::size_t sweeps = 0;
+  double to_come = 0;  // LightToCome() of the channel where it is most
 };
 
 // Sweeps until the residual is at most `cutoff`, or until cancelled.

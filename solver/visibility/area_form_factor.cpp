@@ -105,82 +105,111 @@ FormFactorEstimate AreaFormFactor(const Scene& scene, const PatchHierarchy& patc
   return {integral.factor / from_area, integral.error / from_area, integral.clear, integral.points};
 }
 
-FormFactorEstimate AreaFormFactor(const Scene& scene, std::span<const AreaPart> from,
-                                  std::span<const AreaPart> to, const AreaFormFactorOptions& options) {
-  if (from.empty() || to.empty()) return {};
-  std::vector<PatchId> all(scene.patches.size());
-  std::iota(all.begin(), all.end(), 0);
-  const PatchHierarchy patches(scene, std::move(all));
-  std::vector<FormFactorEstimate> pairs(from.size() * to.size());
-  const auto flux_error = [&](std::size_t k) { return Area(from[k / to.size()]) * pairs[k].error; };
-  const auto solve = [&](const char* phase, std::span<const std::size_t> which,
-                         const AreaFormFactorOptions& how) {
+namespace {
+
+// All pairs of parts from two lists.
+class PairsOfParts {
+ public:
+  PairsOfParts(const Scene& scene, std::span<const AreaPart> from, std::span<const AreaPart> to)
+      : scene_(scene), from_(from), to_(to), pairs_(from.size() * to.size()) {
+    std::vector<PatchId> all(scene.patches.size());
+    std::iota(all.begin(), all.end(), 0);
+    patches_ = PatchHierarchy(scene, std::move(all));
+    for (const AreaPart& part : from) area_ += Area(part);
+  }
+
+  std::size_t Count() const { return pairs_.size(); }
+  std::vector<std::size_t> All() const {
+    std::vector<std::size_t> all(Count());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
+  }
+
+  void Solve(const char* phase, std::span<const std::size_t> which, const AreaFormFactorOptions& how) {
     PairCounter counter(how.context, phase, which.size());
     ParallelFor(which.size(), 1, [&](std::size_t i) {
       if (how.context && how.context->Cancelled()) return;
       const std::size_t k = which[i];
-      pairs[k] = AreaFormFactor(scene, patches, from[k / to.size()], to[k % to.size()], how);
+      pairs_[k] = AreaFormFactor(scene_, patches_, from_[k / to_.size()], to_[k % to_.size()], how);
       counter.Add();
     });
-  };
-  std::vector<std::size_t> which(pairs.size());
-  std::iota(which.begin(), which.end(), std::size_t{0});
-  if (pairs.size() == 1) {
+  }
+
+  // Solves those anew that matter most, until the pairs that nothing stands between, or the others, err by no
+  // more than this share of the flux together.
+  void Refine(bool clear, double error, const AreaFormFactorOptions& options) {
+    const double asked = area_ * error;
+    std::vector<std::size_t> which;
+    double now = 0;
+    for (std::size_t k = 0; k < Count(); ++k) {
+      if (pairs_[k].clear != clear) continue;
+      which.push_back(k);
+      now += FluxError(k);
+    }
+    if (now <= asked) return;
+    const double share = 0.5 * asked / static_cast<double>(which.size());
+    std::erase_if(which, [&](std::size_t k) { return FluxError(k) <= share; });
+    AreaFormFactorOptions fine = options;
+    fine.tolerance = fine.clear_tolerance = 0;
+    fine.enough = asked / static_cast<double>(2 * which.size());
+    fine.small = options.small / static_cast<double>(which.size());
+    fine.enough_points = std::max(kLeastOfMany, options.enough_points / which.size());
+    Solve("integrate", which, fine);
+  }
+
+  bool AllClear() const {
+    return std::all_of(pairs_.begin(), pairs_.end(),
+                       [](const FormFactorEstimate& pair) { return pair.clear || pair.error == 0; });
+  }
+
+  FormFactorEstimate Sum() const {
+    FormFactorEstimate sum;
+    if (area_ == 0) return sum;
+    for (std::size_t k = 0; k < Count(); ++k) {
+      const double weight = Area(from_[k / to_.size()]);
+      sum.factor += weight * pairs_[k].factor;
+      sum.error += weight * pairs_[k].error;
+      sum.points += pairs_[k].points;
+    }
+    sum.factor /= area_;
+    sum.error /= area_;
+    sum.clear = AllClear();
+    return sum;
+  }
+
+ private:
+  double FluxError(std::size_t k) const { return Area(from_[k / to_.size()]) * pairs_[k].error; }
+
+  const Scene& scene_;
+  std::span<const AreaPart> from_, to_;
+  PatchHierarchy patches_;
+  double area_ = 0;  // of the first list [m^2]
+  std::vector<FormFactorEstimate> pairs_;
+};
+
+}  // namespace
+
+FormFactorEstimate AreaFormFactor(const Scene& scene, std::span<const AreaPart> from,
+                                  std::span<const AreaPart> to, const AreaFormFactorOptions& options) {
+  if (from.empty() || to.empty()) return {};
+  PairsOfParts pairs(scene, from, to);
+  if (pairs.Count() == 1) {
     AreaFormFactorOptions alone = options;
     alone.tells = true;
-    solve("integrate", which, alone);
+    pairs.Solve("integrate", pairs.All(), alone);
   } else {
     // First as well as is cheap, then those that matter as well as matters for the sum.
     AreaFormFactorOptions rough = options;
     rough.tolerance = std::max(options.tolerance, kRoughTolerance);
     rough.clear_tolerance = std::max(options.clear_tolerance, kRoughTolerance);
-    solve("estimate", which, rough);
-    double flux = 0, area = 0;
-    for (const AreaPart& part : from) area += Area(part);
-    for (std::size_t k = 0; k < pairs.size(); ++k) flux += Area(from[k / to.size()]) * pairs[k].factor;
-    const double whole = area * AllowedError(flux / area, options.tolerance);
-    const bool all_clear = std::all_of(pairs.begin(), pairs.end(),
-                                       [](const auto& pair) { return pair.clear || pair.error == 0; });
-    for (const bool clear : {true, false}) {
-      double asked = whole;
-      if (clear)
-        asked = std::max(area * AllowedError(flux / area, options.clear_tolerance),
-                         all_clear ? 0 : kShareOfClear * whole);
-      std::vector<std::size_t> kind;
-      double error = 0;
-      for (const std::size_t k : which) {
-        if (pairs[k].clear != clear) continue;
-        kind.push_back(k);
-        error += flux_error(k);
-      }
-      if (error <= asked) continue;
-      const double share = 0.5 * asked / static_cast<double>(kind.size());
-      std::erase_if(kind, [&](std::size_t k) { return flux_error(k) <= share; });
-      AreaFormFactorOptions fine = options;
-      fine.tolerance = fine.clear_tolerance = 0;
-      fine.enough = asked / static_cast<double>(2 * kind.size());
-      fine.small = options.small / static_cast<double>(kind.size());
-      fine.enough_points = std::max(kLeastOfMany, options.enough_points / kind.size());
-      solve("integrate", kind, fine);
-    }
+    pairs.Solve("estimate", pairs.All(), rough);
+    const double factor = pairs.Sum().factor, whole = AllowedError(factor, options.tolerance);
+    const double of_clear =
+        std::max(AllowedError(factor, options.clear_tolerance), pairs.AllClear() ? 0 : kShareOfClear * whole);
+    pairs.Refine(/*clear=*/true, of_clear, options);
+    pairs.Refine(/*clear=*/false, whole, options);
   }
-  const bool all_clear = std::all_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.clear; });
-  double area = 0;
-  FormFactorEstimate sum;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    const double weight = Area(from[i]);
-    area += weight;
-    for (std::size_t j = 0; j < to.size(); ++j) {
-      sum.factor += weight * pairs[i * to.size() + j].factor;
-      sum.error += weight * pairs[i * to.size() + j].error;
-      sum.points += pairs[i * to.size() + j].points;
-    }
-  }
-  if (area == 0) return {};
-  sum.factor /= area;
-  sum.error /= area;
-  sum.clear = all_clear;
-  return sum;
+  return pairs.Sum();
 }
 
 }  // namespace penumbra

@@ -30,8 +30,8 @@ class PairFinder {
     patches_ = PatchHierarchy(scene, std::move(all));
   }
 
-  // The patches above i that see it, ascending, with their blockers.
-  std::vector<Found> Find(PatchId i) const {
+  // The patches above i that see it, ascending, with their blockers. Some of them, if it was cancelled.
+  std::vector<Found> Find(PatchId i, const ExecutionContext& context) const {
     const Patch& patch = scene_.patches[i];
     std::vector<ReceiverPoint> corners;
     for (const Vec3& v : patch.Vertices()) corners.push_back({v, patch.normal, Vec3::Zero(), 0});
@@ -42,6 +42,7 @@ class PairFinder {
     std::vector<Found> found;
     for (const PatchId j : in_sight) {
       if (j <= i) continue;
+      if (context.Cancelled()) break;
       const Patch& other = scene_.patches[j];
       const std::optional<TubeEnds> ends = ClipToEachOther(patch.Vertices(), patch, other.Vertices(), other);
       Found pair{j, {}};
@@ -64,15 +65,10 @@ PatchVisibility::PatchVisibility(const Scene& scene, const ExecutionContext& con
   const PairFinder finder(scene);
   std::vector<std::vector<Found>> found(count);  // pairs (i, j) with i < j, at i
   ParallelFor(count, 1, [&](std::size_t i) {
-    if (!context.Cancelled()) found[i] = finder.Find(static_cast<PatchId>(i));
+    if (!context.Cancelled()) found[i] = finder.Find(static_cast<PatchId>(i), context);
   });
-  if (context.Cancelled()) {
-    rows_.first.assign(count + 1, 0);
-    return;
-  }
-
   std::vector<std::vector<PatchPair>> by_receiver(count);
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count && !context.Cancelled(); ++i) {
     for (const Found& pair : found[i]) {
       PatchPair entry;
       entry.visibility = pair.blockers.empty() ? Visibility::kVisible : Visibility::kPartial;
@@ -84,13 +80,20 @@ PatchVisibility::PatchVisibility(const Scene& scene, const ExecutionContext& con
       entry.source = pair.other;
       by_receiver[i].push_back(entry);
     }
+    found[i] = {};  // memory for what comes
+  }
   rows_.first.assign(1, 0);
   for (std::vector<PatchPair>& pairs : by_receiver) {
+    if (context.Cancelled()) break;
     std::sort(pairs.begin(), pairs.end(),
               [](const PatchPair& a, const PatchPair& b) { return a.source < b.source; });
     rows_.pairs.insert(rows_.pairs.end(), pairs.begin(), pairs.end());
     rows_.first.push_back(rows_.pairs.size());
+    pairs = {};
   }
+  if (!context.Cancelled()) return;
+  rows_ = {};
+  rows_.first.assign(count + 1, 0);
 }
 
 }  // namespace penumbra

@@ -114,5 +114,49 @@ TEST(RunLimits, CancelledLinking) {
   }
 }
 
+// A room with so many boxes, in rows.
+Scene RoomOfBoxes(int a_side) {
+  Scene scene;
+  const std::int32_t grey = scene_test::AddMaterial(scene, 0.6, 0),
+                     lamp = scene_test::AddMaterial(scene, 0, 100);
+  scene_test::AddBox(scene, Vec3::Zero(), Vec3::Constant(10), true, grey);
+  scene_test::Add(scene, {{4, 4, 9.9}, {4, 6, 9.9}, {6, 6, 9.9}, {6, 4, 9.9}}, lamp);
+  Random random(4005);
+  const double step = 9.5 / a_side;
+  for (int i = 0; i < a_side; ++i)
+    for (int j = 0; j < a_side; ++j)
+      for (int k = 0; k < a_side; ++k) {
+        const Vec3 low(0.2 + i * step, 0.2 + j * step, 0.2 + k * step);
+        const double size = random.Uniform(0.2, 0.6) * step;
+        scene_test::AddBox(scene, low, low + Vec3::Constant(size), false, grey);
+      }
+  return scene;
+}
+
+// In a scene that takes minutes a limit ends whatever stage it meets, told with its name; what is there is
+// shown and can be measured no more. What is left to do then takes some tenths of a second.
+TEST(RunLimits, HoldInEveryStage) {
+  constexpr double kBusyMachine = 3;  // [s] other tests run beside this one
+  const Scene scene = RoomOfBoxes(8);
+  for (const double limit : {0.05, 1.0, 3.0}) {
+    PipelineOptions options;
+    options.error = 0.1;
+    options.time_limit = limit;
+    const auto begin = RunLimits::Clock::now();
+    Pipeline pipeline(scene, options);
+    pipeline.Solve({});
+    pipeline.BuildMesh(MeshKind::kInterpolant, {});
+    pipeline.Measure({});
+    const std::chrono::duration<double> took = RunLimits::Clock::now() - begin;
+    std::printf("%zu patches, a limit of %.2f s: %.2f s\n", scene.patches.size(), limit, took.count());
+    EXPECT_LE(took.count(), limit + kBusyMachine);
+    EXPECT_FALSE(pipeline.report().error_met);
+    ASSERT_FALSE(pipeline.report().unmet.empty());
+    for (const std::string& line : pipeline.report().unmet)
+      EXPECT_NE(line.find("ended by the time limit"), std::string::npos) << line;
+    EXPECT_FALSE(pipeline.mesh().triangles.empty());
+  }
+}
+
 }  // namespace
 }  // namespace penumbra

@@ -279,6 +279,26 @@ TEST(HierarchicalSolver, CancelledAndCutShort) {
   ExpectValid(solver.solution());
 }
 
+// Whatever error is asked for, refinement ends: with as many links as may be, or parts of leaves as small as
+// they may become.
+TEST(HierarchicalSolver, Ends) {
+  const Scene scene = LampRoom();
+  const PatchVisibility visibility(scene);
+  SolverOptions options;
+  options.eps = 1e-300;
+  options.max_links = 2000;
+  options.max_corrections = 1;
+  options.min_area = 0.1;
+  options.source_error = 1e-300;
+  HierarchicalSolver solver(scene, visibility, options);
+  EXPECT_LE(solver.Solve(ExecutionContext()).size(), 10U);
+  EXPECT_TRUE(solver.Converged());
+  EXPECT_TRUE(solver.Full());
+  EXPECT_GT(solver.solution().links.links.size(), 500U);
+  EXPECT_LE(solver.solution().links.links.size(), 2000U + scene.patches.size() * scene.patches.size());
+  ExpectValid(solver.solution());
+}
+
 // An iteration after a correction takes the correction back if it refines: fragments belong to leaves, and
 // the solution is what another correction makes of it, as near to balance as if there had been none before.
 TEST(HierarchicalSolver, IteratesAfterACorrection) {

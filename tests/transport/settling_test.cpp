@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "solver/base/parallel.h"
+#include "solver/transport/closure.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra::scene_test {
@@ -151,6 +152,45 @@ TEST(Settling, BouncesAddUp) {
   // Each bounce carries half the last one's light at most: 2^-60 is left.
   EXPECT_LE((sum - mean / area).abs().maxCoeff(), 1e-9 * sum.maxCoeff());
   for (std::size_t k = 1; k < bounces.size(); ++k) EXPECT_LE(bounces[k][0], 0.55 * bounces[k - 1][0]);
+}
+
+// Settling ends, whatever is asked: where roundings let the light come no nearer, and where it grows without
+// end on links that bring more than there is.
+TEST(Settling, Ends) {
+  Scene scene;
+  RadiositySolution solution = DarkRoom(scene, 0.9, 2003);
+  {
+    PushPull push_pull(solution);
+    const Settled settled =
+        Settle(push_pull, solution, {}, IterationScheme::kJacobi, Acceleration::kNone, 0, {});
+    EXPECT_LE(settled.residual, 1e-13);
+    EXPECT_LT(settled.sweeps, 1000U);
+  }
+  for (Link& link : solution.links.links) link.form_factor *= 1.2;
+  PushPull push_pull(solution);
+  const Settled settled =
+      Settle(push_pull, solution, {}, IterationScheme::kJacobi, Acceleration::kNone, 1e-3, {});
+  EXPECT_GT(settled.residual, 1e-3);
+  EXPECT_LT(settled.sweeps, 1000U);
+}
+
+// Links in balance bring unit radiosity everywhere back as what the room closes: in a closed room as 1, to
+// rounding, whatever the links' own sums are.
+TEST(Settling, BalancedLinksClose) {
+  Scene scene;
+  RadiositySolution solution = DarkRoom(scene, 0.9, 2004);
+  const PatchVisibility visibility(scene);
+  PushPull push_pull(solution);
+  const std::vector<double> closure = LeafClosures(solution.forest, visibility, push_pull.leaves(), {});
+  push_pull.Balance(closure);
+  const std::vector<Rgb> sum = push_pull.Transport(std::vector<Rgb>(solution.forest.size(), Rgb::Ones()));
+  double worst = 0;
+  for (std::size_t i = 0; i < push_pull.leaves().size(); ++i)
+    worst = std::max(worst, std::abs(sum[push_pull.leaves()[i]][0] - closure[i]));
+  std::printf("seed 2004: %zu leaves, worst %.1e\n", closure.size(), worst);
+  EXPECT_LE(worst, 1e-14);
+  for (const double share : closure) EXPECT_LE(share, 1 + 1e-12);
+  EXPECT_NEAR(*std::max_element(closure.begin(), closure.end()), 1, 1e-12);
 }
 
 }  // namespace
