@@ -114,8 +114,7 @@ void PrintFormFactor(const FormFactorArguments& arguments) {
     options["from"] = arguments.from;
     options["to"] = arguments.to;
     options["method"] = arguments.method;
-    if (Integrates(arguments.method))
-      options["tolerance"] = arguments.tolerance.value_or(AreaFormFactorOptions().tolerance);
+    if (Integrates(arguments.method) && arguments.tolerance) options["tolerance"] = *arguments.tolerance;
     if (arguments.method == kMonteCarlo) options["rays"] = arguments.rays;
     PrintOptionsUsed(options);
   }

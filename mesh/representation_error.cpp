@@ -104,7 +104,7 @@ std::vector<PartError> SummariseParts(const Scene& scene, std::span<const SceneP
 }  // namespace
 
 Rgb NoLight(const Scene& scene) {
-  constexpr double kRounding = 1e-12;
+  constexpr double kRounding = 1e-10;
   double strongest = 0;
   for (const Patch& patch : scene.patches)
     strongest = std::max(strongest, scene.materials[patch.material].emittance.maxCoeff());

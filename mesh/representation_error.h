@@ -35,8 +35,8 @@ struct RepresentationError {
   Vec3 worst_point = Vec3::Zero();  // [m]
 };
 
-// Light that is less than this is none: what roundings let through between surfaces that do not see each
-// other, 1e-12 of what the strongest emitter sends out [W/m^2].
+// Light that is less than this is none, 1e-10 of what the strongest emitter sends out [W/m^2]: faces that lie
+// in one plane, but for the six decimals of their file, bend by 1e-6 and see some 1e-12 of each other.
 Rgb NoLight(const Scene& scene);
 
 // Point by point, the channels of a point in turn. The means are those of `truth`; where they are less than

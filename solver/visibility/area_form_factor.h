@@ -37,7 +37,7 @@ struct FormFactorEstimate {
 
 struct AreaFormFactorOptions {
   // Largest error relative to the factor that is asked for, where something stands between; of factors that
-  // are less than the tolerance, relative to that, and never less than a rounding of 1.
+  // are less than the tolerance, relative to that, and never less than 2e-17.
   double tolerance = 1e-7;
   // The same where nothing stands between: roundings set the limit.
   double clear_tolerance = 2e-13;

@@ -34,6 +34,10 @@ constexpr double kLeastWidth = 1e-13;
 // Lines that are cut along before any point is looked at, so that small lit parts are not missed.
 constexpr std::size_t kForcedLines = 16;
 
+// No factor need be better than this, however small: a tenth of the rounding of 1. A strip of 1e-6 of a wall
+// has ten digits then.
+constexpr double kLeastAllowed = 2e-17;
+
 // Of the error that is asked for, the share that may stay in cells that are not refined in a round.
 constexpr double kLeftAlone = 0.3;
 
@@ -404,7 +408,7 @@ FormFactorEstimate PairIntegral::Integrate() {
 }  // namespace
 
 double AllowedError(double factor, double tolerance) {
-  return std::max(tolerance * std::max(factor, tolerance), std::numeric_limits<double>::epsilon());
+  return std::max(tolerance * std::max(factor, tolerance), kLeastAllowed);
 }
 
 FormFactorEstimate IntegratePair(const Scene& scene, const PartPair& pair, std::vector<PatchId> blockers,
