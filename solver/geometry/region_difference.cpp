@@ -158,7 +158,14 @@ std::vector<std::int32_t> Groups(std::span<const std::array<std::int32_t, 3>> tr
   return group;
 }
 
-// Leaves out groups whose area is that of a strip no wider than the reach along half their border.
+// The narrower side of a rectangle with that area and that border; of the square where there is none.
+double WidthOf(double area, double border) {
+  const double half = 0.5 * border;
+  const double root = half + std::sqrt(std::max(0.0, half * half - 4 * area));
+  return root > 0 ? 2 * area / root : 0;
+}
+
+// Leaves out groups whose area and border are those of a strip no wider than the reach.
 void DropStrips(RegionDifference& difference, const SnapReach& reach) {
   const std::vector<std::int32_t> group = Groups(difference.triangles);
   struct Measure {
@@ -186,7 +193,7 @@ void DropStrips(RegionDifference& difference, const SnapReach& reach) {
   std::size_t kept = 0;
   for (std::size_t t = 0; t < group.size(); ++t) {
     const Measure& measure = measures[group[t]];
-    if (2 * measure.area > reach.Across(measure.across) * measure.border)
+    if (WidthOf(measure.area, measure.border) > reach.Across(measure.across))
       difference.triangles[kept++] = difference.triangles[t];
   }
   difference.triangles.resize(kept);

@@ -183,6 +183,11 @@ double PlaneTolerance::Between(const Vec3& normal) const {
 
 double PlaneTolerance::Largest() const { return step_.norm() > 0 ? Between(step_.normalized()) : 0; }
 
+double LargestPlaneDistance(const Scene& scene) {
+  const double diagonal = scene.Diagonal();
+  return std::max(PlaneTolerance(scene.coordinate_step, diagonal).Largest(), kCoplanarTolerance * diagonal);
+}
+
 std::vector<Vec2> Project(const PlaneProjection& projection, std::span<const Vec3> points) {
   std::vector<Vec2> projected;
   for (const Vec3& p : points) projected.push_back(projection.ToPlane(p));

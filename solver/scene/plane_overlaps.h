@@ -10,6 +10,7 @@
 #include "solver/geometry/plane_projection.h"
 #include "solver/geometry/region_difference.h"
 #include "solver/scene/outline.h"
+#include "solver/scene/scene.h"
 
 namespace penumbra {
 
@@ -48,5 +49,8 @@ std::vector<Vec2> Project(const PlaneProjection& projection, std::span<const Vec
 // largest distance between planes that count as one [m]. Time is near linear unless many boxes meet.
 double FindOverlaps(std::vector<Outline>& outlines, std::span<const std::int32_t> rank,
                     const PlaneTolerance& tolerance);
+
+// How far apart planes may be that count as one, however they are turned [m].
+double LargestPlaneDistance(const Scene& scene);
 
 }  // namespace penumbra

@@ -40,4 +40,9 @@ struct ViewDiagnostics {
 // given seed.
 ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch = 64, std::uint64_t seed = 1);
 
+// Faces that emit, by number, and from whose fronts no light falls on any front, by as many rays of each of
+// their patches: what hides an emitter lies before it, or it looks away from all there is.
+std::vector<std::int32_t> DarkEmitters(const Scene& scene, std::size_t rays_per_patch = 512,
+                                       std::uint64_t seed = 1);
+
 }  // namespace penumbra
