@@ -7,6 +7,7 @@
 
 #include "solver/base/size.h"
 #include "solver/geometry/convex_clip.h"
+#include "solver/scene/tolerances.h"
 
 namespace penumbra {
 namespace {
@@ -63,6 +64,7 @@ class OverlapTest {
     const Vec3& normal = p.width >= q.width ? a.normal : b.normal;
     double apart = kCoplanarTolerance * std::max(a.diameter, b.diameter) + p.off + q.off;
     if (!p.level || !q.level) apart += tolerance_.Between(normal);
+    apart = std::max(apart, tolerance_.Least());
     // Planes that corners at the ends of the width carry, both off by that.
     const double turn = 2 * apart * (1 / p.width + 1 / q.width);
     if (a.normal.cross(b.normal).norm() > turn) return std::nullopt;
@@ -163,7 +165,7 @@ std::vector<OutlineBox> BoxesOf(const std::vector<Outline>& outlines, const Plan
 
 }  // namespace
 
-PlaneTolerance::PlaneTolerance(const Vec3& step, double diagonal) {
+PlaneTolerance::PlaneTolerance(const Vec3& step, double diagonal) : least_(kContactGap * diagonal) {
   // Numbers that differ by a unit are told apart.
   constexpr double kLessThanAUnit = 0.999;
   const double largest = step.norm();
@@ -181,11 +183,12 @@ double PlaneTolerance::Between(const Vec3& normal) const {
   return kUnits * normal.cwiseAbs().dot(step_);
 }
 
-double PlaneTolerance::Largest() const { return step_.norm() > 0 ? Between(step_.normalized()) : 0; }
+double PlaneTolerance::Largest() const {
+  return std::max(least_, step_.norm() > 0 ? Between(step_.normalized()) : 0);
+}
 
 double LargestPlaneDistance(const Scene& scene) {
-  const double diagonal = scene.Diagonal();
-  return std::max(PlaneTolerance(scene.coordinate_step, diagonal).Largest(), kCoplanarTolerance * diagonal);
+  return PlaneTolerance(scene.coordinate_step, scene.Diagonal()).Largest();
 }
 
 std::vector<Vec2> Project(const PlaneProjection& projection, std::span<const Vec3> points) {

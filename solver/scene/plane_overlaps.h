@@ -32,14 +32,17 @@ class PlaneTolerance {
   // Between corners and edges in a plane of that projection, of faces of that diameter.
   SnapReach InPlane(const PlaneProjection& projection, double diameter) const;
 
-  // Between two planes with that unit normal, both of which rounded corners carry [m]; beside what rounding
-  // to binary64 makes.
+  // Between two planes with that unit normal, both of which rounded corners carry [m].
   double Between(const Vec3& normal) const;
 
-  // The largest of Between() [m].
+  // Between any two planes: nearer than that things touch (ContactGap()), and a point on one is on the other.
+  double Least() const { return least_; }
+
+  // The largest of them all [m].
   double Largest() const;
 
  private:
+  double least_;
   Vec3 step_;  // just less than a unit, and no more than the coarsest plane
 };
 

@@ -279,7 +279,7 @@ TEST(PatchBuilder, ContactIsNoOverlap) {
   std::reverse(foot.begin(), foot.end());
   t.Add(foot)
       .Add(Rectangle(4, 0, 5, 4))
-      .Add(Rectangle(1, 1, 2, 2, 1e-6))
+      .Add(Rectangle(1, 1, 2, 2, 1e-5))
       .Add({{4, 4, 0}, {5, 5, 0}, {4, 5, 0}});
   EXPECT_THAT(t.Build().cut_faces, IsEmpty());
   EXPECT_EQ(t.scene.patches.size(), 5u);
@@ -401,6 +401,18 @@ TEST(PatchBuilder, TheDigitsTellLevelPlanesApart) {
   EXPECT_THAT(strip.Build().cut_faces, ElementsAre(1));
   ASSERT_EQ(strip.scene.patches.size(), 2u);
   EXPECT_NEAR(strip.scene.patches[1].area, 0.01, 1e-15);
+}
+
+TEST(PatchBuilder, PlanesThatTouchAreOne) {
+  // A sheet nearer to a table than things are that touch is in the table's plane, before it or behind: a
+  // point on one is on the other. The lamp stays whole.
+  for (const double height : {-1e-6, 1e-6, -1e-8, 1e-8}) {
+    TestScene t;
+    t.Add(Rectangle(0, 0, 2, 1)).Add(Rectangle(0.5, 0.5, 0.7, 0.8, height), 1);
+    EXPECT_THAT(t.Build().cut_faces, ElementsAre(0));
+    EXPECT_NEAR(t.AreaOf(0), 1.94, 1e-12);
+    EXPECT_NEAR(t.AreaOf(1), 0.06, 1e-15);
+  }
 }
 
 TEST(PatchBuilder, FaceOffItsPlaneGivenTwice) {
