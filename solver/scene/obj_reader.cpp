@@ -302,8 +302,7 @@ void ObjParser::BuildScenePatches() {
   std::string cut = "cut where others lie in the same plane and look the same way";
   // Below a rounding there is nothing to tell.
   if (report.largest_distance > kCoplanarTolerance * scene_.Diagonal())
-    cut += " (planes " + Shortest(report.largest_distance) +
-           " m apart count as one, since the digits of the coordinates cannot tell them apart)";
+    cut += " (planes " + Shortest(report.largest_distance) + " m apart count as one)";
   Warn(tally(report.cut_faces), "face", cut);
   Warn(tally(report.narrow_faces), "face", "too narrow to hold a point left out");
 }
