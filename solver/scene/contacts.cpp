@@ -16,12 +16,12 @@ namespace {
 // Finds the contacts of one receiver, one other patch after the other.
 class ContactFinder {
  public:
-  ContactFinder(const Scene& scene, PatchId receiver)
+  ContactFinder(const Scene& scene, PatchId receiver, double gap)
       : scene_(scene),
         id_(receiver),
         patch_(scene.patches[receiver]),
         snap_(SnapDistance(patch_)),
-        gap_(ContactGap(scene)),
+        gap_(gap),
         low_(patch_.vertex[0]),
         high_(patch_.vertex[0]) {
     for (const Vec3& v : patch_.Vertices()) {
@@ -124,17 +124,17 @@ class ContactFinder {
 }  // namespace
 
 std::vector<Contact> FindContacts(const Scene& scene, PatchId receiver) {
-  return ContactFinder(scene, receiver).Find();
+  return ContactFinder(scene, receiver, ContactGap(scene)).Find();
 }
 
 // Sweeps along x for pairs of patches whose boxes meet.
-ContactSearch::ContactSearch(const Scene& scene) : scene_(scene), near_(scene.patches.size()) {
+ContactSearch::ContactSearch(const Scene& scene)
+    : scene_(scene), gap_(ContactGap(scene)), near_(scene.patches.size()) {
   struct Box {
     Vec3 low, high;
     PatchId patch;
   };
   std::vector<Box> boxes;
-  const double gap = ContactGap(scene);
   for (PatchId p = 0; p < Size(scene.patches); ++p) {
     const auto vertices = scene.patches[p].Vertices();
     Box box{vertices[0], vertices[0], p};
@@ -142,7 +142,7 @@ ContactSearch::ContactSearch(const Scene& scene) : scene_(scene), near_(scene.pa
       box.low = box.low.cwiseMin(v);
       box.high = box.high.cwiseMax(v);
     }
-    const double reach = gap + kHanging * Diameter(vertices);
+    const double reach = gap_ + kHanging * Diameter(vertices);
     box.low.array() -= reach;
     box.high.array() += reach;
     boxes.push_back(box);
@@ -161,7 +161,7 @@ ContactSearch::ContactSearch(const Scene& scene) : scene_(scene), near_(scene.pa
 }
 
 std::vector<Contact> ContactSearch::FindWithHanging(PatchId receiver) const {
-  return ContactFinder(scene_, receiver).FindWithHanging(near_[receiver]);
+  return ContactFinder(scene_, receiver, gap_).FindWithHanging(near_[receiver]);
 }
 
 }  // namespace penumbra
