@@ -14,6 +14,7 @@
 #include "apps/scene_arguments.h"
 #include "apps/solve_run.h"
 #include "mesh/solution_file.h"
+#include "solver/scene/plane_overlaps.h"
 
 namespace penumbra {
 namespace {
@@ -86,7 +87,12 @@ std::string InfoJson(const LoadedScene& loaded, const SceneSummary& summary) {
                {"emitted_power", ToJson(summary.emitted_power.matrix())},
                {"cameras", cameras},
                {"warnings", scene.warnings}};
-  if (loaded.stored) info["solution"] = SolutionJson(*loaded.stored);
+  if (loaded.stored) {
+    info["solution"] = SolutionJson(*loaded.stored);
+  } else {
+    info["coordinate_step"] = ToJson(scene.coordinate_step);
+    info["plane_tolerance"] = LargestPlaneDistance(scene);
+  }
   return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -107,6 +113,9 @@ std::string InfoText(const LoadedScene& loaded, const SceneSummary& summary) {
   add("bounds [m]", fmt::format("{:g},{:g},{:g} to {:g},{:g},{:g}", low.x(), low.y(), low.z(), high.x(),
                                 high.y(), high.z()));
   add("area [m^2]", fmt::format("{:g}", summary.area));
+  if (!loaded.stored)
+    add("one plane [m]", fmt::format("faces up to {:.2g} apart, by the digits of their coordinates",
+                                     LargestPlaneDistance(scene)));
   add("emitted [W]", fmt::format("red {:g}, green {:g}, blue {:g}", summary.emitted_power[0],
                                  summary.emitted_power[1], summary.emitted_power[2]));
   for (std::size_t i = 0; i < scene.cameras.size(); ++i)

@@ -21,6 +21,7 @@
 #include "solver/base/parallel.h"
 #include "solver/base/stopwatch.h"
 #include "solver/scene/named_scene.h"
+#include "solver/transport/diagnostics.h"
 
 namespace penumbra {
 namespace {
@@ -93,7 +94,15 @@ Scene ReadChangedScene(const SceneArguments& arguments) {
     ChangeMaterials(arguments.emittance, &Material::emittance, materials);
     ChangeMaterials(arguments.reflectance, &Material::reflectance, materials);
   };
-  return ReadNamedScene(arguments.scene, options);
+  Scene scene = ReadNamedScene(arguments.scene, options);
+  const std::vector<std::int32_t> dark = DarkEmitters(scene);
+  if (!dark.empty())
+    scene.warnings.push_back(fmt::format(
+        "{}: warning: {} {} nothing, the first is face {} (counted from 0): before its front there is "
+        "nothing, or only what turns its back",
+        arguments.scene, dark.size(), dark.size() == 1 ? "face that emits lights" : "faces that emit light",
+        dark[0]));
+  return scene;
 }
 
 }  // namespace

@@ -25,12 +25,14 @@ Rgb LeafLight::At(ElementId leaf, const Vec3& place) {
       const Vec3 a = quarter[0] - place, b = quarter[k] - place, c = quarter[k + 1] - place;
       const Vec3 areas(patch_.normal.dot(b.cross(c)), patch_.normal.dot(c.cross(a)),
                        patch_.normal.dot(a.cross(b)));
+      if (!(areas.sum() > 0)) continue;  // of a leaf that is no wider than a rounding
       const Vec3 barycentric = areas / areas.sum();
       if (barycentric.minCoeff() <= weights.minCoeff()) continue;
       weights = barycentric;
       around = {quarter[0], quarter[k], quarter[k + 1]};
     }
   weights = weights.cwiseMax(0);
+  if (!(weights.sum() > 0)) return Sample(element, place);
   Rgb light = Rgb::Zero();
   for (int k = 0; k < 3; ++k) light += weights[k] / weights.sum() * Sample(element, around[k]);
   return light;

@@ -201,7 +201,7 @@ bool LeafTriangulator::Split() {
     used_[segment.from] = used_[segment.to] = true;
   }
   if (segments_.empty()) return true;
-  splitter_.Split(split_points_, used_, pieces_, shape_->snap());
+  if (!splitter_.Split(split_points_, used_, pieces_, shape_->snap())) return false;
   std::int32_t border_pieces = 0;
   for (const SegmentPiece& p : pieces_)
     if (p.source < border_size_) ++border_pieces;

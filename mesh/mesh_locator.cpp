@@ -167,6 +167,7 @@ std::optional<MeshLocator::Location> MeshLocator::Find(PatchId patch, const Vec3
   const double area = Cross2(c[1] - c[0], c[2] - c[0]);
   Location at;
   at.triangle = *best;
+  if (!(area > 0)) return at;  // its first corner: it is no wider than a rounding
   at.s = std::clamp(Cross2(best_point - c[0], c[2] - c[0]) / area, 0.0, 1.0);
   at.t = std::clamp(Cross2(c[1] - c[0], best_point - c[0]) / area, 0.0, 1.0 - at.s);
   return at;

@@ -93,7 +93,11 @@ class Divider {
       mean += a * pieces.back().Mean();
       area += a;
     }
-    mean /= area;
+    // A leaf too narrow for its points has triangles without area, or none.
+    if (area > 0)
+      mean /= area;
+    else
+      mean = solution_.irradiance[static_cast<std::size_t>(leaf)];
     Rgb deviation = Rgb::Zero();
     for (const QuadraticPiece& piece : pieces)
       for (const Rgb& sample : piece.sample) deviation = deviation.max((sample - mean).abs());

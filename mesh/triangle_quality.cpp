@@ -43,7 +43,7 @@ TriangleQuality MeasureQuality(const IrradianceMesh& mesh) {
   quality.below_5_degrees = static_cast<double>(slim) / count;
   for (std::size_t i = 0; i < of_angle.size(); ++i)
     quality.angle_share[i] = static_cast<double>(of_angle[i]) / count;
-  quality.slim_area = slim_area / area;
+  quality.slim_area = area > 0 ? slim_area / area : 0;
   quality.median_aspect = Quantile(aspects, 0.5);
   quality.aspect_p95 = Quantile(aspects, 0.95);
   return quality;

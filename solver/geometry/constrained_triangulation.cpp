@@ -20,8 +20,11 @@ using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Ker
 using FaceBase =
     CGAL::Triangulation_face_base_with_info_2<std::int32_t, Kernel,
                                               CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-using Cdt = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>, CGAL::Exact_predicates_tag>;
+// Nothing may be left to cross: the splitter computes all crossings.
+using Cdt =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel,
+                                               CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+                                               CGAL::No_constraint_intersection_requiring_constructions_tag>;
 using Triangle = ConstrainedTriangulation::Triangle;
 
 // A face of CGAL's and its vertices, turned so that the smallest comes first.
@@ -84,11 +87,11 @@ struct ConstrainedTriangulator::Impl {
   void CollectPieces(std::span<const ConstraintSegment> constraints);
   double SnapDistance() const;
   void BuildEdges();
-  void InsertAll();
+  bool InsertAll();
   void ExtractTriangles();
   void MarkEdges(std::span<const ConstraintSegment> constraints);
   void MarkInside(std::span<const ConstraintSegment> constraints);
-  void TriangulatePieces(std::span<const ConstraintSegment> constraints);
+  bool TriangulatePieces(std::span<const ConstraintSegment> constraints);
 };
 
 void ConstrainedTriangulator::Impl::MergeEqualPoints() {
@@ -148,23 +151,28 @@ void ConstrainedTriangulator::Impl::BuildEdges() {
   }
 }
 
-void ConstrainedTriangulator::Impl::InsertAll() {
+// False if pieces cross.
+bool ConstrainedTriangulator::Impl::InsertAll() {
   cdt.clear();
   handle.assign(result.vertices.size(), {});
   Cdt::Face_handle hint;
   std::size_t count = 0;
   for (std::int32_t v = 0; v < Size(result.vertices); ++v) {
     if (!used[v]) continue;
+    if (!result.vertices[v].allFinite()) return false;
     handle[v] = cdt.insert(Kernel::Point_2(result.vertices[v].x(), result.vertices[v].y()), hint);
     handle[v]->info() = v;
     hint = handle[v]->face();
     ++count;
   }
-  PENUMBRA_CHECK(cdt.number_of_vertices() == count);
-  for (const ConstrainedTriangulation::Edge& edge : result.edges)
-    cdt.insert_constraint(handle[edge.a], handle[edge.b]);
-  // The splitter left nothing to cross.
-  PENUMBRA_CHECK(cdt.number_of_vertices() == count);
+  if (cdt.number_of_vertices() != count) return false;
+  try {
+    for (const ConstrainedTriangulation::Edge& edge : result.edges)
+      cdt.insert_constraint(handle[edge.a], handle[edge.b]);
+  } catch (const Cdt::Intersection_of_constraints_exception&) {
+    return false;
+  }
+  return true;
 }
 
 void ConstrainedTriangulator::Impl::ExtractTriangles() {
@@ -225,12 +233,14 @@ std::vector<std::int32_t> WindingNumbers(const ConstrainedTriangulation& mesh,
   return winding;
 }
 
-void ConstrainedTriangulator::Impl::TriangulatePieces(std::span<const ConstraintSegment> constraints) {
+// False if pieces cross, or points that are used lie in one place.
+bool ConstrainedTriangulator::Impl::TriangulatePieces(std::span<const ConstraintSegment> constraints) {
   BuildEdges();
-  InsertAll();
+  if (!InsertAll()) return false;
   ExtractTriangles();
   MarkEdges(constraints);
   MarkInside(constraints);
+  return true;
 }
 
 ConstrainedTriangulator::ConstrainedTriangulator() : impl_(std::make_unique<Impl>()) {}
@@ -238,14 +248,21 @@ ConstrainedTriangulator::~ConstrainedTriangulator() = default;
 ConstrainedTriangulator::ConstrainedTriangulator(ConstrainedTriangulator&&) noexcept = default;
 ConstrainedTriangulator& ConstrainedTriangulator::operator=(ConstrainedTriangulator&&) noexcept = default;
 
-const ConstrainedTriangulation& ConstrainedTriangulator::Triangulate(
+const ConstrainedTriangulation* ConstrainedTriangulator::TryTriangulate(
     std::span<const Vec2> points, std::span<const ConstraintSegment> constraints) {
   impl_->result.vertices.assign(points.begin(), points.end());
   impl_->MergeEqualPoints();
   impl_->CollectPieces(constraints);
-  impl_->splitter.Split(impl_->result.vertices, impl_->used, impl_->pieces, impl_->SnapDistance());
-  impl_->TriangulatePieces(constraints);
-  return impl_->result;
+  if (!impl_->splitter.Split(impl_->result.vertices, impl_->used, impl_->pieces, impl_->SnapDistance()))
+    return nullptr;
+  return impl_->TriangulatePieces(constraints) ? &impl_->result : nullptr;
+}
+
+const ConstrainedTriangulation& ConstrainedTriangulator::Triangulate(
+    std::span<const Vec2> points, std::span<const ConstraintSegment> constraints) {
+  const ConstrainedTriangulation* found = TryTriangulate(points, constraints);
+  PENUMBRA_CHECK(found != nullptr);
+  return *found;
 }
 
 const ConstrainedTriangulation& ConstrainedTriangulator::TriangulatePieces(
@@ -254,7 +271,7 @@ const ConstrainedTriangulation& ConstrainedTriangulator::TriangulatePieces(
   impl_->result.vertices.assign(points.begin(), points.end());
   impl_->used = used;
   impl_->pieces.assign(pieces.begin(), pieces.end());
-  impl_->TriangulatePieces(constraints);
+  PENUMBRA_CHECK(impl_->TriangulatePieces(constraints));
   return impl_->result;
 }
 

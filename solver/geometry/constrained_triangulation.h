@@ -86,7 +86,11 @@ class ConstrainedTriangulator {
 
   // The result stays valid until the next call. Without triangles if all points lie on a line. The order of
   // points and constraints decides between diagonals of four points on a circle, and so the result is a
-  // function of the input. REQUIRES: finite coordinates, indices in range.
+  // function of the input. Null where crossings crowd within the rounding of their coordinates so that no
+  // planar mesh was found. REQUIRES: finite coordinates, indices in range.
+  const ConstrainedTriangulation* TryTriangulate(std::span<const Vec2> points,
+                                                 std::span<const ConstraintSegment> constraints);
+  // The same where there is one, as there always is if points lie far apart beside kSnapDistance.
   const ConstrainedTriangulation& Triangulate(std::span<const Vec2> points,
                                               std::span<const ConstraintSegment> constraints);
 

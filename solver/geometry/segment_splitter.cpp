@@ -1,21 +1,44 @@
 #include "solver/geometry/segment_splitter.h"
 
+#include <CGAL/Exact_rational.h>
+#include <CGAL/number_utils.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "solver/base/check.h"
 #include "solver/base/size.h"
 #include "solver/geometry/orientation.h"
 
 namespace penumbra {
 namespace {
 
-// Where the lines ab and cd meet; a coordinate that a line holds constant is kept to the bit.
+// Where the lines ab and cd meet, rounded once.
+Vec2 ExactCrossing(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  using Number = CGAL::Exact_rational;
+  struct Exact {
+    explicit Exact(const Vec2& p) : x(p.x()), y(p.y()) {}
+    Number x, y;
+  };
+  const Exact from(a), to(b), other(c), end(d);
+  const Number abx = to.x - from.x, aby = to.y - from.y, cdx = end.x - other.x, cdy = end.y - other.y;
+  const Number t = ((other.x - from.x) * cdy - (other.y - from.y) * cdx) / (abx * cdy - aby * cdx);
+  return {CGAL::to_double(Number(from.x + t * abx)), CGAL::to_double(Number(from.y + t * aby))};
+}
+
+// Where the segments ab and cd cross; a coordinate that a line holds constant is kept to the bit.
+// REQUIRES: they do cross, by their orientations.
 Vec2 Crossing(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  // Below this sine of their angle rounding may move the crossing by more than kSnapDistance, along both.
+  constexpr double kNearlyParallel = 1e-10;
   const Vec2 ab = b - a, cd = d - c;
-  Vec2 p = a + ab * (Cross2(c - a, cd) / Cross2(ab, cd));
+  const double sine = Cross2(ab, cd);
+  const bool sure = std::abs(sine) > kNearlyParallel * ab.norm() * cd.norm();
+  Vec2 p = sure ? Vec2(a + ab * (Cross2(c - a, cd) / sine)) : ExactCrossing(a, b, c, d);
+  // Beyond an end it would be no part of the segment.
+  if (!sure)
+    p = p.cwiseMax(a.cwiseMin(b)).cwiseMin(a.cwiseMax(b)).cwiseMax(c.cwiseMin(d)).cwiseMin(c.cwiseMax(d));
   for (int axis = 0; axis < 2; ++axis) {
     if (a[axis] == b[axis]) p[axis] = a[axis];
     if (c[axis] == d[axis]) p[axis] = c[axis];
@@ -32,7 +55,7 @@ double Along(const Vec2& a, const Vec2& b, const Vec2& p) {
 
 }  // namespace
 
-void SegmentSplitter::Split(std::vector<Vec2>& vertices, std::vector<bool>& used,
+bool SegmentSplitter::Split(std::vector<Vec2>& vertices, std::vector<bool>& used,
                             std::vector<SegmentPiece>& pieces, double snap) {
   vertices_ = &vertices;
   used_ = &used;
@@ -44,10 +67,10 @@ void SegmentSplitter::Split(std::vector<Vec2>& vertices, std::vector<bool>& used
   for (const Vec2& v : vertices) largest = std::max(largest, v.cwiseAbs().maxCoeff());
   rounding_ = 4 * std::numeric_limits<double>::epsilon() * largest;
   // Two or three turns do, unless vertices crowd within `snap` of each other: then snapping can go on for
-  // ever, and only what meets exactly is joined.
-  constexpr int kSnappingTurns = 4, kMostTurns = 1000;
-  for (int turn = 0;; ++turn) {
-    PENUMBRA_CHECK(turn < kMostTurns);
+  // ever, and only what meets exactly is joined. Even that can go on where crossings crowd within a rounding.
+  constexpr int kSnappingTurns = 4, kMostTurns = 32;
+  const std::size_t most = 4 * (vertices.size() + pieces.size() + pieces.size() * pieces.size());
+  for (int turn = 0; turn < kMostTurns && vertices.size() + pieces.size() <= most; ++turn) {
     if (turn == kSnappingTurns) {
       snap_ = 0;
       fresh_.assign(pieces.size(), 1);
@@ -57,8 +80,9 @@ void SegmentSplitter::Split(std::vector<Vec2>& vertices, std::vector<bool>& used
     CutAtVertices();
     CutAtCrossings();
     fresh_vertex_ = known;
-    if (!ApplyCuts()) return;
+    if (!ApplyCuts()) return true;
   }
+  return false;
 }
 
 // True if the vertex lies on the piece, or within snap_ of it and nearer to each end than they are to each

@@ -25,8 +25,9 @@ class SegmentSplitter {
   // Where vertices crowd within `snap` of each other, only what meets exactly is joined in the end.
   // Vertices whose `used` flag is false take no part. On return no two pieces cross (exactly decided), and no
   // vertex lies inside a piece. REQUIRES: snap above the rounding error of the coordinates.
-  void Split(std::vector<Vec2>& vertices, std::vector<bool>& used, std::vector<SegmentPiece>& pieces,
-             double snap);
+  // False, with no promise about what is left, if crossings crowd so densely that no end is found.
+  [[nodiscard]] bool Split(std::vector<Vec2>& vertices, std::vector<bool>& used,
+                           std::vector<SegmentPiece>& pieces, double snap);
 
  private:
   struct CutPoint {

@@ -39,7 +39,7 @@ class ContactSearch {
 
  private:
   const Scene& scene_;
-  double gap_;                              // ContactGap() [m]
+  double gap_;                              // ContactGap() [m]: finding it takes a look at all patches
   std::vector<std::vector<PatchId>> near_;  // per patch, ascending: whose boxes come that near
 };
 

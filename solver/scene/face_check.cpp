@@ -50,8 +50,9 @@ FaceCondition CheckOutline(const std::vector<Vec2>& outline) {
   for (std::int32_t i = 0; i < size; ++i) border.push_back({i, (i + 1) % size, kBorder});
   ConstrainedTriangulator triangulator;
   bool inside = false;
-  for (const ConstrainedTriangulation::Triangle& triangle :
-       triangulator.Triangulate(outline, border).triangles) {
+  const ConstrainedTriangulation* mesh = triangulator.TryTriangulate(outline, border);
+  if (!mesh) return FaceCondition::kSelfCrossing;  // an outline that is simple beside rounding has a mesh
+  for (const ConstrainedTriangulation::Triangle& triangle : mesh->triangles) {
     if (triangle.winding < 0 || triangle.winding > 1) return FaceCondition::kSelfCrossing;
     inside = inside || triangle.winding == 1;
   }

@@ -8,13 +8,16 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <sstream>
 
 #include "solver/base/size.h"
 #include "solver/scene/face_check.h"
 #include "solver/scene/mtl_reader.h"
 #include "solver/scene/patch_builder.h"
+#include "solver/scene/plane_overlaps.h"
 #include "solver/scene/text_reader.h"
+#include "solver/scene/written_digits.h"
 
 namespace penumbra {
 namespace {
@@ -37,6 +40,14 @@ bool Contains(const auto& list, std::string_view word) {
 
 std::string Plural(int count, std::string_view noun) {
   return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
+}
+
+// A length for a message, to two digits.
+std::string Shortest(double length) {
+  std::array<char, 32> text{};
+  const auto [end, error] =
+      std::to_chars(text.data(), text.data() + text.size(), length, std::chars_format::general, 2);
+  return {text.data(), end};
 }
 
 // How often something happened, and where first.
@@ -87,6 +98,7 @@ class ObjParser {
   std::int32_t object_ = -1;          // of the last `o`
   std::vector<std::int32_t> groups_;  // of the last `g`
   Tally repeated_, flat_, not_read_;
+  WrittenDigits digits_;
 };
 
 Scene ObjParser::Parse() {
@@ -127,6 +139,7 @@ void ObjParser::ReadVertex() {
     if (std::abs(number) > kLargestCoordinate)
       throw reader_.Error(Quoted(words[i]) + " is too large for a coordinate; lengths are in metres");
     vertex[static_cast<Eigen::Index>(i)] = number;
+    digits_.Add(static_cast<int>(i), words[i], number);
   }
   vertices_.push_back(vertex);
 }
@@ -277,11 +290,21 @@ void ObjParser::AddBacks() {
 
 void ObjParser::BuildScenePatches() {
   if (options_.change_materials) options_.change_materials(scene_.materials);
-  Tally overlaps;
-  std::set<std::int32_t> faces;  // a face and its back count once
-  for (const std::int32_t face : BuildPatches(scene_).cut_faces) faces.insert(face % Size(face_lines_));
-  for (const std::int32_t face : faces) overlaps.Add(face_lines_[face]);
-  Warn(overlaps, "face", "cut where others lie in the same plane and look the same way");
+  scene_.coordinate_step = digits_.Step();
+  const PatchReport report = BuildPatches(scene_);
+  const auto tally = [&](std::span<const std::int32_t> faces) {
+    std::set<std::int32_t> once;  // a face and its back count once
+    for (const std::int32_t face : faces) once.insert(face % Size(face_lines_));
+    Tally of_faces;
+    for (const std::int32_t face : once) of_faces.Add(face_lines_[face]);
+    return of_faces;
+  };
+  std::string cut = "cut where others lie in the same plane and look the same way";
+  // Below a rounding there is nothing to tell.
+  if (report.largest_distance > kCoplanarTolerance * scene_.Diagonal())
+    cut += " (planes " + Shortest(report.largest_distance) + " m apart count as one)";
+  Warn(tally(report.cut_faces), "face", cut);
+  Warn(tally(report.narrow_faces), "face", "too narrow to hold a point left out");
 }
 
 void ObjParser::Warn(const Tally& tally, std::string_view what, std::string_view outcome) {

@@ -11,28 +11,19 @@
 
 #include "solver/base/check.h"
 #include "solver/base/size.h"
-#include "solver/geometry/constrained_triangulation.h"
+#include "solver/geometry/convex_clip.h"
 #include "solver/geometry/convex_pieces.h"
-#include "solver/geometry/orientation.h"
 #include "solver/geometry/plane_projection.h"
+#include "solver/geometry/region_difference.h"
 #include "solver/scene/contact_cuts.h"
 #include "solver/scene/convex_solids.h"
+#include "solver/scene/face_check.h"
+#include "solver/scene/outline.h"
+#include "solver/scene/plane_overlaps.h"
+#include "solver/scene/tolerances.h"
 
 namespace penumbra {
 namespace {
-
-// A simple polygon on its way to patches: a face without its straight corners, or two triangles joined.
-struct Outline {
-  Polygon3 vertices;
-  std::vector<std::int32_t> faces;
-  std::int32_t material = 0;
-  std::int32_t object = 0;
-  std::int32_t owners = 0;     // equal for faces that belong to the same objects
-  Vec3 normal = Vec3::Zero();  // unit
-  double diameter = 0;
-  bool joined = false;                // into the outline of a lower index
-  std::vector<std::int32_t> winners;  // outlines that cut this one
-};
 
 void Measure(Outline& outline) {
   outline.normal = VectorArea(outline.vertices).normalized();
@@ -40,12 +31,6 @@ void Measure(Outline& outline) {
 }
 
 PlaneProjection Projection(const Outline& outline) { return {outline.vertices[0], outline.normal}; }
-
-std::vector<Vec2> Project(const PlaneProjection& projection, std::span<const Vec3> points) {
-  std::vector<Vec2> projected;
-  for (const Vec3& p : points) projected.push_back(projection.ToPlane(p));
-  return projected;
-}
 
 bool LiesInPlaneOf(const Outline& a, const Outline& b, double tolerance) {
   return std::all_of(a.vertices.begin(), a.vertices.end(),
@@ -58,9 +43,23 @@ bool LookTheSameWayInOnePlane(const Outline& a, const Outline& b) {
   return LiesInPlaneOf(a, b, tolerance) && LiesInPlaneOf(b, a, tolerance);
 }
 
+// Patches no wider than so many snap distances are left out: their leaves could not hold a point inside.
+constexpr double kNarrowest = 4;
+
+double DiagonalOf(std::span<const Face> faces) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const Face& face : faces)
+    for (const Vec3& v : face.vertices) {
+      low = low.cwiseMin(v);
+      high = high.cwiseMax(v);
+    }
+  return low.x() <= high.x() ? (high - low).norm() : 0;
+}
+
 class PatchBuilder {
  public:
-  explicit PatchBuilder(Scene& scene) : scene_(scene) {}
+  explicit PatchBuilder(Scene& scene)
+      : scene_(scene), tolerance_(scene.coordinate_step, DiagonalOf(scene.faces)) {}
 
   PatchReport Build();
 
@@ -69,33 +68,35 @@ class PatchBuilder {
   std::vector<std::int32_t> FindOwners() const;
   void JoinTriangularOutlines();
   void RankOutlines();
-  void FindOverlaps();
-  bool Overlap(const Outline& a, const Outline& b);
   void EmitPatches(const Outline& outline);
-  void EmitPieces(const Outline& outline);
+  std::vector<Polygon3> PiecesOf(const Outline& outline);
+  static void AddFlat(Polygon3 piece, std::vector<Polygon3>& pieces);
+  void AddPatch(std::span<const Vec3> vertices, const Outline& outline);
 
   Scene& scene_;
+  PlaneTolerance tolerance_;
+  PatchReport report_;
   std::vector<Outline> outlines_;
   std::vector<std::int32_t> rank_;  // of each outline: the lower wins
-  ConstrainedTriangulator triangulator_;
+  RegionSubtractor subtractor_;
 };
 
 PatchReport PatchBuilder::Build() {
   MakeOutlines();
   JoinTriangularOutlines();
   RankOutlines();
-  FindOverlaps();
+  report_.largest_distance = FindOverlaps(outlines_, rank_, tolerance_);
   scene_.patches.clear();
-  PatchReport report;
   for (const Outline& outline : outlines_) {
     EmitPatches(outline);
     if (!outline.winners.empty())
-      report.cut_faces.insert(report.cut_faces.end(), outline.faces.begin(), outline.faces.end());
+      report_.cut_faces.insert(report_.cut_faces.end(), outline.faces.begin(), outline.faces.end());
   }
-  std::sort(report.cut_faces.begin(), report.cut_faces.end());
+  std::sort(report_.cut_faces.begin(), report_.cut_faces.end());
+  std::sort(report_.narrow_faces.begin(), report_.narrow_faces.end());
   FindConvexSolids(scene_);
   CutAtWalls(scene_);
-  return report;
+  return std::move(report_);
 }
 
 // Of each face, a number that it shares with just those faces that belong to the same objects and groups.
@@ -197,135 +198,79 @@ void PatchBuilder::RankOutlines() {
   for (std::int32_t r = 0; r < Size(order); ++r) rank_[order[r]] = r;
 }
 
-// Sweeps along x for outlines whose boxes meet.
-void PatchBuilder::FindOverlaps() {
-  struct OutlineBox {
-    Vec3 low, high;
-    std::int32_t outline;
-  };
-  std::vector<OutlineBox> boxes;
-  for (std::int32_t i = 0; i < Size(outlines_); ++i) {
-    const Outline& outline = outlines_[i];
-    OutlineBox box{outline.vertices[0], outline.vertices[0], i};
-    for (const Vec3& p : outline.vertices) {
-      box.low = box.low.cwiseMin(p);
-      box.high = box.high.cwiseMax(p);
-    }
-    box.low.array() -= kCoplanarTolerance * outline.diameter;
-    box.high.array() += kCoplanarTolerance * outline.diameter;
-    boxes.push_back(box);
-  }
-  std::stable_sort(boxes.begin(), boxes.end(),
-                   [](const OutlineBox& a, const OutlineBox& b) { return a.low.x() < b.low.x(); });
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].low.x() <= boxes[i].high.x(); ++j) {
-      const OutlineBox &p = boxes[i], &q = boxes[j];
-      if (p.low.y() > q.high.y() || q.low.y() > p.high.y()) continue;
-      if (p.low.z() > q.high.z() || q.low.z() > p.high.z()) continue;
-      const bool p_wins = rank_[p.outline] < rank_[q.outline];
-      const std::int32_t winner = p_wins ? p.outline : q.outline, loser = p_wins ? q.outline : p.outline;
-      if (Overlap(outlines_[loser], outlines_[winner])) outlines_[loser].winners.push_back(winner);
-    }
-  for (Outline& outline : outlines_) std::sort(outline.winners.begin(), outline.winners.end());
-}
-
-// True if a line through an edge of `a` has a on its left and b on its right, to within the tolerance.
-bool EdgeSeparates(std::span<const Vec2> a, std::span<const Vec2> b, double tolerance) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const Vec2& from = a[i];
-    const Vec2 along = (a[(i + 1) % a.size()] - from).normalized();
-    const auto left = [&](const Vec2& p) { return Cross2(along, p - from); };
-    if (std::all_of(a.begin(), a.end(), [&](const Vec2& p) { return left(p) >= -tolerance; }) &&
-        std::all_of(b.begin(), b.end(), [&](const Vec2& p) { return left(p) <= tolerance; }))
-      return true;
-  }
-  return false;
-}
-
-// Appends the polygon's vertices to the points and its edges, with the tag, to the constraints.
-void AddLoop(std::span<const Vec2> loop, std::int32_t tag, std::vector<Vec2>& points,
-             std::vector<ConstraintSegment>& constraints) {
-  const std::int32_t first = Size(points);
-  for (std::int32_t i = 0; i < Size(loop); ++i) {
-    points.push_back(loop[i]);
-    constraints.push_back({first + i, first + (i + 1) % Size(loop), tag});
-  }
-}
-
-double TriangleArea(const ConstrainedTriangulation& mesh, const std::array<std::int32_t, 3>& t) {
-  return SignedArea(std::array{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
-}
-
-bool PatchBuilder::Overlap(const Outline& a, const Outline& b) {
-  if (!LookTheSameWayInOnePlane(a, b)) return false;
-  const PlaneProjection projection = Projection(a);
-  const std::vector<Vec2> p = Project(projection, a.vertices), q = Project(projection, b.vertices);
-  const double larger = std::max(a.diameter, b.diameter);
-  const double tolerance = kCoplanarTolerance * larger;
-  if (EdgeSeparates(p, q, tolerance) || EdgeSeparates(q, p, tolerance)) return false;
-  std::vector<Vec2> points;
-  std::vector<ConstraintSegment> constraints;
-  AddLoop(p, 0, points, constraints);
-  AddLoop(q, 1, points, constraints);
-  const ConstrainedTriangulation& mesh = triangulator_.Triangulate(points, constraints);
-  const std::vector<std::int32_t> in_p = WindingNumbers(mesh, constraints, 0);
-  const std::vector<std::int32_t> in_q = WindingNumbers(mesh, constraints, 1);
-  double common = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (in_p[t] > 0 && in_q[t] > 0) common += TriangleArea(mesh, mesh.triangles[t].vertex);
-  return common > tolerance * std::min(a.diameter, b.diameter);
-}
-
 void PatchBuilder::EmitPatches(const Outline& outline) {
   if (outline.winners.empty() && outline.vertices.size() <= 4) {
     const std::vector<Vec2> p = Project(Projection(outline), outline.vertices);
     const bool convex = p.size() == 3 || QuadrilateralQuality(p[0], p[1], p[2], p[3]) > 0;
-    if (convex) {
-      scene_.patches.push_back(MakePatch(outline.vertices, outline.material, outline.object, outline.faces));
-      return;
-    }
+    if (convex) return AddPatch(outline.vertices, outline);
   }
-  EmitPieces(outline);
+  for (const Polygon3& piece : PiecesOf(outline)) AddPatch(piece, outline);
 }
 
-// Triangulates what is inside the outline and outside all that cut it, and joins the triangles.
-void PatchBuilder::EmitPieces(const Outline& outline) {
+// Convex pieces of what is inside the outline and outside all that cut it.
+std::vector<Polygon3> PatchBuilder::PiecesOf(const Outline& outline) {
   const PlaneProjection projection = Projection(outline);
-  std::vector<Vec2> points;
-  std::vector<ConstraintSegment> constraints;
+  double diameter = outline.diameter;
+  std::vector<Vec2> flat = Project(projection, outline.vertices);
+  std::vector<Polygon2> cuts;
   std::vector<Vec3> given = outline.vertices;
-  AddLoop(Project(projection, outline.vertices), kBorder, points, constraints);
-  for (std::int32_t w = 0; w < Size(outline.winners); ++w) {
-    const Polygon3& winner = outlines_[outline.winners[w]].vertices;
-    AddLoop(Project(projection, winner), w, points, constraints);
+  for (const std::int32_t w : outline.winners) {
+    const Polygon3& winner = outlines_[w].vertices;
+    cuts.push_back(Project(projection, winner));
     given.insert(given.end(), winner.begin(), winner.end());
+    diameter = std::max(diameter, outlines_[w].diameter);
   }
-  const ConstrainedTriangulation& mesh = triangulator_.Triangulate(points, constraints);
-  std::vector<char> lost(mesh.triangles.size(), 0);
-  for (std::int32_t w = 0; w < Size(outline.winners); ++w) {
-    const std::vector<std::int32_t> winding = WindingNumbers(mesh, constraints, w);
-    for (std::size_t t = 0; t < lost.size(); ++t)
-      if (winding[t] > 0) lost[t] = 1;
-  }
-  std::vector<std::array<std::int32_t, 3>> kept;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (mesh.triangles[t].winding > 0 && !lost[t]) kept.push_back(mesh.triangles[t].vertex);
+  const RegionDifference left = subtractor_.Subtract(flat, cuts, tolerance_.InPlane(projection, diameter));
 
-  std::vector<Vec3> lifted = given;
-  for (std::size_t v = given.size(); v < mesh.vertices.size(); ++v)
-    lifted.push_back(projection.FromPlane(mesh.vertices[v]));
+  // Corners keep their bits, unless that would bend the pieces: the winner may lie a little off.
+  const double bend = kCoplanarTolerance * diameter;
+  std::vector<Vec3> lifted;
+  for (std::size_t v = 0; v < left.vertices.size(); ++v) {
+    const Vec3 in_plane = projection.FromPlane(left.vertices[v]);
+    const bool keeps = v < outline.vertices.size() ||
+                       (v < given.size() && projection.ToPlane(given[v]) == left.vertices[v] &&
+                        std::abs(outline.normal.dot(given[v] - in_plane)) <= bend);
+    lifted.push_back(keeps ? given[v] : in_plane);
+  }
   const Frame frame = MakeFrame(outline.vertices[0], outline.normal);  // shapes as they are, not as projected
   std::vector<Vec2> true_shape;
   for (const Vec3& p : lifted) true_shape.push_back(frame.ToPlane(p));
-  for (const ConvexPiece& piece : JoinTriangles(true_shape, kept)) {
+  std::vector<Polygon3> pieces;
+  for (const ConvexPiece& piece : JoinTriangles(true_shape, left.triangles)) {
     Polygon3 polygon;
     for (int i = 0; i < piece.Size(); ++i) polygon.push_back(lifted[piece.vertex[i]]);
-    // Drop slivers that rounding left over along an edge.
-    if (VectorArea(polygon).norm() <=
-        kCoplanarTolerance * outline.diameter * kCoplanarTolerance * outline.diameter)
-      continue;
-    scene_.patches.push_back(MakePatch(polygon, outline.material, outline.object, outline.faces));
+    AddFlat(std::move(polygon), pieces);
   }
+  return pieces;
+}
+
+// Halves a quadrilateral that corners off their plane bend: a small one may have what its face may not.
+void PatchBuilder::AddFlat(Polygon3 piece, std::vector<Polygon3>& pieces) {
+  if (piece.size() == 4) {
+    const Vec3 normal = VectorArea(piece).normalized();
+    const double bend = std::abs(normal.dot(piece[0] - piece[1] + piece[2] - piece[3])) / 4;
+    if (bend > kPlanarTolerance * Diameter(piece)) {
+      pieces.push_back({piece[0], piece[1], piece[2]});
+      piece = {piece[0], piece[2], piece[3]};
+    }
+  }
+  pieces.push_back(std::move(piece));
+}
+
+// What is no wider than the snap distance of its points has no inside.
+void PatchBuilder::AddPatch(std::span<const Vec3> vertices, const Outline& outline) {
+  if (VectorArea(vertices).norm() > 0) {
+    const Patch patch = MakePatch(vertices, outline.material, outline.object, outline.faces);
+    const Frame frame = MakeFrame(vertices[0], patch.normal);
+    Polygon2 shape;
+    for (const Vec3& p : vertices) shape.push_back(frame.ToPlane(p));
+    if (NarrowestStrip(shape).width > kNarrowest * SnapDistance(patch)) {
+      scene_.patches.push_back(patch);
+      return;
+    }
+  }
+  if (outline.winners.empty())
+    report_.narrow_faces.insert(report_.narrow_faces.end(), outline.faces.begin(), outline.faces.end());
 }
 
 }  // namespace

@@ -12,14 +12,11 @@
 
 namespace penumbra {
 
-// Faces lie in one plane if the vertices of each are this near to the other's plane, relative to the larger
-// diameter: what the rounding of coordinates leaves of a common plane (1e-16, and 1e-12 for a small face far
-// from the origin), and too near for any two surfaces that are meant to be apart.
-inline constexpr double kCoplanarTolerance = 1e-9;
-
 struct PatchReport {
   std::vector<std::int32_t>
-      cut_faces;  // ascending: faces that lost what overlaps an emitter or an earlier face
+      cut_faces;                // ascending: faces that lost what overlaps an emitter or an earlier face
+  double largest_distance = 0;  // between planes that count as one [m]
+  std::vector<std::int32_t> narrow_faces;  // ascending: too narrow to be a patch
 };
 
 // Fills scene.patches from scene.faces, ascending by their first face, and finds the solids among them:
@@ -29,11 +26,14 @@ struct PatchReport {
 //  convex
 //      quadrilateral, the best shaped first.
 //  (3) Where outlines that look the same way overlap in one plane, the emitter wins, else the first; the
-//  others lose the
-//      overlap. Opposite-facing ones, like the foot of a box and the floor, stay.
+//      others lose the overlap. Opposite-facing ones, like the foot of a box and the floor, stay. What the
+//      digits of coordinates cannot tell apart (Scene::coordinate_step) is one plane, and one edge.
 //  (4) What is then not a convex triangle or quadrilateral is triangulated and joined to few pieces.
 //
-// Vertices of faces keep their bits; a crossing of outlines is rounded once for all pieces of a face.
+// A patch that is narrower than a few times SnapDistance() is left out.
+//
+// Vertices of faces keep their bits, but where a face is cut by one a little off its plane; a crossing of
+// outlines is rounded once for all pieces of a face.
 PatchReport BuildPatches(Scene& scene);
 
 }  // namespace penumbra

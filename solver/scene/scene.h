@@ -94,6 +94,9 @@ struct Scene {
   std::vector<Material> materials;  // never empty once patches exist
   std::vector<Object> objects;
   std::vector<Face> faces;
+  // Per axis the unit in which coordinates are written: what that cannot tell apart is one plane, one edge or
+  // one corner [m]. 0: coordinates are exact.
+  Vec3 coordinate_step = Vec3::Zero();
   std::vector<Patch> patches;
   std::vector<ConvexSolid> solids;    // of the patches as they are: FindConvexSolids()
   std::vector<SolidId> solid_of;      // per patch; kNoSolid: of none

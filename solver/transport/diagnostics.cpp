@@ -115,4 +115,32 @@ ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch, st
   return diagnostics;
 }
 
+std::vector<std::int32_t> DarkEmitters(const Scene& scene, std::size_t rays_per_patch, std::uint64_t seed) {
+  const auto emits = [&](std::size_t p) {
+    return (scene.MaterialOf(static_cast<PatchId>(p)).emittance > 0).any();
+  };
+  std::vector<char> lights(scene.patches.size(), 0);
+  if (scene.patches.empty()) return {};
+  const RayCaster caster(scene);
+  ParallelFor(scene.patches.size(), 8, [&](std::size_t p) {
+    const Patch& patch = scene.patches[p];
+    for (std::size_t i = 0; emits(p) && i < rays_per_patch && !lights[p]; ++i) {
+      // Not lifted: what is next to nothing before it may be what hides it.
+      const DiffuseRay ray = MakeDiffuseRay(patch.Vertices(), patch.normal, 0, p * rays_per_patch + i, seed);
+      const RayCaster::Hit hit = caster.Cast(ray.origin, ray.direction, static_cast<PatchId>(p));
+      lights[p] = hit.patch != kNoPatch && hit.front;
+    }
+  });
+  // A face lights something if any of its patches does.
+  std::vector<char> dark(scene.faces.size(), 0);
+  for (const bool light : {false, true})
+    for (std::size_t p = 0; p < scene.patches.size(); ++p)
+      if (emits(p) && (lights[p] != 0) == light)
+        for (const std::int32_t face : scene.patches[p].faces) dark[static_cast<std::size_t>(face)] = !light;
+  std::vector<std::int32_t> faces;
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(dark.size()); ++f)
+    if (dark[static_cast<std::size_t>(f)]) faces.push_back(f);
+  return faces;
+}
+
 }  // namespace penumbra

@@ -44,4 +44,9 @@ struct ViewDiagnostics {
 ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch = 64, std::uint64_t seed = 1,
                               const ExecutionContext& context = ExecutionContext());
 
+// Faces that emit, by number, and from whose fronts no light falls on any front, by as many rays of each of
+// their patches: what hides an emitter lies before it, or it looks away from all there is.
+std::vector<std::int32_t> DarkEmitters(const Scene& scene, std::size_t rays_per_patch = 512,
+                                       std::uint64_t seed = 1);
+
 }  // namespace penumbra

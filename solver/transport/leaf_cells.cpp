@@ -250,7 +250,7 @@ Rgb LeafCells::Mean() const {
     mean += piece.area * piece.irradiance;
     area += piece.area;
   }
-  return mean / area;
+  return area > 0 ? Rgb(mean / area) : mean;
 }
 
 LeafCells CutLeaf(const RadiositySolution& solution, const PointIrradiance& exact, ElementId leaf,

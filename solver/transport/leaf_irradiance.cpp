@@ -55,7 +55,10 @@ LeafIrradiance ExactLeafIrradiance(const RadiositySolution& solution, const Poin
     exact.mean += fragment.area * exact.fragments.back();
     area += fragment.area;
   }
-  exact.mean /= area;
+  if (area > 0)
+    exact.mean /= area;
+  else
+    exact.mean = exact.fragments.front();
   return exact;
 }
 

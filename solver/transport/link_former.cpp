@@ -162,6 +162,7 @@ class Former {
                                           static_cast<std::size_t>(forest_[link.source].size));
       const double share = pending.mean[q] / total, fraction = VectorArea(quarter).norm() / area;
       link.share[q] = static_cast<float>(share);
+      if (fraction == 0) continue;  // no wider than a rounding
       unevenness += fraction * (share / fraction - 1) * (share / fraction - 1);
     }
     link.source_variation = static_cast<float>(std::sqrt(unevenness));

@@ -108,7 +108,8 @@ void PushPull::Average(std::size_t patch, std::vector<Value>& values) const {
       sum += solution_.forest[child].area * values[static_cast<std::size_t>(child)];
       area += solution_.forest[child].area;
     }
-    values[static_cast<std::size_t>(*id)] = sum / area;
+    values[static_cast<std::size_t>(*id)] =
+        area > 0 ? Value(sum / area) : values[static_cast<std::size_t>(first)];
   }
 }
 

@@ -279,7 +279,7 @@ TEST(PatchBuilder, ContactIsNoOverlap) {
   std::reverse(foot.begin(), foot.end());
   t.Add(foot)
       .Add(Rectangle(4, 0, 5, 4))
-      .Add(Rectangle(1, 1, 2, 2, 1e-6))
+      .Add(Rectangle(1, 1, 2, 2, 1e-5))
       .Add({{4, 4, 0}, {5, 5, 0}, {4, 5, 0}});
   EXPECT_THAT(t.Build().cut_faces, IsEmpty());
   EXPECT_EQ(t.scene.patches.size(), 5u);
@@ -346,6 +346,129 @@ TEST(PatchBuilder, RandomOverlapsInATiltedPlane) {
   }
   std::printf("largest relative error of the covered area: %.3g\n", worst);
   EXPECT_LE(worst, 1e-9);
+}
+
+// The polygon's coordinates to so many decimals.
+Polygon3 Rounded(const Polygon3& polygon, int decimals) {
+  const double unit = std::pow(10, -decimals);
+  Polygon3 rounded;
+  for (const Vec3& p : polygon) rounded.push_back((p.array() / unit).round() * unit);
+  return rounded;
+}
+
+void AddTriangles(TestScene& t, const Polygon3& q, std::int32_t material) {
+  t.Add({q[0], q[1], q[2]}, material).Add({q[2], q[3], q[0]}, material);
+}
+
+TEST(PatchBuilder, LampInATurnedCeilingOfFewDecimals) {
+  // Of a lamp in an uncut ceiling, turned at random and written with 3 to 12 decimals, the lamp is seen and
+  // the ceiling is what is left around it, to what the decimals leave of lengths.
+  Random random(17);
+  for (int trial = 0; trial < 400; ++trial) {
+    const int decimals = 3 + trial % 10;
+    const double unit = std::pow(10, -decimals);
+    const Eigen::Matrix3d rotation = RandomRotation(random);
+    const Vec3 shift(random.Uniform(-2, 2), random.Uniform(-2, 2), random.Uniform(-2, 2));
+    const double x = random.Uniform(0.2, 2), y = random.Uniform(0.2, 1.5);
+    TestScene t;
+    t.scene.coordinate_step = Vec3::Constant(unit);
+    AddTriangles(t, Rounded(Moved(Rectangle(0, 0, 5, 4), rotation, shift), decimals), 0);
+    AddTriangles(t, Rounded(Moved(Rectangle(x, y, x + 1, y + 0.8), rotation, shift), decimals), 1);
+    const PatchReport report = t.Build();
+    EXPECT_FALSE(report.cut_faces.empty());
+    EXPECT_LE(report.largest_distance, 2.6 * unit);
+    EXPECT_NEAR(t.AreaOf(1), 0.8, 4 * unit);
+    EXPECT_NEAR(t.AreaOf(0), 19.2, 40 * unit);
+    for (const Patch& patch : t.scene.patches) EXPECT_LE((patch.normal - rotation.col(2)).norm(), 20 * unit);
+    if (HasFailure()) FAIL() << "trial " << trial << ", " << decimals << " decimals";
+  }
+}
+
+TEST(PatchBuilder, TheDigitsTellLevelPlanesApart) {
+  // A sheet one unit of the last digit above a table is another plane; so is a lamp at that distance. Faces
+  // in one plane whose edges are a unit apart leave a strip of that width.
+  TestScene t;
+  t.scene.coordinate_step = Vec3::Constant(0.01);
+  t.Add(Rectangle(0, 0, 2, 1, 0.75))
+      .Add(Rectangle(0.5, 0.5, 0.7, 0.8, 0.76))
+      .Add(Rectangle(1, 0.2, 1.2, 0.4, 0.74), 1);
+  EXPECT_THAT(t.Build().cut_faces, IsEmpty());
+  EXPECT_EQ(t.scene.patches.size(), 3u);
+
+  TestScene strip;
+  strip.scene.coordinate_step = Vec3::Constant(0.01);
+  strip.Add(Rectangle(0, 0, 1, 1)).Add(Rectangle(0, 0, 1.01, 1));
+  EXPECT_THAT(strip.Build().cut_faces, ElementsAre(1));
+  ASSERT_EQ(strip.scene.patches.size(), 2u);
+  EXPECT_NEAR(strip.scene.patches[1].area, 0.01, 1e-15);
+}
+
+TEST(PatchBuilder, PlanesThatTouchAreOne) {
+  // A sheet nearer to a table than things are that touch is in the table's plane, before it or behind: a
+  // point on one is on the other. The lamp stays whole.
+  for (const double height : {-1e-6, 1e-6, -1e-8, 1e-8}) {
+    TestScene t;
+    t.Add(Rectangle(0, 0, 2, 1)).Add(Rectangle(0.5, 0.5, 0.7, 0.8, height), 1);
+    EXPECT_THAT(t.Build().cut_faces, ElementsAre(0));
+    EXPECT_NEAR(t.AreaOf(0), 1.94, 1e-12);
+    EXPECT_NEAR(t.AreaOf(1), 0.06, 1e-15);
+  }
+}
+
+TEST(PatchBuilder, FaceOffItsPlaneGivenTwice) {
+  // A face whose corners lie off their plane, as much as a face may, is one with its copy, whichever corner
+  // that begins with.
+  Random random(19);
+  for (int trial = 0; trial < 100; ++trial) {
+    Polygon3 wall = Rectangle(0, 0, 3, 2);
+    for (Vec3& p : wall) p.z() += random.Uniform(-3e-6, 3e-6);
+    wall = Moved(wall, RandomRotation(random), Vec3::Constant(random.Uniform()));
+    TestScene t;
+    t.Add(wall);
+    std::rotate(wall.begin(), wall.begin() + random.Index(4), wall.end());
+    t.Add(wall);
+    EXPECT_THAT(t.Build().cut_faces, ElementsAre(1));
+    EXPECT_EQ(t.scene.patches.size(), 1u);
+  }
+}
+
+TEST(PatchBuilder, SliversAreNoPatches) {
+  // Of a floor given twice, the second time wider by next to nothing, no strip is left; a slab without
+  // thickness to speak of has two sides. No patch is narrower than the points on it are snapped.
+  for (int power = 9; power <= 18; ++power) {
+    const double little = std::pow(10, -power);
+    TestScene t;
+    t.Add(Rectangle(0, 0, 1, 1)).Add(Rectangle(0, -little, 1, 1));
+    EXPECT_EQ(t.Build().narrow_faces.size(), 0u);
+    EXPECT_EQ(t.scene.patches.size(), 1u) << little;
+  }
+  TestScene slab;
+  const double thickness = 1e-10;
+  slab.Add(Rectangle(0, 0, 1, 1, thickness));
+  Polygon3 foot = Rectangle(0, 0, 1, 1);
+  std::reverse(foot.begin(), foot.end());
+  slab.Add(foot).Add({{0, 0, 0}, {1, 0, 0}, {1, 0, thickness}, {0, 0, thickness}});
+  EXPECT_THAT(slab.Build().narrow_faces, ElementsAre(2));
+  EXPECT_EQ(slab.scene.patches.size(), 2u);
+}
+
+TEST(PatchBuilder, FacesThatCoincideToTheLastBit) {
+  // Of two triangles or quadrilaterals that differ by some of their last bits one is left, however they are
+  // turned.
+  Random random(23);
+  for (int trial = 0; trial < 5000; ++trial) {
+    Polygon3 face = Rectangle(0, 0, random.Uniform(0.1, 2), random.Uniform(0.1, 2));
+    if (trial % 2) face.pop_back();
+    face = Moved(face, RandomRotation(random), Vec3::Constant(random.Uniform(0, 20)));
+    TestScene t;
+    t.Add(face);
+    for (Vec3& p : face)
+      for (int axis = 0; axis < 3; ++axis)
+        if (random.Index(2)) p[axis] = std::nextafter(p[axis], random.Uniform(-30, 30));
+    t.Add(face);
+    EXPECT_THAT(t.Build().cut_faces, ElementsAre(1));
+    ASSERT_EQ(t.scene.patches.size(), 1u) << trial;
+  }
 }
 
 TEST(PatchBuilder, ManyFacesTakeNoTime) {
