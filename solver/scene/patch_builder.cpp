@@ -17,11 +17,13 @@
 #include "solver/geometry/plane_projection.h"
 #include "solver/scene/contact_cuts.h"
 #include "solver/scene/convex_solids.h"
+#include "solver/scene/face_check.h"
 
 namespace penumbra {
 namespace {
 
-// A simple polygon on its way to patches: a face without its straight corners, or two triangles joined.
+// A simple polygon on its way to patches: a face without its straight corners, a triangle of one that is not
+// planar, or two triangles joined.
 struct Outline {
   Polygon3 vertices;
   std::vector<std::int32_t> faces;
@@ -30,6 +32,7 @@ struct Outline {
   std::int32_t owners = 0;     // equal for faces that belong to the same objects
   Vec3 normal = Vec3::Zero();  // unit
   double diameter = 0;
+  bool is_piece = false;              // of a face that is not planar
   bool joined = false;                // into the outline of a lower index
   std::vector<std::int32_t> winners;  // outlines that cut this one
 };
@@ -115,16 +118,20 @@ void PatchBuilder::MakeOutlines() {
   for (std::int32_t f = 0; f < Size(scene_.faces); ++f) {
     const Face& face = scene_.faces[f];
     if (face.vertices.empty()) continue;
-    Outline outline;
-    const PlaneProjection projection(face.vertices[0], VectorArea(face.vertices));
-    for (const std::int32_t i : WithoutStraightCorners(Project(projection, face.vertices)))
-      outline.vertices.push_back(face.vertices[i]);
-    outline.faces = {f};
-    outline.material = face.material;
-    outline.object = face.object;
-    outline.owners = owners[f];
-    Measure(outline);
-    outlines_.push_back(std::move(outline));
+    const std::vector<Polygon3> pieces = FlatPieces(face.vertices);
+    for (const Polygon3& piece : pieces) {
+      Outline outline;
+      const PlaneProjection projection(piece[0], VectorArea(piece));
+      for (const std::int32_t i : WithoutStraightCorners(Project(projection, piece)))
+        outline.vertices.push_back(piece[i]);
+      outline.faces = {f};
+      outline.material = face.material;
+      outline.object = face.object;
+      outline.owners = owners[f];
+      outline.is_piece = pieces.size() > 1;
+      Measure(outline);
+      outlines_.push_back(std::move(outline));
+    }
   }
 }
 
@@ -139,7 +146,7 @@ void PatchBuilder::JoinTriangularOutlines() {
   };
   std::vector<Side> sides;
   for (std::int32_t i = 0; i < Size(outlines_); ++i)
-    if (outlines_[i].vertices.size() == 3)
+    if (outlines_[i].vertices.size() == 3 && !outlines_[i].is_piece)
       for (int k = 0; k < 3; ++k)
         sides.push_back({point(outlines_[i].vertices[k]), point(outlines_[i].vertices[(k + 1) % 3]), i, k});
   const auto less = [](const Side& a, const Side& b) {
