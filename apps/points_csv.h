@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "solver/geometry/vec.h"
@@ -16,7 +17,11 @@ struct ProbePoint {
 };
 
 // The points of a CSV file with the header x,y,z,nx,ny,nz. Blanks around values, blank lines and line ends of
-// any system are passed over. Throws InputError, "FILE:LINE: error: …", line 0 if the file cannot be read.
+// any system are passed over. Throws InputError, "FILE:LINE: error: …", without LINE if the file cannot be
+// read.
 std::vector<ProbePoint> ReadPointsCsv(const std::string& path);
+
+// The same from a text; `path` stands for it in messages.
+std::vector<ProbePoint> ReadPointsText(std::string_view text, const std::string& path);
 
 }  // namespace penumbra

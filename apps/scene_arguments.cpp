@@ -6,9 +6,10 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
+#include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,9 +20,12 @@
 #include "mesh/solution_file.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
+#include "solver/base/read_file.h"
 #include "solver/base/stopwatch.h"
+#include "solver/scene/file_format.h"
 #include "solver/scene/named_scene.h"
 #include "solver/transport/diagnostics.h"
+#include "solver/scene/text_reader.h"
 
 namespace penumbra {
 namespace {
@@ -53,19 +57,6 @@ constexpr Choice<DiscontinuityChoice> kDiscontinuityChoices[] = {{"ranked", Disc
                                                                  {"all", DiscontinuityChoice::kAll}};
 constexpr Choice<DiscontinuityWeight> kDiscontinuityWeights[] = {
     {"thesis", DiscontinuityWeight::kThesis}, {"irradiance", DiscontinuityWeight::kIrradiance}};
-bool IsFile(const std::string& name) {
-  std::error_code ignored;
-  return std::filesystem::exists(name, ignored) && !std::filesystem::is_directory(name, ignored);
-}
-
-// The first bytes of the file, all of them if there are fewer.
-std::string ReadBytes(const std::string& path, std::size_t count) {
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes(count, '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(count));
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
-  return bytes;
-}
 
 // Whether the file is, or was meant to be, a solution: its content tells. Nothing tells what an empty file
 // is; one that is named as a scene is a scene without faces.
@@ -73,8 +64,15 @@ bool IsSolution(const std::string& path) {
   // What a pipe brings can be read once only: it is taken for a scene.
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
-  const std::string beginning = ReadBytes(path, kSolutionHeaderSize);
-  return beginning.empty() ? std::filesystem::path(path).extension() != ".obj" : LooksLikeSolution(beginning);
+  try {
+    const std::string beginning = ReadFileStart(path, std::max(kSolutionHeaderSize, kFormatBytes));
+    if (beginning.empty()) return std::filesystem::path(path).extension() != ".obj";
+    const std::optional<ForeignFormat> format = FindForeignFormat(beginning);
+    if (format) return format->kind == FormatKind::kSolution || format->kind == FormatKind::kHdf5;
+    return LooksLikeSolution(beginning);
+  } catch (const ReadFailure&) {
+    return false;  // whoever reads the scene tells why
+  }
 }
 
 // Options that say how a scene is read or solved have no place beside a solution.
@@ -108,11 +106,14 @@ Scene ReadChangedScene(const SceneArguments& arguments) {
 }  // namespace
 
 LoadedScene LoadSolution(const std::string& path) {
-  if (!IsSolution(path))
-    throw InputError(fmt::format("{}:0: error: {}; give a solution that `penumbra solve -o` wrote", path,
-                                 IsFile(path) ? "it is no solution" : "there is no such file"));
-  std::error_code ignored;
-  const std::string bytes = ReadBytes(path, std::filesystem::file_size(path, ignored));
+  constexpr const char* kMend = "; give a solution that `penumbra solve -o` wrote";
+  std::string bytes;
+  try {
+    bytes = ReadFileBytes(path);
+  } catch (const ReadFailure& failure) {
+    throw ErrorAt(path, 0, std::string(failure.what()) + kMend);
+  }
+  if (!IsSolution(path)) throw ErrorAt(path, 0, std::string("it is no solution") + kMend);
   StoredSolution solution = DecodeSolution(bytes, path);
   LoadedScene loaded{std::move(solution.scene)};
   StoredRun& stored = loaded.stored.emplace();
@@ -123,9 +124,10 @@ LoadedScene LoadSolution(const std::string& path) {
     stored.solving = SolvingFrom(stored.options);
     stored.state.report = PipelineReportFrom(nlohmann::ordered_json::parse(solution.report));
     stored.state.report.quality = MeasureQuality(stored.state.mesh);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
-    throw InputError(
-        fmt::format("{}:0: error: its options or its report cannot be read: {}", path, error.what()));
+    throw ErrorAt(path, 0, std::string("its options or its report cannot be read: ") + error.what());
   }
   return loaded;
 }
@@ -154,6 +156,11 @@ void AddSceneArguments(CLI::App& app, SceneArguments* arguments) {
       ->group(kSceneGroup);
   app.add_flag("--two-sided", arguments->reading.two_sided,
                "Repeat every face, reversed, after the last: the back of face i is n + i")
+      ->group(kSceneGroup);
+  app.add_flag(
+         "--strict", arguments->reading.strict,
+         "Refuse what is otherwise repaired and warned about: faces that are not planar, repeat vertices "
+         "or have no area, materials and libraries that are not there, materials defined twice")
       ->group(kSceneGroup);
   AddNumber(app, "--max-reflectance", &arguments->reading.max_reflectance, kBelowOne,
             "Clamp larger reflectances to X, in [0, 1), instead of refusing those of 1 or more")
@@ -356,6 +363,7 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
   options["scene"] = arguments.scene;
   options["emission_is_radiance"] = arguments.reading.emission_is_radiance;
   options["two_sided"] = arguments.reading.two_sided;
+  if (arguments.reading.strict) options["strict"] = true;
   if (arguments.reading.max_reflectance) options["max_reflectance"] = *arguments.reading.max_reflectance;
   for (const auto& [name, changes] :
        {std::pair("emittance", &arguments.emittance), std::pair("reflectance", &arguments.reflectance)})

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <mutex>
+#include <new>
 #include <utility>
 
 #include "solver/base/check.h"
@@ -32,11 +33,32 @@ std::string NewName() {
   return "solution " + std::to_string(count++);
 }
 
+// Whether what the library failed at last was to get memory.
+bool MemoryEnded() {
+  bool ended = false;
+  H5Ewalk2(
+      H5E_DEFAULT, H5E_WALK_DOWNWARD,
+      [](unsigned, const H5E_error2_t* error, void* found) {
+        if (error->maj_num == H5E_RESOURCE &&
+            (error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC))
+          *static_cast<bool*>(found) = true;
+        return herr_t{0};
+      },
+      &ended);
+  return ended;
+}
+
+// Throws Hdf5Error, or std::bad_alloc where that is the reason.
+[[noreturn]] void FailOver(const std::string& what) {
+  if (MemoryEnded()) throw std::bad_alloc();
+  throw Hdf5Error(what);
+}
+
 // An identifier of the library, closed when it goes out of scope.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
-    if (id_ < 0) throw Hdf5Error(what);
+    if (id_ < 0) FailOver(what);
   }
   ~Handle() {
     if (id_ >= 0) close_(id_);
@@ -47,7 +69,7 @@ class Handle {
   operator hid_t() const { return id_; }
 
   void Close(const std::string& what) {
-    if (close_(std::exchange(id_, hid_t{-1})) < 0) throw Hdf5Error(what);
+    if (close_(std::exchange(id_, hid_t{-1})) < 0) FailOver(what);
   }
 
  private:
@@ -56,7 +78,7 @@ class Handle {
 };
 
 void Succeed(herr_t status, const std::string& what) {
-  if (status < 0) throw Hdf5Error(what);
+  if (status < 0) FailOver(what);
 }
 
 // The library prints its errors by itself unless told not to.
@@ -194,6 +216,7 @@ std::string Hdf5Writer::Finish() {
 
 struct Hdf5Reader::Impl {
   Handle file;
+  std::size_t size;  // of the image [bytes]
 
   Handle Open(const std::string& path) const {
     return Handle(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, path + " is missing");
@@ -207,7 +230,8 @@ Hdf5Reader::Hdf5Reader(std::string_view image) {
   // The library copies the image, and takes it as it is.
   Succeed(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()), "it cannot be read");
   impl_.reset(
-      new Impl{Handle(H5Fopen(NewName().c_str(), H5F_ACC_RDONLY, access), H5Fclose, "it is no HDF5 file")});
+      new Impl{Handle(H5Fopen(NewName().c_str(), H5F_ACC_RDONLY, access), H5Fclose, "it is no HDF5 file"),
+               image.size()});
 }
 
 Hdf5Reader::~Hdf5Reader() {
@@ -224,6 +248,12 @@ ArrayShape Hdf5Reader::Shape(const std::string& path) const {
   std::vector<hsize_t> extent(static_cast<std::size_t>(dimensions));
   if (dimensions > 0 && H5Sget_simple_extent_dims(space, extent.data(), nullptr) != dimensions)
     throw Hdf5Error(path + " has no shape");
+  // Nobody makes room for rows that the file cannot hold.
+  constexpr double kMostDeflated = 1100;  // bytes that a byte may stand for; deflate reaches 1032
+  double bytes = static_cast<double>(H5Tget_size(Handle(H5Dget_type(set), H5Tclose, path)));
+  for (const hsize_t n : extent) bytes *= static_cast<double>(n);
+  const double stored = static_cast<double>(std::min<hsize_t>(H5Dget_storage_size(set), impl_->size));
+  if (bytes > kMostDeflated * stored) throw Hdf5Error(path + " is larger than the file can hold");
   return {extent.begin(), extent.end()};
 }
 
@@ -243,6 +273,7 @@ std::string Hdf5Reader::ReadText(const std::string& path) const {
   const Handle type(H5Dget_type(set), H5Tclose, path);
   if (!Shape(path).empty() || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
     throw Hdf5Error(path + " is no text");
+  if (H5Tget_size(type) > impl_->size) throw Hdf5Error(path + " is longer than the file");
   std::string text(H5Tget_size(type), '\0');
   Succeed(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), path + " cannot be read");
   text.erase(text.find_last_not_of('\0') + 1);

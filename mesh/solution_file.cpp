@@ -14,6 +14,7 @@
 #include "solver/base/check.h"
 #include "solver/base/sha256.h"
 #include "solver/scene/convex_solids.h"
+#include "solver/scene/text_reader.h"
 
 namespace penumbra {
 namespace {
@@ -159,10 +160,11 @@ std::string EncodeSolution(const Pipeline& pipeline, const std::string& options,
 }
 
 StoredSolution DecodeSolution(std::string_view bytes, const std::string& file) {
+  constexpr std::size_t kLongestMessage = 200;  // [bytes]: it may quote the file
   try {
     return Read(Open(bytes));
   } catch (const Hdf5Error& error) {
-    throw InputError(fmt::format("{}:0: error: {}", file, error.what()));
+    throw ErrorAt(file, 0, Printable(error.what(), kLongestMessage));
   }
 }
 

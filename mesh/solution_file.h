@@ -41,7 +41,7 @@ bool LooksLikeSolution(std::string_view beginning);
 std::string EncodeSolution(const Pipeline& pipeline, const std::string& options, const std::string& report,
                            const std::string& version);
 
-// The solution that the bytes hold. Throws InputError, "FILE:0: error: …", unless they are whole, of this
+// The solution that the bytes hold. Throws InputError, "FILE: error: …", unless they are whole, of this
 // schema, and make sense.
 StoredSolution DecodeSolution(std::string_view bytes, const std::string& file);
 

@@ -4,6 +4,9 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <new>
+#include <stdexcept>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -49,14 +52,20 @@ void RunChunks(std::size_t chunks, int threads, const std::function<void(std::si
 void RunChunks(std::size_t chunks, int threads, const std::function<void(std::size_t)>& run) {
   // More threads than processors bring nothing, and oneTBB complains of them.
   tbb::task_arena arena(std::min(threads, HardwareThreads()));
-  arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, chunks, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          for (std::size_t chunk = range.begin(); chunk != range.end(); ++chunk) run(chunk);
-        },
-        tbb::simple_partitioner());
-  });
+  try {
+    arena.execute([&] {
+      tbb::parallel_for(
+          tbb::blocked_range<std::size_t>(0, chunks, 1),
+          [&](const tbb::blocked_range<std::size_t>& range) {
+            for (std::size_t chunk = range.begin(); chunk != range.end(); ++chunk) run(chunk);
+          },
+          tbb::simple_partitioner());
+    });
+  } catch (const std::runtime_error& error) {
+    // oneTBB's words where there is no memory for the stack of a thread.
+    if (std::string_view(error.what()).starts_with("pthread_create")) throw std::bad_alloc();
+    throw;
+  }
 }
 #endif
 

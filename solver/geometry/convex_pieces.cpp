@@ -64,14 +64,16 @@ double QuadrilateralQuality(const Vec2& a, const Vec2& b, const Vec2& c, const V
 }
 
 std::vector<std::int32_t> WithoutStraightCorners(std::span<const Vec2> outline) {
+  const std::int32_t size = Size(outline);
   std::vector<std::int32_t> kept;
-  for (std::int32_t i = 0; i < Size(outline); ++i) kept.push_back(i);
-  for (std::size_t i = 0; i < kept.size() && kept.size() > 3;) {
-    const std::size_t n = kept.size();
-    if (IsStraight(outline[kept[(i + n - 1) % n]], outline[kept[i]], outline[kept[(i + 1) % n]]))
-      kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(i));
+  std::int32_t left = size;  // corners that are kept or not yet looked at
+  for (std::int32_t i = 0; i < size; ++i) {
+    const std::int32_t before = kept.empty() ? size - 1 : kept.back();
+    const std::int32_t after = i + 1 < size ? i + 1 : kept.empty() ? 0 : kept.front();
+    if (left > 3 && IsStraight(outline[before], outline[i], outline[after]))
+      --left;
     else
-      ++i;
+      kept.push_back(i);
   }
   return kept;
 }

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <vector>
 
 #include "solver/base/check.h"
 
@@ -49,12 +53,69 @@ Vec3 Centroid(std::span<const Vec3> polygon) {
   return mean;
 }
 
-double Diameter(std::span<const Vec3> polygon) {
+namespace {
+
+// Below this, comparing all pairs takes no longer than looking along the directions.
+constexpr std::size_t kAllPairs = 512;
+
+// The pair farthest apart of `count` points, point(i) each, all compared with all.
+template <class PointOf>
+std::pair<std::size_t, std::size_t> FarthestOfAll(std::size_t count, const PointOf& point) {
+  std::pair<std::size_t, std::size_t> farthest{0, 0};
   double largest = 0;
-  for (std::size_t i = 0; i < polygon.size(); ++i)
-    for (std::size_t j = i + 1; j < polygon.size(); ++j)
-      largest = std::max(largest, (polygon[i] - polygon[j]).squaredNorm());
-  return std::sqrt(largest);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = i + 1; j < count; ++j)
+      if (const double d = (point(i) - point(j)).squaredNorm(); d > largest) {
+        largest = d;
+        farthest = {i, j};
+      }
+  return farthest;
+}
+
+// The outermost points along directions spread over a half sphere, ascending.
+std::vector<std::size_t> OutermostPoints(std::span<const Vec3> polygon) {
+  constexpr int kDirections = 256;  // no direction is farther than 0.1 from one of them: 0.5 % of a length
+  constexpr double kGoldenAngle = 2 * std::numbers::pi * (2 - std::numbers::phi);
+  std::vector<std::size_t> outermost;
+  for (int k = 0; k < kDirections; ++k) {
+    const double z = (k + 0.5) / kDirections, r = std::sqrt(1 - z * z);
+    const Vec3 direction(r * std::cos(k * kGoldenAngle), r * std::sin(k * kGoldenAngle), z);
+    std::size_t low = 0, high = 0;
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const double height = direction.dot(polygon[i] - polygon[0]);
+      if (height < lowest) {
+        lowest = height;
+        low = i;
+      }
+      if (height > highest) {
+        highest = height;
+        high = i;
+      }
+    }
+    outermost.push_back(low);
+    outermost.push_back(high);
+  }
+  std::sort(outermost.begin(), outermost.end());
+  outermost.erase(std::unique(outermost.begin(), outermost.end()), outermost.end());
+  return outermost;
+}
+
+}  // namespace
+
+std::pair<std::size_t, std::size_t> FarthestPair(std::span<const Vec3> polygon) {
+  if (polygon.size() <= kAllPairs)
+    return FarthestOfAll(polygon.size(), [&](std::size_t i) -> const Vec3& { return polygon[i]; });
+  const std::vector<std::size_t> outermost = OutermostPoints(polygon);
+  const auto [a, b] =
+      FarthestOfAll(outermost.size(), [&](std::size_t i) -> const Vec3& { return polygon[outermost[i]]; });
+  return {outermost[a], outermost[b]};
+}
+
+double Diameter(std::span<const Vec3> polygon) {
+  if (polygon.empty()) return 0;
+  const auto [a, b] = FarthestPair(polygon);
+  return std::sqrt((polygon[a] - polygon[b]).squaredNorm());
 }
 
 double SignedArea(std::span<const Vec2> polygon) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/geometry/box_tree.h"
 #include "solver/geometry/vec.h"
 
 namespace penumbra {
@@ -38,8 +39,12 @@ class SegmentSplitter {
 
   bool Splits(const SegmentPiece& piece, std::int32_t vertex) const;
   void Cut(std::int32_t piece, std::int32_t vertex);
+  PlaneBox BoxOf(const SegmentPiece& piece, double margin) const;
+  bool IsLarge() const;
   void CutAtVertices();
+  void CutAtVerticesOfMany();
   void CutAtCrossings();
+  void CutAtCrossingsOfMany();
   void CutCrossing(std::int32_t i, std::int32_t j);
   std::int32_t VertexNear(const Vec2& p);
   bool ApplyCuts();
@@ -56,6 +61,9 @@ class SegmentSplitter {
   std::vector<std::int32_t> order_;       // vertices or pieces by their smallest x
   std::vector<double> low_;               // that x, in the same order
   std::vector<double> left_;              // of each piece, that x
+  BoxTree tree_;                          // of many vertices or pieces
+  std::vector<PlaneBox> boxes_;
+  std::vector<std::int32_t> found_;
 };
 
 }  // namespace penumbra

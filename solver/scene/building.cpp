@@ -278,7 +278,7 @@ std::optional<BuildingSize> BuildingNamed(std::string_view name) {
   if (!has_x || columns.ec != std::errc() || columns.ptr != end || !sensible(size.rows) ||
       !sensible(size.columns))
     throw InputError(std::string(name) +
-                     ":0: error: a building is named building-RxC, R and C whole numbers from 1 to " +
+                     ": error: a building is named building-RxC, R and C whole numbers from 1 to " +
                      std::to_string(kMostRooms) + ", such as building-2x3");
   return size;
 }

@@ -10,8 +10,14 @@ namespace {
 
 // One value for all channels, or three.
 Rgb ReadColour(const StatementReader& reader) {
-  const std::vector<std::string_view> words = reader.Words();
+  const std::vector<std::string_view> words = reader.Values();
   const std::string keyword(reader.Keyword());
+  if (!words.empty() && words[0] == "spectral")
+    throw reader.Error(keyword + " is a spectrum (`" + keyword +
+                       " spectral`), which is not read; give three numbers: red, green and blue");
+  if (!words.empty() && words[0] == "xyz")
+    throw reader.Error(keyword + " is in CIE XYZ (`" + keyword +
+                       " xyz`), which is not read; give three numbers: linear red, green and blue");
   if (words.size() != 1 && words.size() != 3)
     throw reader.Error(keyword + " has " + std::to_string(words.size()) +
                        " values; give three numbers: red, green and blue");
@@ -24,44 +30,70 @@ Rgb ReadColour(const StatementReader& reader) {
   return colour;
 }
 
+class MtlParser {
+ public:
+  MtlParser(std::string_view text, std::string_view file, const SceneOptions& options)
+      : reader_(text, file), options_(options) {}
+
+  std::vector<DefinedMaterial> Parse(std::vector<std::string>& warnings) {
+    while (reader_.Next()) ReadStatement();
+    if (clamped_ > 0)
+      warnings.push_back(WarningAt(
+          reader_.File(), first_clamped_,
+          std::to_string(clamped_) + " reflectance(s) clamped to the greatest allowed, first here"));
+    if (reader_.LineEndedByCr() > 0)
+      warnings.push_back(WarningAt(reader_.File(), reader_.LineEndedByCr(), kLinesEndInCr));
+    return std::move(materials_);
+  }
+
+ private:
+  void ReadStatement() {
+    const std::string_view keyword = reader_.Keyword();
+    if (keyword == "newmtl") {
+      if (reader_.Arguments().empty()) throw reader_.Error("newmtl without a name; write newmtl NAME");
+      materials_.emplace_back().line = reader_.Line();
+      materials_.back().material.name = reader_.Arguments();
+      return;
+    }
+    if (keyword != "Kd" && keyword != "Ke") return;
+    if (materials_.empty())
+      throw reader_.Error(std::string(keyword) + " stands before any newmtl; begin with newmtl NAME");
+    const Rgb colour = ReadColour(reader_);
+    keyword == "Ke" ? SetEmittance(colour) : SetReflectance(colour);
+  }
+
+  void SetEmittance(const Rgb& colour) {
+    Rgb& emittance = materials_.back().material.emittance;
+    emittance = options_.emission_is_radiance ? Rgb(colour * std::numbers::pi) : colour;
+    if (!(emittance <= kLargestEmittance).all())
+      throw reader_.Error("Ke is too large; give a smaller emittance");
+  }
+
+  void SetReflectance(const Rgb& colour) {
+    Material& material = materials_.back().material;
+    if (options_.max_reflectance) {
+      material.reflectance = colour.min(*options_.max_reflectance);
+      if (colour.maxCoeff() > *options_.max_reflectance && clamped_++ == 0) first_clamped_ = reader_.Line();
+      return;
+    }
+    if (colour.maxCoeff() >= 1)
+      throw reader_.Error("the reflectance Kd of " + Quoted(material.name) +
+                          " is 1 or more; give values below 1, or clamp them with --max-reflectance");
+    material.reflectance = colour;
+  }
+
+  StatementReader reader_;
+  const SceneOptions& options_;
+  std::vector<DefinedMaterial> materials_;
+  int clamped_ = 0, first_clamped_ = 0;
+};
+
 }  // namespace
 
-std::vector<Material> ReadMtlText(std::string_view text, std::string_view file, const SceneOptions& options,
-                                  std::vector<std::string>& warnings) {
-  std::vector<Material> materials;
-  int clamped = 0, first_clamped = 0;
-  StatementReader reader(text, file);
-  while (reader.Next()) {
-    const std::string_view keyword = reader.Keyword();
-    if (keyword == "newmtl") {
-      if (reader.Arguments().empty()) throw reader.Error("newmtl without a name; write newmtl NAME");
-      materials.emplace_back();
-      materials.back().name = reader.Arguments();
-      continue;
-    }
-    if (keyword != "Kd" && keyword != "Ke") continue;
-    if (materials.empty())
-      throw reader.Error(std::string(keyword) + " stands before any newmtl; begin with newmtl NAME");
-    const Rgb colour = ReadColour(reader);
-    if (keyword == "Ke") {
-      materials.back().emittance = options.emission_is_radiance ? Rgb(colour * std::numbers::pi) : colour;
-      if (!(materials.back().emittance <= kLargestEmittance).all())
-        throw reader.Error("Ke is too large; give a smaller emittance");
-    } else if (options.max_reflectance) {
-      materials.back().reflectance = colour.min(*options.max_reflectance);
-      if (colour.maxCoeff() > *options.max_reflectance && clamped++ == 0) first_clamped = reader.Line();
-    } else {
-      if (colour.maxCoeff() >= 1)
-        throw reader.Error("the reflectance Kd of " + Quoted(materials.back().name) +
-                           " is 1 or more; give values below 1, or clamp them with --max-reflectance");
-      materials.back().reflectance = colour;
-    }
-  }
-  if (clamped > 0)
-    warnings.push_back(
-        WarningAt(file, first_clamped,
-                  std::to_string(clamped) + " reflectance(s) clamped to the greatest allowed, first here"));
-  return materials;
+std::vector<DefinedMaterial> ReadMtlText(std::string_view text, std::string_view file,
+                                         const SceneOptions& options, std::vector<std::string>& warnings) {
+  RefuseForeignFormat(text, file, "a material library (MTL)");
+  return MtlParser(text, file, options).Parse(warnings);
 }
 
 }  // namespace penumbra

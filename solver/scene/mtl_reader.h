@@ -13,9 +13,16 @@
 
 namespace penumbra {
 
+// A material, and the line of its `newmtl`.
+struct DefinedMaterial {
+  Material material;
+  int line = 0;
+};
+
 // The materials of the text in their order; where no Kd stands, the reflectance is 50 % grey. `file` names
-// the text in messages; a clamped reflectance adds a line to `warnings`. Throws InputError.
-std::vector<Material> ReadMtlText(std::string_view text, std::string_view file, const SceneOptions& options,
-                                  std::vector<std::string>& warnings);
+// the text in messages; what was clamped or read in an unusual way adds a line to `warnings`. Throws
+// InputError.
+std::vector<DefinedMaterial> ReadMtlText(std::string_view text, std::string_view file,
+                                         const SceneOptions& options, std::vector<std::string>& warnings);
 
 }  // namespace penumbra

@@ -1,16 +1,19 @@
 #include "solver/scene/obj_reader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
 #include <span>
-#include <sstream>
 
+#include "solver/base/read_file.h"
 #include "solver/base/size.h"
 #include "solver/scene/face_check.h"
 #include "solver/scene/mtl_reader.h"
@@ -22,8 +25,10 @@
 namespace penumbra {
 namespace {
 
-// Products of three coordinates and their squares stay finite.
-constexpr double kLargestCoordinate = 1e50;
+// Products of three coordinates and their squares stay finite [m],
+constexpr double kLargestCoordinate = 1e36;
+// and areas and their products above the smallest doubles that have all digits.
+constexpr double kSmallestScene = 1e-36;
 
 // Statements of the format that add no polygon, or only say how one is shown.
 constexpr auto kPassedOver = std::to_array<std::string_view>(
@@ -38,17 +43,14 @@ bool Contains(const auto& list, std::string_view word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-std::string Plural(int count, std::string_view noun) {
-  return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
+std::string Plural(int count, std::string_view noun, std::string_view one = "", std::string_view many = "s") {
+  return std::to_string(count) + " " + std::string(noun) + std::string(count == 1 ? one : many);
 }
 
-// A length for a message, to two digits.
-std::string Shortest(double length) {
-  std::array<char, 32> text{};
-  const auto [end, error] =
-      std::to_chars(text.data(), text.data() + text.size(), length, std::chars_format::general, 2);
-  return {text.data(), end};
-}
+// Three digits of a length or a share, for messages.
+std::string Number(double value) { return fmt::format("{:.3g}", value); }
+
+std::int64_t Size64(const auto& list) { return static_cast<std::int64_t>(list.size()); }
 
 // How often something happened, and where first.
 struct Tally {
@@ -57,6 +59,20 @@ struct Tally {
   void Add(int line) {
     if (count++ == 0) first_line = line;
   }
+};
+
+// A face as it was read; its vertices may stand further down.
+struct FaceLine {
+  int line = 0;
+  std::size_t first = 0;      // of its corners
+  std::int32_t material = 0;  // in the order of `usemtl`; -1 for none
+  std::int32_t object = 0;
+};
+
+// A name that `usemtl` asks for.
+struct UsedMaterial {
+  std::string name;
+  int first_line = 0;
 };
 
 class ObjParser {
@@ -71,43 +87,58 @@ class ObjParser {
   void ReadStatement();
   void ReadVertex();
   void ReadFace();
-  std::int64_t ReadVertexIndex(std::string_view word) const;
-  std::int64_t Resolve(std::int64_t index, std::int64_t count, std::string_view what,
-                       std::string_view many) const;
+  void ReadCorner(std::string_view word);
   void ReadLibraries();
-  void ReadLibrary(std::string_view name, const std::string& text);
+  bool ReadLibrary(std::string_view name);
+  void MissLibrary(std::string_view name);
+  void Define(DefinedMaterial&& material, const std::string& file);
   void UseMaterial();
   void EnterObject();
   void EnterGroups();
-  std::int32_t DefaultMaterial();
   std::int32_t ObjectIndex(std::string_view name);
+  std::vector<std::int32_t> ResolveMaterials();
+  void CheckSize() const;
+  void MakeFaces();
+  Polygon3 MakePolygon(std::size_t face) const;
+  void CheckPolygon(Polygon3& polygon, int line);
   void AddBacks();
   void BuildScenePatches();
+  void WarnOfRepairs();
   void Warn(const Tally& tally, std::string_view what, std::string_view outcome);
+  // What strict reading refuses.
+  void Refuse(int line, std::string_view message) const {
+    if (options_.strict) throw ErrorAt(reader_.File(), line, message);
+  }
 
   StatementReader reader_;
   const MtlSource& mtl_source_;
   const SceneOptions& options_;
   Scene scene_;
   std::vector<Vec3> vertices_;
-  std::int64_t texture_vertices_ = 0, normals_ = 0;  // that there are; nothing else of them is read
-  std::vector<int> face_lines_;
-  std::map<std::string, std::int32_t, std::less<>> material_index_, object_index_;
-  std::set<std::string, std::less<>> libraries_;
-  std::int32_t material_ = -1, default_material_ = -1;
-  std::int32_t object_ = -1;          // of the last `o`
-  std::vector<std::int32_t> groups_;  // of the last `g`
-  Tally repeated_, flat_, not_read_;
+  std::vector<FaceLine> face_lines_;
+  std::vector<std::int64_t> corners_;  // of all faces: 0-based vertices
+  std::vector<UsedMaterial> used_;
+  std::map<std::string, std::int32_t, std::less<>> used_index_, material_index_, object_index_;
+  std::map<std::string, std::string, std::less<>> defined_at_;  // FILE:LINE of each material
+  std::set<std::string, std::less<>> libraries_;                // read or missed
+  std::int32_t material_ = -1;                                  // of the last `usemtl`
+  std::int32_t object_ = -1;                                    // of the last `o`
+  std::vector<std::int32_t> groups_;                            // of the last `g`
+  Tally repeated_, flat_, not_read_, uneven_, missing_libraries_;
+  std::vector<std::string> missing_library_names_;
+  int redefined_ = 0;                                     // materials
+  std::string redefinition_;                              // the warning of the first one
+  double largest_off_plane_ = 0, largest_off_share_ = 0;  // of uneven faces [m]; of their diameters
   WrittenDigits digits_;
 };
 
 Scene ObjParser::Parse() {
   scene_.name = std::filesystem::path(reader_.File()).stem().string();
   while (reader_.Next()) ReadStatement();
+  CheckSize();
+  MakeFaces();
   if (options_.two_sided) AddBacks();
-  Warn(repeated_, "face", "with repeated vertices, which were left out");
-  Warn(flat_, "face", "without area dropped");
-  Warn(not_read_, "statement", "that only free-form surfaces or included files use, passed over");
+  WarnOfRepairs();
   BuildScenePatches();
   return std::move(scene_);
 }
@@ -115,145 +146,299 @@ Scene ObjParser::Parse() {
 void ObjParser::ReadStatement() {
   const std::string_view keyword = reader_.Keyword();
   if (keyword == "v") return ReadVertex();
-  if (keyword == "vt") return void(++texture_vertices_);
-  if (keyword == "vn") return void(++normals_);
+  if (keyword == "vt" || keyword == "vn") return;
   if (keyword == "f") return ReadFace();
   if (keyword == "o") return EnterObject();
   if (keyword == "g") return EnterGroups();
   if (keyword == "usemtl") return UseMaterial();
   if (keyword == "mtllib") return ReadLibraries();
-  if (Contains(kNotRead, keyword)) return not_read_.Add(reader_.Line());
+  if (Contains(kNotRead, keyword)) {
+    Refuse(reader_.Line(), Quoted(keyword) + " adds a surface in a way that is not read; export polygons");
+    return not_read_.Add(reader_.Line());
+  }
+  if (keyword == "newmtl")
+    throw reader_.Error("newmtl belongs into a material library; give the OBJ file that names it by mtllib");
   if (!Contains(kPassedOver, keyword))
     throw reader_.Error(Quoted(keyword) + " is no OBJ keyword; correct the line or remove it");
 }
 
 // x y z, and perhaps a weight or a colour, which mean nothing here.
 void ObjParser::ReadVertex() {
-  const std::vector<std::string_view> words = reader_.Words();
-  if (words.size() < 3 || words.size() > 8)
+  constexpr std::size_t kMost = 8;  // with a weight and a colour of four channels
+  const std::vector<std::string_view> words = reader_.Values();
+  if (words.size() < 3 || words.size() > kMost)
     throw reader_.Error("a vertex with " + Plural(Size(words), "number") + "; write v x y z");
   Vec3 vertex;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const double number = reader_.Number(words[i]);
-    if (i >= 3) continue;
-    if (std::abs(number) > kLargestCoordinate)
-      throw reader_.Error(Quoted(words[i]) + " is too large for a coordinate; lengths are in metres");
-    vertex[static_cast<Eigen::Index>(i)] = number;
-    digits_.Add(static_cast<int>(i), words[i], number);
+  for (int axis = 0; axis < 3; ++axis) {
+    vertex[axis] = reader_.Number(words[axis]);
+    if (std::abs(vertex[axis]) > kLargestCoordinate)
+      throw reader_.Error(Quoted(words[axis]) +
+                          " is too large for a coordinate, which may be up to 1e36; lengths are in metres");
+    digits_.Add(axis, words[axis], vertex[axis]);
   }
   vertices_.push_back(vertex);
 }
 
-// The 0-based vertex that v, v/vt, v//vn or v/vt/vn refers to.
-std::int64_t ObjParser::ReadVertexIndex(std::string_view word) const {
-  std::array<std::optional<std::int64_t>, 3> index;
-  std::string_view rest = word;
-  bool fine = true;
-  for (int part = 0; part < 3; ++part) {
-    const std::size_t end = std::min(rest.find('/'), rest.size());
-    const char* const stop = rest.data() + end;
-    if (end > 0) {
-      const auto [last, error] = std::from_chars(rest.data(), stop, index[part].emplace());
-      fine = fine && error == std::errc() && last == stop;
-    } else {
-      fine = fine && part > 0;
-    }
-    const bool more = end < rest.size();
-    rest.remove_prefix(more ? end + 1 : end);
-    if (!more) break;
-    fine = fine && part < 2;
-  }
-  if (!fine)
-    throw reader_.Error(Quoted(word) +
-                        " is no vertex of a face; write v, v/vt, v//vn or v/vt/vn with integers");
-  if (index[1]) Resolve(*index[1], texture_vertices_, "texture vertex", "texture vertices");
-  if (index[2]) Resolve(*index[2], normals_, "normal", "normals");
-  return Resolve(*index[0], Size(vertices_), "vertex", "vertices");
+// True if the text is empty or an integer: numbers of texture vertices and normals, which are not used.
+bool IsUnusedIndex(std::string_view text) {
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  return text.find_first_not_of("0123456789") == text.npos;
 }
 
-// The 0-based place that an index means, of so many above it.
-std::int64_t ObjParser::Resolve(std::int64_t index, std::int64_t count, std::string_view what,
-                                std::string_view many) const {
-  const std::int64_t place = index > 0 ? index - 1 : count + index;
-  if (index != 0 && place >= 0 && place < count) return place;
-  const std::string wrong =
-      "the " + std::string(what) + " index " + std::to_string(index) + " is out of range; ";
-  if (count == 0)
-    throw reader_.Error(wrong + "there are no " + std::string(many) + " above; define them before the face");
-  throw reader_.Error(wrong + "use 1 to " + std::to_string(count) + " for the " + std::string(many) +
-                      " above, or count back from -1");
+// v, v/vt, v//vn or v/vt/vn: the vertex goes to the corners.
+void ObjParser::ReadCorner(std::string_view word) {
+  const std::size_t end = std::min(word.find('/'), word.size());
+  std::string_view unused = word.substr(end), digits = word.substr(0, end);
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  std::int64_t index = 0;
+  const auto [last, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+  bool fine = !digits.empty() && error == std::errc() && last == digits.data() + digits.size();
+  for (int part = 0; part < 2 && !unused.empty(); ++part) {
+    unused.remove_prefix(1);
+    const std::size_t stop = std::min(unused.find('/'), unused.size());
+    fine = fine && IsUnusedIndex(unused.substr(0, stop));
+    unused.remove_prefix(stop);
+  }
+  if (!fine || !unused.empty())
+    throw reader_.Error(Quoted(word) +
+                        " is no vertex of a face; write v, v/vt, v//vn or v/vt/vn with integers");
+  const std::int64_t above = Size64(vertices_);
+  if (index == 0)
+    throw reader_.Error("the vertex index 0 is out of range; the first vertex is 1, the last one above -1");
+  if (index < 0 && index + above < 0)
+    throw reader_.Error("the vertex index " + std::to_string(index) + " is out of range; there are " +
+                        std::to_string(above) + " vertices above to count back from -1");
+  corners_.push_back(index > 0 ? index - 1 : above + index);
 }
 
 void ObjParser::ReadFace() {
-  Face face;
-  const std::vector<std::string_view> words = reader_.Words();
-  for (const std::string_view word : words) face.vertices.push_back(vertices_[ReadVertexIndex(word)]);
-  if (words.size() < 3) throw reader_.Error("a face with fewer than three vertices; give three or more");
-  if (RemoveRepeatedVertices(face.vertices) > 0) repeated_.Add(reader_.Line());
-  switch (CheckFace(face.vertices)) {
-    case FaceCondition::kFine:
-      break;
-    case FaceCondition::kZeroArea:
-      flat_.Add(reader_.Line());
-      face.vertices.clear();
-      break;
-    case FaceCondition::kNotPlanar:
-      throw reader_.Error("the face is not planar to 1e-6 of its diameter; split it into triangles");
-    case FaceCondition::kSelfCrossing:
-      throw reader_.Error("the face crosses itself; put its vertices in order, or split it");
-  }
-  face.material = material_ >= 0 ? material_ : DefaultMaterial();
+  FaceLine face;
+  face.line = reader_.Line();
+  face.first = corners_.size();
+  for (const std::string_view word : reader_.Values()) ReadCorner(word);
+  if (corners_.size() - face.first < 3)
+    throw reader_.Error("a face with fewer than three vertices; give three or more");
+  face.material = material_;
   std::vector<std::int32_t> owners = groups_;
   if (object_ >= 0) owners.insert(owners.begin(), object_);
   if (owners.empty()) owners.push_back(ObjectIndex("default"));
   face.object = owners.front();
   std::sort(owners.begin(), owners.end());
   owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
-  for (const std::int32_t owner : owners)
-    scene_.objects[owner].faces.push_back(static_cast<std::int32_t>(scene_.faces.size()));
-  face_lines_.push_back(reader_.Line());
-  scene_.faces.push_back(std::move(face));
+  for (const std::int32_t owner : owners) scene_.objects[owner].faces.push_back(Size(face_lines_));
+  face_lines_.push_back(face);
+}
+
+// The names on a line: each ends in ".mtl" or at the end, since names may hold blanks.
+std::vector<std::string_view> LibraryNames(std::string_view arguments,
+                                           const std::vector<std::string_view>& words) {
+  constexpr std::string_view kEnding = ".mtl";
+  std::vector<std::string_view> names;
+  const char* begin = arguments.data();
+  for (const std::string_view word : words) {
+    const char* const end = word.data() + word.size();
+    const std::string_view ending = word.substr(word.size() - std::min(word.size(), kEnding.size()));
+    const bool is_end =
+        std::equal(ending.begin(), ending.end(), kEnding.begin(), kEnding.end(),
+                   [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
+    if (!is_end && end != arguments.data() + arguments.size()) continue;
+    names.emplace_back(begin, static_cast<std::size_t>(end - begin));
+    begin =
+        std::find_if(end, arguments.data() + arguments.size(), [](char c) { return c != ' ' && c != '\t'; });
+  }
+  return names;
 }
 
 // One library whose name may hold blanks, or several.
 void ObjParser::ReadLibraries() {
-  if (reader_.Arguments().empty()) throw reader_.Error("mtllib without a name; write mtllib FILE.mtl");
-  if (libraries_.contains(reader_.Arguments())) return;
-  if (const auto text = mtl_source_(reader_.Arguments())) return ReadLibrary(reader_.Arguments(), *text);
-  for (const std::string_view name : reader_.Words()) {
-    if (libraries_.contains(name)) continue;
-    const auto text = mtl_source_(name);
-    if (!text)
-      throw reader_.Error("the material library " + Quoted(name) +
-                          " cannot be read; put it beside the scene or correct its name");
-    ReadLibrary(name, *text);
+  const std::string_view arguments = reader_.Arguments();
+  if (arguments.empty()) throw reader_.Error("mtllib without a name; write mtllib FILE.mtl");
+  if (ReadLibrary(arguments)) return;
+  const std::vector<std::string_view> words = reader_.Words();
+  for (const std::string_view name : LibraryNames(arguments, words)) {
+    if (ReadLibrary(name)) continue;
+    bool any = false;
+    for (const std::string_view word : words)
+      if (word.data() >= name.data() && word.data() < name.data() + name.size() && word.size() < name.size())
+        any = ReadLibrary(word) || any;
+    if (!any) MissLibrary(name);
   }
 }
 
-void ObjParser::ReadLibrary(std::string_view name, const std::string& text) {
-  libraries_.emplace(name);
-  const std::string file = (std::filesystem::path(reader_.File()).parent_path() / name).string();
-  for (Material& material : ReadMtlText(text, file, options_, scene_.warnings)) {
-    material_index_[material.name] = static_cast<std::int32_t>(scene_.materials.size());
-    scene_.materials.push_back(std::move(material));
+// The names under which a library may lie beside the scene: as written, with the separators of this system,
+// and, where a path leads to another machine, by its last part.
+std::vector<std::string> PlacesOf(std::string_view name) {
+  if (name.size() > 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+  std::string here(name);
+  std::replace(here.begin(), here.end(), '\\', '/');
+  std::vector<std::string> places = {std::string(name), here, here.substr(here.rfind('/') + 1)};
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  return places;
+}
+
+// False if there is no such library.
+bool ObjParser::ReadLibrary(std::string_view name) {
+  if (libraries_.contains(name)) return true;
+  for (const std::string& place : PlacesOf(name)) {
+    if (place.empty()) continue;
+    const std::optional<std::string> text = mtl_source_(place);
+    if (!text) continue;
+    libraries_.emplace(name);
+    if (!libraries_.insert(place).second && place != name) return true;
+    const std::string file = (std::filesystem::path(reader_.File()).parent_path() / place).string();
+    for (DefinedMaterial& material : ReadMtlText(*text, file, options_, scene_.warnings))
+      Define(std::move(material), file);
+    return true;
   }
+  return false;
+}
+
+void ObjParser::MissLibrary(std::string_view name) {
+  libraries_.emplace(name);
+  Refuse(reader_.Line(), "the material library " + Quoted(name) +
+                             " cannot be read; put it beside the scene or correct its name");
+  missing_libraries_.Add(reader_.Line());
+  missing_library_names_.emplace_back(name);
+}
+
+void ObjParser::Define(DefinedMaterial&& defined, const std::string& file) {
+  const std::string name = defined.material.name;
+  const auto [at, is_new] = material_index_.try_emplace(name, Size(scene_.materials));
+  if (is_new) {
+    scene_.materials.push_back(std::move(defined.material));
+  } else {
+    const std::string told =
+        "the material " + Quoted(name) + " is defined a second time, after " + defined_at_[name];
+    if (options_.strict) throw ErrorAt(file, defined.line, told + "; remove one, or rename it");
+    if (redefined_++ == 0)
+      redefinition_ = WarningAt(file, defined.line, told + "; this definition counts, the last of a name");
+    scene_.materials[at->second] = std::move(defined.material);
+  }
+  defined_at_[name] = PlaceOf(file, defined.line);
 }
 
 void ObjParser::UseMaterial() {
-  const auto found = material_index_.find(reader_.Arguments());
-  if (found == material_index_.end())
-    throw reader_.Error("the material " + Quoted(reader_.Arguments()) +
-                        " is not defined; name its library with mtllib above, or correct the name");
+  const std::string_view name = reader_.Arguments();
+  if (name.empty()) return void(material_ = -1);
+  auto found = used_index_.find(name);
+  if (found == used_index_.end()) {
+    found = used_index_.emplace(std::string(name), Size(used_)).first;
+    used_.push_back({std::string(name), reader_.Line()});
+  }
   material_ = found->second;
 }
 
-std::int32_t ObjParser::DefaultMaterial() {
-  if (default_material_ < 0) {
-    default_material_ = static_cast<std::int32_t>(scene_.materials.size());
-    scene_.materials.emplace_back();
-    scene_.materials.back().name = "default";
+// Of each name that was used, the material. What is not defined is grey.
+std::vector<std::int32_t> ObjParser::ResolveMaterials() {
+  std::vector<std::int32_t> materials;
+  std::vector<std::string> unknown;
+  int first_line = 0;
+  for (const UsedMaterial& used : used_) {
+    const auto found = material_index_.find(used.name);
+    if (found != material_index_.end()) {
+      materials.push_back(found->second);
+      continue;
+    }
+    Refuse(used.first_line, "the material " + Quoted(used.name) +
+                                " is not defined; name its library with mtllib, or correct the name");
+    if (unknown.empty()) first_line = used.first_line;
+    unknown.push_back(used.name);
+    materials.push_back(Size(scene_.materials));
+    scene_.materials.emplace_back().name = used.name;
   }
-  return default_material_;
+  if (!unknown.empty())
+    scene_.warnings.push_back(
+        WarningAt(reader_.File(), first_line,
+                  (unknown.size() == 1 ? "the material " : Plural(Size(unknown), "material") + ": ") +
+                      QuotedList(unknown) + (unknown.size() == 1 ? " is" : ": are") +
+                      " not defined, and 50 % grey; name the library with mtllib, or correct the name"));
+  return materials;
+}
+
+// All that faces refer to lies in a box that is large enough.
+void ObjParser::CheckSize() const {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const std::int64_t corner : corners_) {
+    if (corner >= Size64(vertices_)) return;  // MakeFaces() tells
+    low = low.cwiseMin(vertices_[corner]);
+    high = high.cwiseMax(vertices_[corner]);
+  }
+  const double across = corners_.empty() ? 0 : (high - low).maxCoeff();
+  if (across > 0 && across < kSmallestScene)
+    throw ErrorAt(reader_.File(), 0,
+                  "all faces lie within " + Number(across) +
+                      " m, but a scene has to be larger than 1e-36 m; lengths are in metres");
+}
+
+// The vertices of a face, looked up. Throws InputError if one is not there.
+Polygon3 ObjParser::MakePolygon(std::size_t face) const {
+  const std::size_t end = face + 1 < face_lines_.size() ? face_lines_[face + 1].first : corners_.size();
+  Polygon3 polygon;
+  polygon.reserve(end - face_lines_[face].first);
+  for (std::size_t i = face_lines_[face].first; i < end; ++i) {
+    if (corners_[i] >= Size64(vertices_))
+      throw ErrorAt(reader_.File(), face_lines_[face].line,
+                    "the vertex index " + std::to_string(corners_[i] + 1) + " is out of range; " +
+                        (vertices_.empty() ? "the file has no vertices"
+                                           : "use 1 to " + std::to_string(vertices_.size()) +
+                                                 " for the vertices of the file, or count back from -1"));
+    polygon.push_back(vertices_[corners_[i]]);
+  }
+  return polygon;
+}
+
+// Mends the polygon, drops it (it is then empty), or throws InputError.
+void ObjParser::CheckPolygon(Polygon3& polygon, int line) {
+  if (RemoveRepeatedVertices(polygon) > 0) {
+    Refuse(line, "the face repeats a vertex; leave it out");
+    repeated_.Add(line);
+  }
+  const FaceCheck check = CheckFace(polygon);
+  const auto off = [&] {
+    return Number(check.off_plane) + " m, " + Number(100 * check.off_plane / check.diameter) +
+           " % of its diameter";
+  };
+  switch (check.condition) {
+    case FaceCondition::kFine:
+      break;
+    case FaceCondition::kZeroArea:
+      Refuse(line, "the face has no area; remove it");
+      flat_.Add(line);
+      polygon.clear();
+      break;
+    case FaceCondition::kUneven: {
+      Refuse(line, "the face is not planar to 1e-6 of its diameter: it is off by " + off() +
+                       "; split it into triangles");
+      uneven_.Add(line);
+      largest_off_plane_ = std::max(largest_off_plane_, check.off_plane);
+      largest_off_share_ = std::max(largest_off_share_, check.off_plane / check.diameter);
+      break;
+    }
+    case FaceCondition::kFolded:
+      throw ErrorAt(reader_.File(), line,
+                    "the face is not planar: it is off by " + off() + "; split it into triangles");
+    case FaceCondition::kSelfCrossing:
+      throw ErrorAt(reader_.File(), line, "the face crosses itself; put its vertices in order, or split it");
+  }
+}
+
+void ObjParser::MakeFaces() {
+  const std::vector<std::int32_t> materials = ResolveMaterials();
+  std::int32_t without = -1;  // the material of faces without one
+  scene_.faces.reserve(face_lines_.size());
+  for (std::size_t i = 0; i < face_lines_.size(); ++i) {
+    const FaceLine& line = face_lines_[i];
+    Face face;
+    face.vertices = MakePolygon(i);
+    CheckPolygon(face.vertices, line.line);
+    face.object = line.object;
+    if (line.material < 0 && without < 0) {
+      without = Size(scene_.materials);
+      scene_.materials.emplace_back().name = "default";
+    }
+    face.material = line.material < 0 ? without : materials[line.material];
+    scene_.faces.push_back(std::move(face));
+  }
 }
 
 std::int32_t ObjParser::ObjectIndex(std::string_view name) {
@@ -296,15 +481,35 @@ void ObjParser::BuildScenePatches() {
     std::set<std::int32_t> once;  // a face and its back count once
     for (const std::int32_t face : faces) once.insert(face % Size(face_lines_));
     Tally of_faces;
-    for (const std::int32_t face : once) of_faces.Add(face_lines_[face]);
+    for (const std::int32_t face : once) of_faces.Add(face_lines_[face].line);
     return of_faces;
   };
   std::string cut = "cut where others lie in the same plane and look the same way";
   // Below a rounding there is nothing to tell.
   if (report.largest_distance > kCoplanarTolerance * scene_.Diagonal())
-    cut += " (planes " + Shortest(report.largest_distance) + " m apart count as one)";
+    cut += " (planes " + Number(report.largest_distance) + " m apart count as one)";
   Warn(tally(report.cut_faces), "face", cut);
   Warn(tally(report.narrow_faces), "face", "too narrow to hold a point left out");
+}
+
+void ObjParser::WarnOfRepairs() {
+  if (reader_.LineEndedByCr() > 0)
+    scene_.warnings.push_back(WarningAt(reader_.File(), reader_.LineEndedByCr(), kLinesEndInCr));
+  if (missing_libraries_.count > 0)
+    scene_.warnings.push_back(WarningAt(reader_.File(), missing_libraries_.first_line,
+                                        Plural(missing_libraries_.count, "material librar", "y", "ies") +
+                                            " cannot be read: " + QuotedList(missing_library_names_) +
+                                            "; put it beside the scene, or correct the name"));
+  if (redefined_ > 0)
+    scene_.warnings.push_back(
+        redefinition_ +
+        (redefined_ > 1 ? "; " + std::to_string(redefined_ - 1) + " more are defined again below" : ""));
+  Warn(repeated_, "face", "with repeated vertices, which were left out");
+  Warn(flat_, "face", "without area dropped");
+  Warn(uneven_, "face",
+       "not planar to 1e-6 of the diameter and cut into triangles, at most " + Number(largest_off_plane_) +
+           " m and " + Number(100 * largest_off_share_) + " % of the diameter off");
+  Warn(not_read_, "statement", "that only free-form surfaces or included files use, passed over");
 }
 
 void ObjParser::Warn(const Tally& tally, std::string_view what, std::string_view outcome) {
@@ -314,29 +519,33 @@ void ObjParser::Warn(const Tally& tally, std::string_view what, std::string_view
                                           (tally.count == 1 ? "" : "; the first is here")));
 }
 
-std::optional<std::string> ReadWholeFile(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  std::ostringstream text;
-  text << file.rdbuf();
-  return std::move(text).str();
+// The text of a library; nothing if there is none, or none that may be read.
+std::optional<std::string> ReadLibraryFile(const std::filesystem::path& path) {
+  try {
+    return ReadFileBytes(path.string());
+  } catch (const ReadFailure& failure) {
+    if (!failure.Opened()) return std::nullopt;
+    throw ErrorAt(path.string(), 0, failure.what());
+  }
 }
 
 }  // namespace
 
 Scene ReadObjText(std::string_view text, std::string_view file_name, const MtlSource& mtl_source,
                   const SceneOptions& options) {
+  RefuseForeignFormat(text, file_name, "an OBJ file");
   return ObjParser(text, file_name, mtl_source, options).Parse();
 }
 
 Scene ReadObj(const std::filesystem::path& path, const SceneOptions& options) {
-  const std::optional<std::string> text = ReadWholeFile(path);
-  if (!text)
-    throw ErrorAt(path.string(), 0, "cannot be opened; check the name and the permission to read it");
-  const MtlSource beside = [&](std::string_view name) { return ReadWholeFile(path.parent_path() / name); };
-  return ReadObjText(*text, path.string(), beside, options);
+  std::string text;
+  try {
+    text = ReadFileBytes(path.string());
+  } catch (const ReadFailure& failure) {
+    throw ErrorAt(path.string(), 0, std::string(failure.what()) + "; give an OBJ file that can be read");
+  }
+  const MtlSource beside = [&](std::string_view name) { return ReadLibraryFile(path.parent_path() / name); };
+  return ReadObjText(text, path.string(), beside, options);
 }
 
 }  // namespace penumbra

@@ -13,12 +13,11 @@
 namespace penumbra {
 namespace {
 
-// A name that the reader takes as it is: one line, no comment, nothing to trim.
+// A name that the reader takes as it is: one line, nothing to trim.
 std::string Plain(std::string name, bool blanks_allowed) {
   for (char& c : name)
     if (static_cast<unsigned char>(c) < 0x20 || (c == ' ' && !blanks_allowed)) c = '_';
-  for (std::size_t at = name.find(" #"); at != name.npos; at = name.find(" #", at)) name[at] = '_';
-  if (!name.empty() && (name.front() == ' ' || name.front() == '#')) name.front() = '_';
+  if (!name.empty() && name.front() == ' ') name.front() = '_';
   if (!name.empty() && (name.back() == ' ' || name.back() == '\\')) name.back() = '_';
   return name.empty() ? "unnamed" : name;
 }

@@ -116,16 +116,20 @@ void PatchBuilder::MakeOutlines() {
   for (std::int32_t f = 0; f < Size(scene_.faces); ++f) {
     const Face& face = scene_.faces[f];
     if (face.vertices.empty()) continue;
-    Outline outline;
-    const PlaneProjection projection(face.vertices[0], VectorArea(face.vertices));
-    for (const std::int32_t i : WithoutStraightCorners(Project(projection, face.vertices)))
-      outline.vertices.push_back(face.vertices[i]);
-    outline.faces = {f};
-    outline.material = face.material;
-    outline.object = face.object;
-    outline.owners = owners[f];
-    Measure(outline);
-    outlines_.push_back(std::move(outline));
+    const std::vector<Polygon3> pieces = FlatPieces(face.vertices);
+    for (const Polygon3& piece : pieces) {
+      Outline outline;
+      const PlaneProjection projection(piece[0], VectorArea(piece));
+      for (const std::int32_t i : WithoutStraightCorners(Project(projection, piece)))
+        outline.vertices.push_back(piece[i]);
+      outline.faces = {f};
+      outline.material = face.material;
+      outline.object = face.object;
+      outline.owners = owners[f];
+      outline.is_piece = pieces.size() > 1;
+      Measure(outline);
+      outlines_.push_back(std::move(outline));
+    }
   }
 }
 
@@ -140,7 +144,7 @@ void PatchBuilder::JoinTriangularOutlines() {
   };
   std::vector<Side> sides;
   for (std::int32_t i = 0; i < Size(outlines_); ++i)
-    if (outlines_[i].vertices.size() == 3)
+    if (outlines_[i].vertices.size() == 3 && !outlines_[i].is_piece)
       for (int k = 0; k < 3; ++k)
         sides.push_back({point(outlines_[i].vertices[k]), point(outlines_[i].vertices[(k + 1) % 3]), i, k});
   const auto less = [](const Side& a, const Side& b) {

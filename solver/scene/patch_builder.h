@@ -21,7 +21,9 @@ struct PatchReport {
 
 // Fills scene.patches from scene.faces, ascending by their first face, and finds the solids among them:
 //
-//  (1) Convex triangles and quadrilaterals stay as they are. A straight corner is left out.
+//  (1) Convex triangles and quadrilaterals stay as they are. A straight corner is left out. Faces that are
+//  not
+//      planar are cut into triangles: FlatPieces().
 //  (2) Coplanar triangles of the same objects and material with a common edge are joined where they form a
 //  convex
 //      quadrilateral, the best shaped first.

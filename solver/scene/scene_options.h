@@ -19,6 +19,7 @@ struct SceneOptions {
   // May give the materials that were read other values, before patches are built: of faces in one plane the
   // one that emits is seen.
   std::function<void(std::vector<Material>&)> change_materials = nullptr;
+  bool strict = false;  // what would be repaired and warned about is refused
 };
 
 }  // namespace penumbra

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 #include <optional>
 #include <vector>
 
@@ -34,6 +35,17 @@ void FilterHits(const RTCFilterFunctionNArguments* args) {
   }
 }
 
+// Throws unless it is so and the library has no error to tell of; std::bad_alloc where memory ended, which it
+// tells as an unknown error where its tasks or threads found out. What the library holds is then left to the
+// end of the program, since it aborts over taking down what is half made.
+void Demand(RTCDevice device, bool is_so) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (is_so && error == RTC_ERROR_NONE) return;
+  if (error == RTC_ERROR_UNSUPPORTED_CPU)
+    throw InputError("penumbra: error: rays cannot be cast, since Embree does not know this processor");
+  throw std::bad_alloc();
+}
+
 }  // namespace
 
 struct RayCaster::Impl {
@@ -52,8 +64,9 @@ struct RayCaster::Impl {
 
 RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   impl_->device = rtcNewDevice(nullptr);
-  PENUMBRA_CHECK(impl_->device != nullptr);
+  Demand(nullptr, impl_->device != nullptr);
   impl_->scene = rtcNewScene(impl_->device);
+  Demand(impl_->device, impl_->scene != nullptr);
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
   const auto [low, high] = scene.Bounds();
   impl_->origin = 0.5 * (low + high);
@@ -61,11 +74,13 @@ RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   if (!scene.patches.empty()) {
     // Triangles are quads whose last two vertices coincide, as Embree documents.
     const RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_QUAD);
+    Demand(impl_->device, geometry != nullptr);
     const std::size_t count = scene.patches.size();
     auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 4 * count));
     auto* index = static_cast<unsigned int*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(unsigned int), count));
+    Demand(impl_->device, vertex != nullptr && index != nullptr);
     for (std::size_t p = 0; p < count; ++p) {
       impl_->normals.push_back(scene.patches[p].normal);
       for (std::size_t k = 0; k < 4; ++k) {
@@ -81,6 +96,7 @@ RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
     rtcReleaseGeometry(geometry);
   }
   rtcCommitScene(impl_->scene);
+  Demand(impl_->device, true);
 }
 
 RayCaster::~RayCaster() {

@@ -181,7 +181,7 @@ TEST(Solution, IsRefusedWhenDamaged) {
              {"info", name}, {"render", name, "-o", "x.png"}, {"solve", name, "-o", "x.h5"}}) {
       const Outcome outcome = sandbox.Run(command);
       EXPECT_EQ(outcome.status, 1) << name;
-      EXPECT_THAT(outcome.err, testing::StartsWith(std::string(name) + ":0: error: "));
+      EXPECT_THAT(outcome.err, testing::StartsWith(std::string(name) + ": error: "));
       EXPECT_THAT(Lines(outcome.err), testing::SizeIs(1));
       EXPECT_EQ(outcome.out, "");
     }
