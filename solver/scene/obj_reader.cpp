@@ -92,6 +92,8 @@ class ObjParser {
 Scene ObjParser::Parse() {
   scene_.name = std::filesystem::path(reader_.File()).stem().string();
   while (reader_.Next()) ReadStatement();
+  if (options_.flip)
+    for (Face& face : scene_.faces) std::reverse(face.vertices.begin(), face.vertices.end());
   if (options_.two_sided) AddBacks();
   Warn(repeated_, "face", "with repeated vertices, which were left out");
   Warn(flat_, "face", "without area dropped");
@@ -312,7 +314,11 @@ Scene ReadObj(const std::filesystem::path& path, const SceneOptions& options) {
   const std::optional<std::string> text = ReadWholeFile(path);
   if (!text)
     throw ErrorAt(path.string(), 0, "cannot be opened; check the name and the permission to read it");
-  const MtlSource beside = [&](std::string_view name) { return ReadWholeFile(path.parent_path() / name); };
+  const MtlSource beside = [&](std::string_view name) {
+    const std::filesystem::path library = path.parent_path() / name;
+    if (options.before_library) options.before_library(library.string());
+    return ReadWholeFile(library);
+  };
   return ReadObjText(*text, path.string(), beside, options);
 }
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace penumbra {
@@ -19,6 +20,9 @@ struct SceneOptions {
   // May give the materials that were read other values, before patches are built: of faces in one plane the
   // one that emits is seen.
   std::function<void(std::vector<Material>&)> change_materials = nullptr;
+  bool flip = false;  // every face is turned: its vertices run the other way round
+  // Hears of every material library before it is opened, and may throw.
+  std::function<void(const std::string& path)> before_library = nullptr;
 };
 
 }  // namespace penumbra

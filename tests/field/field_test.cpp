@@ -36,8 +36,12 @@ void ExpectNumber(double got, const json& want, const json& bounds, const std::s
     EXPECT_LE(std::abs(got - value), allowed) << "got " << got << ", want " << value;
     EXPECT_FALSE(std::isnan(got));
   }
-  if (bounds.contains("at_most")) EXPECT_LE(got, bounds["at_most"].get<double>());
-  if (bounds.contains("at_least")) EXPECT_GE(got, bounds["at_least"].get<double>());
+  if (bounds.contains("at_most")) {
+    EXPECT_LE(got, bounds["at_most"].get<double>());
+  }
+  if (bounds.contains("at_least")) {
+    EXPECT_GE(got, bounds["at_least"].get<double>());
+  }
 }
 
 void ExpectColumns(const std::string& csv, const json& columns) {
@@ -49,7 +53,9 @@ void ExpectColumns(const std::string& csv, const json& columns) {
     ASSERT_NE(column, header.end()) << name;
     const auto at = static_cast<std::size_t>(column - header.begin());
     const json want = bounds.value("want", json());
-    if (want.is_array()) ASSERT_EQ(lines.size() - 1, want.size()) << name;
+    if (want.is_array()) {
+      ASSERT_EQ(lines.size() - 1, want.size()) << name;
+    }
     for (std::size_t row = 1; row < lines.size(); ++row) {
       const double got = std::stod(Fields(lines[row]).at(at));
       ExpectNumber(got, want.is_array() ? want[row - 1] : want, bounds,
@@ -74,10 +80,11 @@ void ExpectJson(const fs::path& file, const json& has) {
     SCOPED_TRACE(pointer);
     const json::json_pointer at(pointer);
     ASSERT_TRUE(document.contains(at));
-    if (want.is_object())
+    if (want.is_object()) {
       ExpectNumber(document[at].get<double>(), want.value("want", json()), want, pointer);
-    else
+    } else {
       EXPECT_EQ(document[at], want);
+    }
   }
 }
 
@@ -92,8 +99,9 @@ void Expect(const Outcome& outcome, const Sandbox& sandbox, const json& run, std
   EXPECT_EQ(outcome.status, run.value("status", 0)) << outcome.err;
   ExpectParts(outcome.err, run, "err");
   ExpectParts(outcome.out, run, "out");
-  if (run.contains("err_lines"))
+  if (run.contains("err_lines")) {
     EXPECT_EQ(Lines(outcome.err).size(), run["err_lines"].get<std::size_t>()) << outcome.err;
+  }
   if (run.contains("columns")) ExpectColumns(outcome.out, run["columns"]);
   if (run.contains("out_numbers")) ExpectNumbers(outcome.out, run["out_numbers"]);
   if (run.contains("json")) ExpectJson(sandbox.Path(run["json"]["file"]), run["json"]["has"]);
