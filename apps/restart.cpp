@@ -25,25 +25,27 @@ LoadedScene LoadRestart(SceneArguments& arguments, const std::string& from) {
           "--{} says how links are made, but --restart keeps those of '{}'; leave one of the two out", name,
           from));
   }
-  LoadedScene loaded = LoadScene(arguments);
+  LoadedScene loaded = LoadQuietly(arguments);
   PENUMBRA_CHECK(!loaded.stored);  // such options are refused beside a solution
+  arguments.outputs.RefuseInput(from);
   LoadedScene solved = LoadSolution(from);
   StoredRun run = std::move(*solved.stored);
   if (run.solving.dense)
-    throw InputError(fmt::format(
-        "{}:0: error: the dense solver made it, which keeps no links; solve the scene anew", from));
+    throw InputError(
+        fmt::format("{}: error: the dense solver made it, which keeps no links; solve the scene anew", from));
   if (run.state.report.iterations.empty())
     throw InputError(
-        fmt::format("{}:0: error: its solve ended before it had links; solve the scene anew", from));
+        fmt::format("{}: error: its solve ended before it had links; solve the scene anew", from));
   if (const std::optional<std::string> difference = GeometryDifference(solved.scene, loaded.scene))
     throw InputError(
-        fmt::format("{}:0: error: it is no solution of '{}' with other materials: {}; solve the scene anew",
+        fmt::format("{}: error: it is no solution of '{}' with other materials: {}; solve the scene anew",
                     from, arguments.scene, *difference));
   // The same elements, of patches with other materials.
   ElementForest& forest = run.state.solution.forest;
   forest = RestoreForest(loaded.scene, forest.elements());
   TakeLinkOptions(run.solving, &arguments.solving);
   loaded.restart = std::move(run);
+  TellWarnings(loaded);
   return loaded;
 }
 

@@ -187,11 +187,11 @@ TEST(Restart, RefusesWhatDoesNotFit) {
     std::string says;
   };
   for (const Case& c :
-       {Case{{"other.obj", "--restart", "a.h5"}, 1, "a.h5:0: error: it is no solution of"},
+       {Case{{"other.obj", "--restart", "a.h5"}, 1, "a.h5: error: it is no solution of"},
         Case{{"furnace", "--two-sided", "--restart", "a.h5"}, 1, "6 faces against 12"},
-        Case{{"furnace", "--restart", "none.h5"}, 1, "none.h5:0: error: there is no such file"},
-        Case{{"furnace", "--restart", "text"}, 1, "text:0: error: it is no solution"},
-        Case{{"furnace", "--restart", "dense.h5"}, 1, "dense.h5:0: error: the dense solver"},
+        Case{{"furnace", "--restart", "none.h5"}, 1, "none.h5: error: there is no such file"},
+        Case{{"furnace", "--restart", "text"}, 1, "text: error: it is no solution"},
+        Case{{"furnace", "--restart", "dense.h5"}, 1, "dense.h5: error: the dense solver"},
         Case{{"a.h5", "--restart", "a.h5"}, 2, "'a.h5' is a solution"},
         Case{{"furnace", "--restart", "a.h5", "--eps", "1"}, 2, "--eps says how links"},
         Case{{"furnace", "--restart", "a.h5", "--solver", "dense"}, 2, "--solver says how"}}) {

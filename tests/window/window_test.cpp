@@ -410,7 +410,7 @@ wait idle
   for (const auto& [script, says] :
        {std::pair("set eps 1", "eps: it says how links are made"),
         {"set two-sided on", "it is no solution of"},
-        {"set restart nowhere.h5", "restart: nowhere.h5:0: error: there is no"}}) {
+        {"set restart nowhere.h5", "restart: nowhere.h5: error: there is no"}}) {
     const Outcome wrong = Play(script, over);
     EXPECT_EQ(wrong.status, 1) << script;
     EXPECT_THAT(wrong.err, HasSubstr(says));
