@@ -45,7 +45,7 @@ RgbImage ReadPicture(const std::string& path) {
       for (const float value : image.At(x, y))
         if (!std::isfinite(value))
           throw InputError(fmt::format(
-              "{}:0: error: the pixel in column {}, row {} is no number; give a picture without such pixels",
+              "{}: error: the pixel in column {}, row {} is no number; give a picture without such pixels",
               path, x, y));
   return image;
 }
@@ -85,11 +85,13 @@ Json DiffOptionsUsed(const DiffArguments& arguments) {
 void Diff(const DiffArguments& arguments) {
   SetThreadCount(arguments.threads);
   if (arguments.verbose) PrintOptionsUsed(DiffOptionsUsed(arguments));
-  if (arguments.output) CheckWritable(*arguments.output);
+  OutputFiles outputs;
+  outputs.Add("-o", arguments.output);
+  for (const std::string& picture : {arguments.reference, arguments.test}) outputs.RefuseInput(picture);
   const RgbImage reference = ReadPicture(arguments.reference), test = ReadPicture(arguments.test);
   if (reference.width != test.width || reference.height != test.height)
     throw InputError(fmt::format(
-        "{}:0: error: it has {}x{} pixels, but {} has {}x{}; give pictures of one size", arguments.test,
+        "{}: error: it has {}x{} pixels, but {} has {}x{}; give pictures of one size", arguments.test,
         test.width, test.height, arguments.reference, reference.width, reference.height));
   const std::array<ChannelError, 3> errors = RelativeErrors(reference, test);
   VisibleDifference visible;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,10 +36,25 @@ void RefuseSolve(const ExportArguments& arguments) {
                                    arguments.output));
 }
 
+// Options that the format has no use for.
+void RefuseIdle(const ExportArguments& arguments) {
+  const std::string format = std::filesystem::path(arguments.output).extension().string();
+  if (arguments.exposure && format != ".ply" && format != ".glb")
+    throw UsageError(
+        fmt::format("--exposure is of the colours in .ply and .glb, and {} has none; leave it out", format));
+  const CameraArguments& camera = arguments.camera;
+  if (format != ".pbrt" &&
+      (camera.camera || camera.eye || camera.look_at || camera.up || camera.vertical_fov))
+    throw UsageError(fmt::format("a camera is of .pbrt, and {} has none; leave its options out", format));
+}
+
 void Export(ExportArguments arguments) {
+  RefuseIdle(arguments);
   if (!ExportsMesh(arguments.output)) RefuseSolve(arguments);
-  CheckWritable(arguments.output);
-  if (arguments.scene.report) CheckWritable(*arguments.scene.report);
+  arguments.scene.outputs.Add("-o", arguments.output);
+  arguments.scene.outputs.Add("--report", arguments.scene.report);
+  if (const std::optional<std::string> library = LibraryBeside(arguments.output))
+    arguments.scene.outputs.Add("the library of -o", *library);
   LoadedScene loaded = LoadToSolve(arguments.scene);
   if (!ExportsMesh(arguments.output)) {
     if (arguments.scene.verbose) PrintOptionsUsed(OptionsUsed(arguments.scene, nullptr));

@@ -28,6 +28,9 @@ constexpr const char* kCubature = "cubature";
 constexpr const char* kMonteCarlo = "monte-carlo";
 constexpr const char* kSampled = "sampled";  // of the methods at points, not here
 
+// Doubles do not keep more digits of a form factor.
+constexpr NumberRule kTolerance{[](double x) { return x >= 1e-13 && x <= 1; }, "a number from 1e-13 to 1"};
+
 struct FormFactorArguments {
   SceneArguments scene;
   std::string from, to;
@@ -59,11 +62,28 @@ bool Integrates(const std::string& method) {
   return method == kAuto || method == kExact || IsAtPoints(method);
 }
 
+std::vector<std::string> NamesOf(const std::vector<Object>& objects) {
+  std::vector<std::string> names;
+  for (const Object& object : objects) names.push_back(object.name);
+  return names;
+}
+
+// What only some methods take.
+void CheckMethod(const FormFactorArguments& arguments) {
+  const auto given = [&](const char* name) { return arguments.scene.app->get_option(name)->count() > 0; };
+  if (given("--tolerance") && !Integrates(arguments.method))
+    throw UsageError(fmt::format(
+        "--tolerance is of exact point factors, and --method {} has none; leave one out", arguments.method));
+  if (given("--rays") && arguments.method != kMonteCarlo)
+    throw UsageError(
+        fmt::format("--rays is of monte-carlo, and --method {} casts none; leave one out", arguments.method));
+}
+
 // The faces of the objects and groups of that name; without one, the face with that number.
 std::vector<std::int32_t> FindFaces(const FormFactorArguments& arguments, const Scene& scene,
                                     const std::string& name) {
   const auto fail = [&](const std::string& what) {
-    throw InputError(fmt::format("{}:0: error: {}", arguments.scene.scene, what));
+    throw InputError(fmt::format("{}: error: {}", arguments.scene.scene, what));
   };
   std::vector<std::int32_t> faces;
   bool named = false;
@@ -77,10 +97,10 @@ std::vector<std::int32_t> FindFaces(const FormFactorArguments& arguments, const 
     const char *begin = name.data(), *end = begin + name.size();
     const auto [stop, error] = std::from_chars(begin, end, index);
     if (stop != end || name.empty() || error == std::errc::invalid_argument)
-      fail(fmt::format(
-          "there is no object or group `{}`; `penumbra info` lists them, and a face has the number "
-          "of its f line, from 0",
-          name));
+      fail(
+          fmt::format("there is no object or group `{}`; there are {}, and faces by the number of their f "
+                      "line, from 0",
+                      name, scene.objects.empty() ? "none" : NameList(NamesOf(scene.objects))));
     if (error != std::errc() || index >= scene.faces.size())
       fail(scene.faces.empty() ? fmt::format("there is no face {}; the scene has none", name)
                                : fmt::format("there is no face {}; faces have the numbers 0 to {}", name,
@@ -98,13 +118,13 @@ std::vector<AreaPart> FindParts(const FormFactorArguments& arguments, const Scen
   for (const std::int32_t face : FindFaces(arguments, scene, name))
     for (AreaPart& part : PartsOfFace(scene, face)) parts.push_back(std::move(part));
   if (parts.empty())
-    throw InputError(
-        fmt::format("{}:0: error: nothing is left of `{}`: it has no faces, or they were dropped",
-                    arguments.scene.scene, name));
+    throw InputError(fmt::format("{}: error: nothing is left of `{}`: it has no faces, or they were dropped",
+                                 arguments.scene.scene, name));
   return parts;
 }
 
 void PrintFormFactor(const FormFactorArguments& arguments) {
+  CheckMethod(arguments);
   const LoadedScene loaded = LoadScene(arguments.scene);
   const Scene& scene = loaded.scene;
   const std::vector<AreaPart> from = FindParts(arguments, scene, arguments.from),
@@ -148,6 +168,7 @@ Command AddFormFactorCommand(CLI::App& program) {
   CLI::App* app = program.add_subcommand("form-factor", "Print the form factor from some faces to others");
   const auto arguments = std::make_shared<FormFactorArguments>();
   AddSceneArguments(*app, &arguments->scene);
+  arguments->scene.lit = false;
   app->add_option("--from", arguments->from, "Where the flux leaves: an object, a group or a face's number")
       ->required()
       ->type_name("OBJECT");
@@ -167,7 +188,7 @@ Command AddFormFactorCommand(CLI::App& program) {
       ->check(CLI::IsMember(methods))
       ->type_name("METHOD")
       ->capture_default_str();
-  AddNumber(*app, "--tolerance", &arguments->tolerance, kPositive,
+  AddNumber(*app, "--tolerance", &arguments->tolerance, kTolerance,
             "auto, exact and their like: the error that is asked for, relative to the factor; of factors "
             "that are less than it, relative to itself. Left out: 1e-7 where something stands in between, "
             "and what roundings allow where nothing does");

@@ -136,7 +136,7 @@ std::string InfoText(const LoadedScene& loaded, const SceneSummary& summary) {
 }
 
 void Info(SceneArguments arguments, bool as_json) {
-  if (arguments.report) CheckWritable(*arguments.report);
+  arguments.outputs.Add("--report", arguments.report);
   LoadedScene loaded = LoadToSolve(arguments);
   const SceneSummary summary = Summarise(loaded.scene);
   const std::string info = as_json ? InfoJson(loaded, summary) : InfoText(loaded, summary);

@@ -9,6 +9,7 @@
 
 #include "apps/commands.h"
 #include "apps/interruptible.h"
+#include "apps/messages.h"
 #include "apps/option_values.h"
 #include "apps/output.h"
 #include "apps/points_csv.h"
@@ -60,11 +61,22 @@ std::vector<Measurement> MeasureDirect(const ProbeArguments& arguments, const Sc
   return Measure(Prober(scene, irradiance, nullptr, arguments.parts), points);
 }
 
+void CheckMethod(const ProbeArguments& arguments) {
+  if (arguments.scene.solving.point.min_backprojection_segment > 0 && arguments.method != kFastest &&
+      arguments.method != "backprojection")
+    throw UsageError(
+        fmt::format("--min-backprojection-segment is of backprojection, and --method {} is another; leave "
+                    "one of them out",
+                    arguments.method));
+}
+
 void Probe(ProbeArguments arguments) {
-  if (arguments.output) CheckWritable(*arguments.output);
-  if (arguments.scene.report) CheckWritable(*arguments.scene.report);
-  LoadedScene loaded = LoadToSolve(arguments.scene);
+  CheckMethod(arguments);
+  arguments.scene.outputs.Add("-o", arguments.output);
+  arguments.scene.outputs.Add("--report", arguments.scene.report);
+  arguments.scene.outputs.RefuseInput(arguments.points);
   const std::vector<ProbePoint> points = ReadPointsCsv(arguments.points);
+  LoadedScene loaded = LoadToSolve(arguments.scene);
 
   PointIrradianceOptions how = loaded.stored ? loaded.stored->solving.point : arguments.scene.solving.point;
   const std::unique_ptr<const OcclusionMethod> method =
@@ -84,10 +96,11 @@ void Probe(ProbeArguments arguments) {
     measurements = Measure(Prober(loaded.scene, irradiance, &pipeline, arguments.parts), points);
   }
 
+  CheckMeasurements(measurements);
   const std::string warning = SurroundingsWarning(measurements);
-  if (!warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
-  WriteResult(arguments.output, MeasurementsCsv(measurements, arguments.parts));
+  if (!warning.empty()) Say("warning: " + warning);
   if (run) run->Tell();
+  WriteResult(arguments.output, MeasurementsCsv(measurements, arguments.parts));
 }
 
 }  // namespace

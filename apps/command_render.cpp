@@ -1,5 +1,9 @@
 // penumbra render: a picture of the light in a scene.
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,6 +20,7 @@
 #include "display/image_io.h"
 #include "display/ray_display.h"
 #include "display/split_view.h"
+#include "solver/base/check.h"
 #include "solver/base/stopwatch.h"
 
 namespace penumbra {
@@ -52,7 +57,14 @@ void PaintFalseColoursOf(const RenderArguments& arguments, const RgbImage& linea
 void WriteImage(const RenderArguments& arguments, const RgbImage& linear, std::span<const PixelKind> kinds,
                 int across, int down, const ToneMapping& tone) {
   if (IsExr(*arguments.output)) {
-    WriteExr(*arguments.output, Downsample(linear, across, down));
+    const RgbImage means = Downsample(linear, across, down);
+    for (const auto& plane : means.channel)
+      if (!std::all_of(plane.begin(), plane.end(), [](float value) { return std::isfinite(value); }))
+        throw InputError(
+            fmt::format("{}: error: a pixel is no number that 32 bits hold, up to 3.4e38; give the "
+                        "scene less light",
+                        *arguments.output));
+    WriteExr(*arguments.output, means);
     return;
   }
   Srgb8Image screen;
@@ -147,6 +159,8 @@ void RenderByRays(const RenderArguments& arguments, const Camera& camera, SolveR
 
 void Render(RenderArguments arguments) {
   CheckRenderArguments(arguments);
+  arguments.scene.outputs.Add("-o", arguments.output);
+  arguments.scene.outputs.Add("--report", arguments.scene.report);
   // Whether there is OpenGL is told before the work.
   if (arguments.backend == Backend::kOpenGl) OpenGlPasses({}, arguments.coordinates);
   LoadedScene loaded = LoadToSolve(arguments.scene);

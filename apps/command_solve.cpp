@@ -19,8 +19,8 @@ namespace {
 constexpr double kKeptForFile = 0.5;
 
 void Solve(SceneArguments arguments, const std::optional<std::string>& output) {
-  if (output) CheckWritable(*output);
-  if (arguments.report) CheckWritable(*arguments.report);
+  arguments.outputs.Add("-o", output);
+  arguments.outputs.Add("--report", arguments.report);
   LoadedScene loaded = LoadToSolve(arguments);
   if (loaded.stored)
     throw UsageError(
@@ -29,9 +29,8 @@ void Solve(SceneArguments arguments, const std::optional<std::string>& output) {
   SolveRun run(arguments, loaded);
   run.Run(MeshKind::kInterpolant, true);
   if (output) WriteResult(output, run.SolutionFile());
-  const bool table = !output && !WantsReport(arguments);
-  run.Tell(table);
-  if (table) WriteResult(std::nullopt, ReportTable(run.report()));
+  run.Tell();
+  if (!output && !WantsReport(arguments)) WriteResult(std::nullopt, ReportTable(run.report()));
 }
 
 }  // namespace

@@ -15,6 +15,8 @@
 #include "apps/commands.h"
 #include "apps/export_file.h"
 #include "apps/material_change.h"
+#include "apps/messages.h"
+#include "apps/option_checks.h"
 #include "apps/option_values.h"
 #include "apps/output.h"
 #include "apps/report.h"
@@ -32,6 +34,7 @@ namespace penumbra {
 namespace {
 
 constexpr const char* kTwoSided = "two-sided";
+constexpr const char* kFlip = "flip";
 constexpr const char* kRadiance = "emission-is-radiance";
 constexpr const char* kMaxReflectance = "max-reflectance";
 constexpr const char* kEmittanceOption = "emittance";
@@ -49,8 +52,9 @@ struct ViewArguments {
   std::optional<double> scale;  // of text and panels
 };
 
+// A window may have nobody to print to; main() tells whether it had.
 void PrintLine(const std::string& line) {
-  fmt::print("{}\n", line);
+  std::fwrite((line + "\n").data(), 1, line.size() + 1, stdout);
   std::fflush(stdout);
 }
 
@@ -135,6 +139,7 @@ class ViewedScene {
       };
     };
     return {
+        {kFlip, "Every face is turned", true, flag(reading.flip)},
         {kTwoSided, "Every face has a second, reversed one", true, flag(reading.two_sided)},
         {kRadiance, "Ke is radiance", true, flag(reading.emission_is_radiance)},
         {kMaxReflectance, "Clamp larger reflectances to", false,
@@ -150,18 +155,32 @@ class ViewedScene {
   // Called from the solver's thread.
   void Save(const std::string& path, const Pipeline& pipeline) const {
     const std::lock_guard lock(mutex_);
+    KeepScene(path);
     WriteResult(path, SolutionFileOf(pipeline, OptionsOf(pipeline)));
   }
 
   // As well.
   void SaveReport(const std::string& path, const Pipeline& pipeline) const {
     const std::lock_guard lock(mutex_);
+    KeepScene(path);
     nlohmann::ordered_json options = OptionsOf(pipeline);
     if (stored_options_) options["solution"] = arguments_.scene;
     WriteResult(path, ReportJson({options, load_seconds_, pipeline.report()}));
   }
 
+  // Before a file is exported.
+  void CheckExport(const std::string& path) const {
+    const std::lock_guard lock(mutex_);
+    KeepScene(path);
+  }
+
  private:
+  // Throws InputError if the file is the scene that is shown; a solution may be saved in its place.
+  void KeepScene(const std::string& path) const {
+    if (!stored_options_ && IsSameFile(path, arguments_.scene))
+      throw InputError(fmt::format("'{}' is the scene that is shown; name another file", path));
+  }
+
   nlohmann::ordered_json OptionsOf(const Pipeline& pipeline) const {
     SceneArguments told = arguments_;
     told.solving = pipeline.options();
@@ -178,6 +197,7 @@ class ViewedScene {
   }
 
   static void LeaveOut(const std::string& option, SceneArguments& arguments) {
+    if (option == kFlip) arguments.reading.flip = false;
     if (option == kTwoSided) arguments.reading.two_sided = false;
     if (option == kRadiance) arguments.reading.emission_is_radiance = false;
     if (option == kMaxReflectance) arguments.reading.max_reflectance.reset();
@@ -209,8 +229,9 @@ viewer::ViewerFiles FilesOf(ViewedScene& viewed) {
     if (const std::optional<std::string> error = ExportFormatError(path)) throw InputError(*error);
     return ExportsMesh(path);
   };
-  files.export_file = [](const std::string& path, const Scene& scene, const IrradianceMesh* mesh,
-                         const Camera& camera) {
+  files.export_file = [&viewed](const std::string& path, const Scene& scene, const IrradianceMesh* mesh,
+                                const Camera& camera) {
+    viewed.CheckExport(path);
     if (mesh)
       ExportMesh(path, scene, *mesh, std::nullopt);
     else
@@ -229,6 +250,10 @@ void View(ViewArguments arguments) {
   if (arguments.scene.verbose) {
     const ResolvedOptions resolved = Resolve(loaded.scene, arguments.scene.solving);
     PrintOptionsUsed(loaded.stored ? loaded.stored->options : OptionsUsed(arguments.scene, &resolved));
+  }
+  if (!loaded.stored) {
+    const std::string note = CostNote(arguments.scene, Resolve(loaded.scene, arguments.scene.solving));
+    if (!note.empty()) Say(note);
   }
 
   ViewedScene viewed(arguments.scene);
@@ -303,7 +328,7 @@ Command AddViewCommand(CLI::App& program) {
   app->add_flag_callback(
          "--help-script",
          [] {
-           fmt::print("{}\n\n{}", viewer::kScriptHelp, SettingsHelp());
+           WriteResult(std::nullopt, fmt::format("{}\n\n{}", viewer::kScriptHelp, SettingsHelp()));
            throw CLI::Success();
          },
          "Print the actions, options and menus that scripts know, and exit")

@@ -8,6 +8,7 @@
 
 #include "apps/output.h"
 #include "display/mesh_export.h"
+#include "solver/base/whole_file.h"
 #include "solver/scene/mgf_writer.h"
 #include "solver/scene/obj_writer.h"
 #include "solver/scene/pbrt_writer.h"
@@ -32,6 +33,11 @@ std::optional<std::string> ExportFormatError(const std::string& path) {
   return fmt::format("'{}' ends in none of .vtu, .ply, .glb, .obj, .pbrt, .mgf", path);
 }
 
+std::optional<std::string> LibraryBeside(const std::string& path) {
+  if (FormatOf(path) != ".obj") return std::nullopt;
+  return std::filesystem::path(path).replace_extension(".mtl").string();
+}
+
 bool ExportsMesh(const std::string& path) { return Contains(kMeshFormats, FormatOf(path)); }
 
 void ExportMesh(const std::string& path, const Scene& scene, const IrradianceMesh& mesh,
@@ -52,11 +58,9 @@ void ExportScene(const std::string& path, const Scene& scene, const Camera& came
   } else if (format == ".mgf") {
     WriteResult(path, MgfText(scene));
   } else {
-    std::filesystem::path library = path;
-    library.replace_extension(".mtl");
-    CheckWritable(library.string());
-    WriteResult(library.string(), MtlText(scene));
-    WriteResult(path, ObjText(scene, library.filename().string()));
+    const std::string library = *LibraryBeside(path), materials = MtlText(scene);
+    const std::string text = ObjText(scene, std::filesystem::path(library).filename().string());
+    WriteWholeFiles(std::array<FileToWrite, 2>{{{library, materials}, {path, text}}});
   }
 }
 

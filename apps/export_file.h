@@ -14,6 +14,8 @@ namespace penumbra {
 
 // What is wrong with the ending; nothing if it is one that we write.
 std::optional<std::string> ExportFormatError(const std::string& path);
+// Where the materials of an .obj go; nothing for other formats.
+std::optional<std::string> LibraryBeside(const std::string& path);
 // Whether the format holds the mesh, and not the scene alone. REQUIRES: one that we write.
 bool ExportsMesh(const std::string& path);
 

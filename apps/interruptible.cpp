@@ -6,11 +6,11 @@
 
 #include <atomic>
 #include <chrono>
-#include <cstdio>
 #include <string>
 #include <string_view>
 
 #include "apps/commands.h"
+#include "apps/messages.h"
 
 namespace penumbra {
 namespace {
@@ -36,10 +36,7 @@ class ProgressLine {
  private:
   static constexpr std::chrono::milliseconds kInterval{100};
 
-  static void Put(const std::string& line) {
-    fmt::print(stderr, "\r\x1b[K{}", line);
-    std::fflush(stderr);
-  }
+  static void Put(const std::string& line) { SayAsItIs(fmt::format("\r\x1b[K{}", line)); }
 
   bool shown_;
   std::string phase_, last_;

@@ -5,12 +5,14 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/messages.h"
+#include "apps/output.h"
 #include "solver/base/check.h"
 
 namespace penumbra {
@@ -26,8 +28,8 @@ constexpr const char* kFooter =
     "\n"
     "Exit status: 0 done; 1 bad input, one line on standard error; 2 bad usage; 130 interrupted.";
 
-int Fail(int status, const char* message) {
-  fmt::print(stderr, "{}\n", message);
+int Fail(int status, const std::string& message) {
+  Say(message);
   return status;
 }
 
@@ -45,20 +47,18 @@ int Main(int argc, char** argv) {
       AddFormFactorCommand(program), AddViewCommand(program),   AddExportCommand(program),
       AddDiffCommand(program),       AddInfoCommand(program),   AddScenesCommand(program)};
   try {
-    program.parse(argc, argv);
-  } catch (const CLI::Success& help_or_version) {
-    return program.exit(help_or_version);
-  } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "penumbra: error: {}; see `penumbra --help`\n", error.what());
-    return kUsageStatus;
-  }
-  try {
+    try {
+      program.parse(argc, argv);
+    } catch (const CLI::Success& help_or_version) {
+      return program.exit(help_or_version);
+    } catch (const CLI::ParseError& error) {
+      return Fail(kUsageStatus, fmt::format("penumbra: error: {}; see `penumbra --help`", error.what()));
+    }
     for (const Command& command : commands)
       if (command.app->parsed()) command.run();
     return 0;
   } catch (const UsageError& error) {
-    fmt::print(stderr, "penumbra: error: {}\n", error.what());
-    return kUsageStatus;
+    return Fail(kUsageStatus, fmt::format("penumbra: error: {}", error.what()));
   } catch (const Interrupted& error) {
     return Fail(kInterruptedStatus, error.what());
   } catch (const InputError& error) {
@@ -67,13 +67,18 @@ int Main(int argc, char** argv) {
     return Fail(
         kInputStatus,
         "penumbra: error: out of memory; ask for a larger --error, a larger --min-area or a smaller --size");
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "penumbra: error: {}\n", error.what());
+  } catch (const PipeClosed&) {
     return kInputStatus;
+  } catch (const std::exception& error) {
+    return Fail(kInputStatus, fmt::format("penumbra: error: {}", error.what()));
   }
 }
 
 }  // namespace
 }  // namespace penumbra
 
-int main(int argc, char** argv) { return penumbra::Main(argc, argv); }
+int main(int argc, char** argv) {
+  penumbra::PrepareStreams();
+  const int status = penumbra::Main(argc, argv);
+  return penumbra::StreamsHeld() || status != 0 ? status : penumbra::kInputStatus;
+}

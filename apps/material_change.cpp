@@ -38,7 +38,11 @@ void ChangeMaterials(const std::vector<MaterialChange>& changes, Rgb Material::*
       material.*member = change.value;
       found = true;
     }
-    if (!found) throw UsageError(fmt::format("the scene has no material '{}'", change.material));
+    if (found) continue;
+    std::vector<std::string> names;
+    for (const Material& material : materials) names.push_back(material.name);
+    throw UsageError(fmt::format("the scene has no material '{}'; it has {}", change.material,
+                                 names.empty() ? "none" : NameList(names)));
   }
 }
 

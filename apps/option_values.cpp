@@ -48,6 +48,16 @@ std::optional<double> ParseNumber(std::string_view text) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
+std::string NameList(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 20;
+  const std::size_t shown = names.size() <= kMost + 1 ? names.size() : kMost;
+  std::string list;
+  for (std::size_t i = 0; i < shown; ++i)
+    list += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  if (shown < names.size()) list += fmt::format(" and {} more", names.size() - shown);
+  return list;
+}
+
 std::optional<Vec3> ParseVector(std::string_view text) {
   Vec3 vector;
   for (int i = 0; i < 3; ++i) {
@@ -63,14 +73,14 @@ std::optional<Vec3> ParseVector(std::string_view text) {
 
 CLI::Option* AddNumber(CLI::App& app, const std::string& name, double* target, const NumberRule& rule,
                        const std::string& help) {
-  return AddRead(app, name, "X", rule.words, help,
+  return AddRead(app, name, "X", rule.words, fmt::format("{}; {}", help, rule.words),
                  [=](const std::string& text) { return ReadNumber(text, rule, target); })
       ->default_str(fmt::format("{}", *target));
 }
 
 CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<double>* target,
                        const NumberRule& rule, const std::string& help) {
-  return AddRead(app, name, "X", rule.words, help,
+  return AddRead(app, name, "X", rule.words, fmt::format("{}; {}", help, rule.words),
                  [=](const std::string& text) { return ReadNumber(text, rule, target); });
 }
 
@@ -83,7 +93,8 @@ CLI::Option* AddInteger(CLI::App& app, const std::string& name, Integer* target,
     *target = *value;
     return true;
   };
-  return AddRead(app, name, "N", fmt::format("an integer from {} to {}", low, high), help, read)
+  const std::string words = fmt::format("an integer from {} to {}", low, high);
+  return AddRead(app, name, "N", words, fmt::format("{}; {}", help, words), read)
       ->default_str(fmt::format("{}", *target));
 }
 template CLI::Option* AddInteger(CLI::App&, const std::string&, int*, int, int, const std::string&);
@@ -91,13 +102,14 @@ template CLI::Option* AddInteger(CLI::App&, const std::string&, std::uint64_t*, 
                                  const std::string&);
 
 CLI::Option* AddVector(CLI::App& app, const std::string& name, std::optional<Vec3>* target,
-                       const std::string& help) {
+                       const VectorRule& rule, const std::string& help) {
   const auto read = [=](const std::string& text) {
     const std::optional<Vec3> value = ParseVector(text);
-    if (value) *target = *value;
-    return value.has_value();
+    if (!value || !rule.holds(*value)) return false;
+    *target = *value;
+    return true;
   };
-  return AddRead(app, name, "x,y,z", "three numbers, x,y,z", help, read);
+  return AddRead(app, name, "x,y,z", rule.words, help, read);
 }
 
 }  // namespace penumbra

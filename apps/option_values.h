@@ -34,11 +34,20 @@ struct NumberRule {
   bool (*holds)(double);
   const char* words;
 };
-inline constexpr NumberRule kAnyNumber{[](double) { return true; }, "a number"};
-inline constexpr NumberRule kPositive{[](double x) { return x > 0; }, "a number above 0"};
+// Squares and products of what is in range must not overflow nor vanish.
+inline constexpr double kTiniest = 1e-100, kLargest = 1e100;
+inline constexpr NumberRule kPositive{[](double x) { return x >= kTiniest && x <= kLargest; },
+                                      "a number from 1e-100 to 1e100"};
 inline constexpr NumberRule kEmittance{[](double x) { return x >= 0 && x <= kLargestEmittance; },
                                        "a number, 0 or more, up to 1e100"};
-inline constexpr NumberRule kNonNegative{[](double x) { return x >= 0; }, "a number, 0 or more"};
+inline constexpr NumberRule kNonNegative{[](double x) { return x >= 0 && x <= kLargest; },
+                                         "a number from 0 to 1e100"};
+// A relative error. Light is found to some 1e-6 at best: the digits that rays and samples leave.
+inline constexpr NumberRule kRelativeError{[](double x) { return x >= 1e-6 && x <= 10; },
+                                           "a number from 1e-6 to 10"};
+
+// "a, b and c"; of many, the first and how many more.
+std::string NameList(const std::vector<std::string>& names);
 
 // `NAME X`, a number; the default in the help is the target's value. A target that is optional has its
 // default in the help text.
@@ -89,8 +98,18 @@ CLI::Option* AddChoice(CLI::App& app, const std::string& name, Target* target,
   return option;
 }
 
+struct VectorRule {
+  bool (*holds)(const Vec3&);
+  const char* words;
+};
+// As the coordinates of scenes: squares must not overflow in floats, nor cubes in doubles.
+inline constexpr VectorRule kPoint{[](const Vec3& v) { return MaxAbs(v) <= 1e36; },
+                                   "three numbers, x,y,z, each up to 1e36"};
+inline constexpr VectorRule kDirection{[](const Vec3& v) { return MaxAbs(v) <= 1e36 && !v.isZero(0); },
+                                       "a direction, x,y,z, of any length but 0"};
+
 // `NAME x,y,z`, three numbers.
 CLI::Option* AddVector(CLI::App& app, const std::string& name, std::optional<Vec3>* target,
-                       const std::string& help);
+                       const VectorRule& rule, const std::string& help);
 
 }  // namespace penumbra

@@ -7,7 +7,10 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
+#include "solver/base/check.h"
 #include "solver/base/parallel.h"
 #include "solver/geometry/polygon.h"
 #include "solver/geometry/polygon_distance.h"
@@ -77,7 +80,9 @@ Prober::Prober(const Scene& scene, const PointIrradiance& irradiance, const Pipe
       pipeline_(pipeline),
       parts_(parts),
       rays_(scene),
-      reach_(kOnPatchDistance * scene.Diagonal()) {}
+      reach_(kOnPatchDistance * scene.Diagonal()) {
+  std::tie(low_, high_) = scene.Bounds();
+}
 
 Footing Prober::FindFooting(const Vec3& position, const Vec3& normal) const {
   Footing lowest;
@@ -100,10 +105,18 @@ ReceiverPoint Prober::StandOn(PatchId id, const Vec3& position, const Vec3& norm
   return {NearestInPolygon(patch.Vertices(), patch.normal, position), patch.normal, Vec3::Zero(), 0};
 }
 
+bool Prober::IsFar(const Vec3& position) const {
+  const Vec3 nearest = position.cwiseMax(low_).cwiseMin(high_);
+  return !scene_.patches.empty() &&
+         (position - nearest).stableNorm() > kFarDiagonals * (high_ - low_).stableNorm();
+}
+
 bool Prober::SeesOnlyBacks(const Vec3& position, const Vec3& normal) const {
-  // A point on a surface stands on the side that its normal points to, in the floats of rays, too.
+  // A point on a surface stands on the side that its normal points to, in the floats of rays, too, which
+  // count from the middle of the scene; where the scene lies plays no part.
   constexpr double kFloatRounding = 8 * std::numeric_limits<float>::epsilon();
-  const Vec3 eye = position + (reach_ + kFloatRounding * MaxAbs(position)) * normal;
+  const double from_middle = MaxAbs(position - 0.5 * (low_ + high_));
+  const Vec3 eye = position + (reach_ + kFloatRounding * from_middle) * normal;
   // Furniture without a bottom stands on an uncut floor: a look down from inside it meets a front.
   for (const Vec3& up : {normal, Vec3(-normal)}) {
     bool any_back = false, any_front = false;
@@ -136,9 +149,13 @@ Measurement Prober::MeasureAt(const ProbePoint& point) const {
   measurement.gradient = parts.gradient;
   if (pipeline_ && measurement.footing.patch != kNoPatch)
     if (const std::optional<Rgb> value =
-            pipeline_->Interpolated(measurement.footing.patch, at.position, reach_))
+            pipeline_->Interpolated(measurement.footing.patch, at.position, reach_)) {
       measurement.interpolated = *value;
+      measurement.sound = value->allFinite();
+    }
+  measurement.sound = measurement.sound && measurement.exact.allFinite() && measurement.direct.allFinite();
   if (SeesOnlyBacks(at.position, normal)) measurement.surroundings = Surroundings::kBehind;
+  if (IsFar(point.position)) measurement.surroundings = Surroundings::kFar;
   return measurement;
 }
 
@@ -151,6 +168,16 @@ std::vector<Measurement> Prober::Measure(const std::vector<ProbePoint>& points,
     context.Report("probe", static_cast<double>(begin + count) / static_cast<double>(points.size()));
   }
   return measurements;
+}
+
+void CheckMeasurements(const std::vector<Measurement>& measurements) {
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
+    if (!measurements[i].sound)
+      throw InputError(fmt::format(
+          "error: the irradiance at row {} (row 1 follows the header) is no number; where the point and "
+          "the light are within reason, this is a mistake of the program",
+          i + 1));
+  }
 }
 
 std::string MeasurementsCsv(const std::vector<Measurement>& measurements, bool parts) {
@@ -177,14 +204,17 @@ std::string MeasurementsCsv(const std::vector<Measurement>& measurements, bool p
 }
 
 std::string SurroundingsWarning(const std::vector<Measurement>& measurements) {
-  std::vector<std::size_t> behind, zero;
+  std::vector<std::size_t> behind, zero, far;
   for (std::size_t i = 0; i < measurements.size(); ++i) {
     if (measurements[i].surroundings == Surroundings::kBehind) behind.push_back(i + 1);
     if (measurements[i].surroundings == Surroundings::kZeroNormal) zero.push_back(i + 1);
+    if (measurements[i].surroundings == Surroundings::kFar) far.push_back(i + 1);
   }
   std::string warning;
-  if (!behind.empty()) warning = "inside a solid or behind faces: " + RowList(behind);
-  if (!zero.empty()) warning += (warning.empty() ? "" : "; ") + ("with a zero normal: " + RowList(zero));
+  for (const auto& [what, rows] :
+       {std::pair("inside a solid or behind faces", &behind), std::pair("with a zero normal", &zero),
+        std::pair("far outside the scene, which is in metres", &far)})
+    if (!rows->empty()) warning += fmt::format("{}{}: {}", warning.empty() ? "" : "; ", what, RowList(*rows));
   return warning.empty() ? warning : "points (row 1 follows the header) " + warning;
 }
 

@@ -22,6 +22,10 @@ namespace penumbra {
 inline constexpr double kOnPatchDistance = 1e-6;
 inline constexpr double kOnPatchDegrees = 1;
 
+// Points that are farther from the box around the scene than so many of its diagonals are far outside: what
+// is in centimetres or feet is, where the scene is in metres.
+inline constexpr double kFarDiagonals = 10;
+
 // The front that a point lies on.
 struct Footing {
   std::int32_t face = -1;  // as users count; -1: none
@@ -32,6 +36,7 @@ enum class Surroundings {
   kOpen,
   kBehind,      // inside a solid, or behind faces: only backs are in sight
   kZeroNormal,  // no direction to measure in
+  kFar,         // so far from the scene that it may be in another unit
 };
 
 struct Measurement {
@@ -42,6 +47,7 @@ struct Measurement {
   IrradianceGradient gradient = IrradianceGradient::Zero();  // of `exact`, if asked for [W/m^3]
   Rgb interpolated = Rgb::Zero();  // [W/m^2]; nan off the fronts, and where nothing was solved
   Surroundings surroundings = Surroundings::kOpen;
+  bool sound = true;  // no value is infinite, and only those that are said to be are nan
 };
 
 class Prober {
@@ -62,6 +68,7 @@ class Prober {
   // The point itself, or its foot on the patch, which digits may have left behind the front.
   ReceiverPoint StandOn(PatchId patch, const Vec3& position, const Vec3& normal) const;
   Measurement MeasureAt(const ProbePoint& point) const;
+  bool IsFar(const Vec3& position) const;
   bool SeesOnlyBacks(const Vec3& position, const Vec3& normal) const;
 
   const Scene& scene_;
@@ -69,11 +76,15 @@ class Prober {
   const Pipeline* pipeline_;
   bool parts_;
   RayCaster rays_;
-  double reach_;  // [m]
+  double reach_;     // [m]
+  Vec3 low_, high_;  // of the box around the scene [m]
 };
 
 // The measurements as CSV, a row each, all digits; with `parts`, the direct light and the gradient as well.
 std::string MeasurementsCsv(const std::vector<Measurement>& measurements, bool parts);
+
+// Throws InputError if a value is no number where it should be.
+void CheckMeasurements(const std::vector<Measurement>& measurements);
 
 // One line that names the rows, counted from 1, where no light can be expected; empty if there are none.
 std::string SurroundingsWarning(const std::vector<Measurement>& measurements);

@@ -53,8 +53,20 @@ bool IsPng(const std::string& path) { return std::filesystem::path(path).extensi
 void CheckRenderArguments(const RenderArguments& arguments) {
   if (!arguments.output && arguments.benchmark_frames == 0)
     throw UsageError("render needs -o IMAGE.png or -o IMAGE.exr, or --benchmark FRAMES");
-  if (arguments.output) CheckWritable(*arguments.output);
-  if (arguments.scene.report) CheckWritable(*arguments.scene.report);
+  if (arguments.split && arguments.false_colour)
+    throw UsageError(
+        "--split shows the passes and their picture, --false-colour values; leave one of them out");
+  const auto given = [&](const char* name) { return arguments.scene.app->get_option(name)->count() > 0; };
+  if (given("--opengl-coordinates") && arguments.backend != Backend::kOpenGl)
+    throw UsageError("--opengl-coordinates is of --backend opengl; give both, or none");
+  if (arguments.samples > 1 && !arguments.ByRays())
+    throw UsageError(
+        fmt::format("--samples is of modes that cast rays, and --mode {} does not; give --supersampling",
+                    arguments.mode.name));
+  if (given("--supersampling") && arguments.supersampling > 1 && HasOneSample(arguments))
+    throw UsageError(
+        "--supersampling is of PNG pictures by the two passes, without --false-colour or --split; leave it "
+        "out");
   if (arguments.scale_max && !arguments.false_colour)
     throw UsageError("--scale-max is the end of --false-colour's scale; give both");
   if ((arguments.false_colour || arguments.split) && (!arguments.output || !IsPng(*arguments.output)))
@@ -78,6 +90,11 @@ void CheckRenderArguments(const RenderArguments& arguments) {
                     arguments.width, arguments.height, arguments.supersampling));
 }
 
+bool HasOneSample(const RenderArguments& arguments) {
+  return arguments.ByRays() || arguments.false_colour || arguments.split ||
+         (arguments.output && IsExr(*arguments.output));
+}
+
 nlohmann::ordered_json RenderOptionsUsed(const RenderArguments& arguments) {
   nlohmann::ordered_json options;
   options["mode"] = arguments.mode.name;
@@ -85,7 +102,7 @@ nlohmann::ordered_json RenderOptionsUsed(const RenderArguments& arguments) {
   if (arguments.ByRays()) {
     options["samples"] = arguments.samples;
   } else {
-    options["supersampling"] = arguments.supersampling;
+    if (!HasOneSample(arguments)) options["supersampling"] = arguments.supersampling;
     options["backend"] = ChoiceName(kBackends, arguments.backend);
     if (arguments.backend == Backend::kOpenGl)
       options["opengl_coordinates"] = ChoiceName(kCoordinates, arguments.coordinates);

@@ -66,6 +66,9 @@ struct RenderArguments {
 bool IsExr(const std::string& path);
 bool IsPng(const std::string& path);
 
+// Whether a picture has a sample a pixel, or rays.
+bool HasOneSample(const RenderArguments& arguments);
+
 void AddPictureOptions(CLI::App& app, RenderArguments* arguments);
 
 // What can be told before the work starts. Throws UsageError, and InputError where a file cannot be written.

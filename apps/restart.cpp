@@ -25,13 +25,14 @@ LoadedScene LoadRestart(SceneArguments& arguments, const std::string& from) {
           "--{} says how links are made, but --restart keeps those of '{}'; leave one of the two out", name,
           from));
   }
-  LoadedScene loaded = LoadScene(arguments);
+  LoadedScene loaded = LoadQuietly(arguments);
   PENUMBRA_CHECK(!loaded.stored);  // such options are refused beside a solution
+  arguments.outputs.RefuseInput(from);
   LoadedScene solved = LoadSolution(from);
   StoredRun run = std::move(*solved.stored);
   if (run.solving.dense)
-    throw InputError(fmt::format(
-        "{}: error: the dense solver made it, which keeps no links; solve the scene anew", from));
+    throw InputError(
+        fmt::format("{}: error: the dense solver made it, which keeps no links; solve the scene anew", from));
   if (run.state.report.iterations.empty())
     throw InputError(
         fmt::format("{}: error: its solve ended before it had links; solve the scene anew", from));
@@ -44,6 +45,7 @@ LoadedScene LoadRestart(SceneArguments& arguments, const std::string& from) {
   forest = RestoreForest(loaded.scene, forest.elements());
   TakeLinkOptions(run.solving, &arguments.solving);
   loaded.restart = std::move(run);
+  TellWarnings(loaded);
   return loaded;
 }
 

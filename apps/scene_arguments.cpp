@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -14,8 +13,11 @@
 #include <string_view>
 
 #include "apps/commands.h"
+#include "apps/messages.h"
+#include "apps/option_checks.h"
 #include "apps/option_values.h"
 #include "apps/report.h"
+#include "apps/scene_warnings.h"
 #include "mesh/link_options.h"
 #include "mesh/solution_file.h"
 #include "solver/base/check.h"
@@ -24,8 +26,8 @@
 #include "solver/base/stopwatch.h"
 #include "solver/scene/file_format.h"
 #include "solver/scene/named_scene.h"
-#include "solver/transport/diagnostics.h"
 #include "solver/scene/text_reader.h"
+#include "solver/transport/diagnostics.h"
 
 namespace penumbra {
 namespace {
@@ -36,6 +38,13 @@ constexpr const char *kSceneGroup = "Scene", *kSolvingGroup = "Solving";
 constexpr const char* kAcceleration = "acceleration";  // among the options used; the flag turns it off
 constexpr int kMaxErrorSamples = 100;
 constexpr NumberRule kBelowOne{[](double x) { return x >= 0 && x < 1; }, "a number in [0, 1)"};
+constexpr NumberRule kShare{[](double x) { return x >= 0 && x <= 1; }, "a number from 0 to 1"};
+constexpr NumberRule kCutoff{[](double x) { return x >= 1e-15 && x <= 1; }, "a number from 1e-15 to 1"};
+// How near a polyline keeps to a curve: nearer than a nanometre it would have pieces without end.
+constexpr NumberRule kPolyline{[](double x) { return x == 0 || (x >= 1e-9 && x <= 1e9); },
+                               "0, or a number from 1e-9 to 1e9"};
+constexpr NumberRule kSeconds{[](double x) { return x >= 1e-9 && x <= 1e9; }, "a number from 1e-9 to 1e9"};
+constexpr NumberRule kBytes{[](double x) { return x >= 1 && x <= 1e18; }, "a number from 1 to 1e18"};
 constexpr Choice<IterationScheme> kSchemes[] = {{"jacobi", IterationScheme::kJacobi},
                                                 {"gauss-seidel", IterationScheme::kGaussSeidel}};
 constexpr Choice<OracleKind> kOracles[] = {{"transport", OracleKind::kTransport},
@@ -46,6 +55,9 @@ constexpr Choice<OracleKind> kOracles[] = {{"transport", OracleKind::kTransport}
 constexpr Choice<LinkFormFactors> kLinkFormFactors[] = {{"cubature", LinkFormFactors::kCubature},
                                                         {"exact", LinkFormFactors::kExact},
                                                         {"disk", LinkFormFactors::kDisk}};
+constexpr Choice<BasisDegree> kBases[] = {{"constant", BasisDegree::kConstant},
+                                          {"linear", BasisDegree::kLinear},
+                                          {"quadratic", BasisDegree::kQuadratic}};
 constexpr Choice<RefineBy> kRefinements[] = {{"transport", RefineBy::kTransport},
                                              {"representation", RefineBy::kRepresentation},
                                              {"both", RefineBy::kBoth}};
@@ -92,14 +104,10 @@ Scene ReadChangedScene(const SceneArguments& arguments) {
     ChangeMaterials(arguments.emittance, &Material::emittance, materials);
     ChangeMaterials(arguments.reflectance, &Material::reflectance, materials);
   };
+  options.before_library = [&](const std::string& path) { arguments.outputs.RefuseInput(path); };
   Scene scene = ReadNamedScene(arguments.scene, options);
-  const std::vector<std::int32_t> dark = DarkEmitters(scene);
-  if (!dark.empty())
-    scene.warnings.push_back(fmt::format(
-        "{}: warning: {} {} nothing, the first is face {} (counted from 0): before its front there is "
-        "nothing, or only what turns its back",
-        arguments.scene, dark.size(), dark.size() == 1 ? "face that emits lights" : "faces that emit light",
-        dark[0]));
+  for (const std::string& warning : SceneWarnings(scene, arguments.lit))
+    scene.warnings.push_back(fmt::format("{}: warning: {}", arguments.scene, warning));
   return scene;
 }
 
@@ -162,6 +170,9 @@ void AddSceneArguments(CLI::App& app, SceneArguments* arguments) {
          "Refuse what is otherwise repaired and warned about: faces that are not planar, repeat vertices "
          "or have no area, materials and libraries that are not there, materials defined twice")
       ->group(kSceneGroup);
+  app.add_flag("--flip", arguments->reading.flip,
+               "Turn every face: what its vertices make the front becomes the back")
+      ->group(kSceneGroup);
   AddNumber(app, "--max-reflectance", &arguments->reading.max_reflectance, kBelowOne,
             "Clamp larger reflectances to X, in [0, 1), instead of refusing those of 1 or more")
       ->group(kSceneGroup);
@@ -177,7 +188,7 @@ void AddSceneArguments(CLI::App& app, SceneArguments* arguments) {
 void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
   PipelineOptions* solving = &arguments->solving;
   const std::string group = kSolvingGroup;
-  AddNumber(app, "--error", &solving->error, kPositive,
+  AddNumber(app, "--error", &solving->error, kRelativeError,
             "The relative error of what is shown that 99 points in 100 shall not exceed; all below follows "
             "from it unless it is given")
       ->group(group);
@@ -214,7 +225,7 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
   AddInteger(app, "--corner-divisions", &solving->corner_divisions, 0, kMostCornerDivisions,
              "Divide leaves of the mesh so many times towards the ends of contact edges")
       ->group(group);
-  AddNumber(app, "--eee", &solving->triple_edge_tolerance, kNonNegative,
+  AddNumber(app, "--eee", &solving->triple_edge_tolerance, kPolyline,
             "Also triple-edge (EEE) discontinuities, as polylines that keep within so many metres of them; "
             "0: none, as in the thesis")
       ->group(group);
@@ -228,7 +239,7 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
             "Refine by the error of links alone (transport), by that of what is shown over a coarse solution "
             "(representation), or by both")
       ->group(group);
-  AddNumber(app, "--relative-cutoff", &solving->relative_cutoff, kPositive,
+  AddNumber(app, "--relative-cutoff", &solving->relative_cutoff, kCutoff,
             "Iterate until no radiosity is farther off, relative to the largest (default: follows from "
             "--error)")
       ->group(group);
@@ -237,7 +248,7 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
       "Passes that correct the converged solution by exact irradiance; 0: links alone, as in the thesis")
       ->group(group);
   AddNumber(
-      app, "--source-error", &solving->source_error, kPositive,
+      app, "--source-error", &solving->source_error, kRelativeError,
       "The corrections cut sources into strips and pieces until constant light on each errs by about this "
       "much, relative, where it arrives; grades them towards edges where walls meet (default: the mesh "
       "cuts them)")
@@ -262,11 +273,11 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
   AddInteger(app, "--iterations", &solving->max_iterations, 1, 1'000'000,
              "Most iterations of gathering and refining")
       ->group(group);
-  AddNumber(app, "--time-limit", &solving->time_limit, kPositive,
+  AddNumber(app, "--time-limit", &solving->time_limit, kSeconds,
             "End the work after this many seconds, reading included, with the last whole step's light, its "
             "mesh without refining it, and no more measured than there was time for")
       ->group(group);
-  AddNumber(app, "--memory-limit", &solving->memory_limit, kPositive,
+  AddNumber(app, "--memory-limit", &solving->memory_limit, kBytes,
             "End them in the same way when the program takes this many bytes of memory")
       ->group(group);
   AddInteger(app, "--bounces", &solving->bounces, 0, 1000,
@@ -275,12 +286,13 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
   AddNumber(
       app, "--nudge", &solving->point.nudge, kNonNegative,
       "Move points that ask for a limit this far towards the inside of their triangle [m], as the thesis "
-      "does, instead of taking the limit; 0: limits")
+      "does, instead of taking the limit; 0: limits; at most a thousandth of the scene's diagonal")
       ->group(group);
   AddNumber(app, "--source-push-off", &solving->point.source_push_off, kNonNegative,
-            "Lift sources this far off each receiver [m], as the thesis does where they touch it; 0: not")
+            "Lift sources this far off each receiver [m], as the thesis does where they touch it; 0: not; at "
+            "most a thousandth of the scene's diagonal")
       ->group(group);
-  AddNumber(app, "--min-backprojection-segment", &solving->point.min_backprojection_segment, kNonNegative,
+  AddNumber(app, "--min-backprojection-segment", &solving->point.min_backprojection_segment, kShare,
             "Find shadows at points by backprojection, and collapse segments of a blocker's outline shorter "
             "than this, "
             "relative to the source's diameter as seen, as the thesis does; 0: the fastest exact way")
@@ -292,9 +304,6 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
       "1e-7, slower, and closed rooms then close (exact); or the source as a disk seen from the receiver's "
       "centre, to compare (disk, Hanrahan et al. 1991)")
       ->group(group);
-  const std::map<std::string, BasisDegree> degrees = {{"constant", BasisDegree::kConstant},
-                                                      {"linear", BasisDegree::kLinear},
-                                                      {"quadratic", BasisDegree::kQuadratic}};
   app.add_option_function<std::string>(
          "--solver",
          [solving](const std::string& name) {
@@ -313,9 +322,9 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
   };
   app.add_option_function<std::string>(
          "--basis",
-         [solving, degrees, need_dense](const std::string& name) {
+         [solving, need_dense](const std::string& name) {
            need_dense("--basis");
-           solving->dense->degree = degrees.at(name);
+           solving->dense->degree = ChoiceValue(kBases, name);
          },
          "Of the dense solver's elements: `constant` (Galerkin), `linear` or `quadratic` (collocation; their "
          "means are shown)")
@@ -358,10 +367,26 @@ CLI::Option* AddRestartOption(CLI::App& app, SceneArguments* arguments) {
       ->group(kSolvingGroup);
 }
 
+namespace {
+
+// What the dense solver is not told.
+void DropHierarchical(nlohmann::ordered_json* options) {
+  std::vector<std::string> dropped;
+  for (const auto& [key, value] : options->items()) {
+    std::string name = key;
+    std::replace(name.begin(), name.end(), '_', '-');
+    if (IsHierarchicalOption(name)) dropped.push_back(key);
+  }
+  for (const std::string& key : dropped) options->erase(key);
+}
+
+}  // namespace
+
 nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const ResolvedOptions* resolved) {
   nlohmann::ordered_json options;
   options["scene"] = arguments.scene;
   options["emission_is_radiance"] = arguments.reading.emission_is_radiance;
+  options["flip"] = arguments.reading.flip;
   options["two_sided"] = arguments.reading.two_sided;
   if (arguments.reading.strict) options["strict"] = true;
   if (arguments.reading.max_reflectance) options["max_reflectance"] = *arguments.reading.max_reflectance;
@@ -403,12 +428,12 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["form_factors"] = ChoiceName(kLinkFormFactors, arguments.solving.form_factors);
     options["solver"] = arguments.solving.dense ? "dense" : "hierarchical";
     if (arguments.solving.dense) {
-      constexpr std::array<const char*, 3> kDegrees = {"constant", "linear", "quadratic"};
-      options["basis"] = kDegrees[static_cast<std::size_t>(arguments.solving.dense->degree)];
+      options["basis"] = ChoiceName(kBases, arguments.solving.dense->degree);
       options["divisions"] = arguments.solving.divisions;
     }
     options["error_points"] = arguments.solving.error_points;
     if (arguments.restart) options["restart"] = *arguments.restart;
+    if (arguments.solving.dense) DropHierarchical(&options);
   }
   return options;
 }
@@ -465,14 +490,33 @@ void PrintOptionsUsed(const nlohmann::ordered_json& options) {
     else if (key != "solution" && !IsOfRestart(name, options))
       block += OptionText(name, value);
   }
-  fmt::print(stderr, "{}", block);
+  SayAsItIs(block);
 }
+
+namespace {
+
+void TakeHierarchical(const nlohmann::ordered_json& options, PipelineOptions* solving) {
+  solving->eps = options.at("eps").get<double>();
+  solving->refine = ChoiceValue(kRefinements, options.at("refine").get<std::string>());
+  options.at("corrections").get_to(solving->max_corrections);
+  if (options.contains("source_error")) solving->source_error = options["source_error"].get<double>();
+  solving->acceleration =
+      options.at(kAcceleration).get<bool>() ? Acceleration::kAnderson : Acceleration::kNone;
+  solving->relative_cutoff = options.at("relative_cutoff").get<double>();
+  options.at("iterations").get_to(solving->max_iterations);
+  solving->scheme = ChoiceValue(kSchemes, options.at("scheme").get<std::string>());
+  solving->oracle = ChoiceValue(kOracles, options.at("oracle").get<std::string>());
+  options.at("multigrid").get_to(solving->multigrid);
+  options.at("bounces").get_to(solving->bounces);
+  solving->form_factors = ChoiceValue(kLinkFormFactors, options.at("form_factors").get<std::string>());
+}
+
+}  // namespace
 
 PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   PipelineOptions solving;
   options.at("seed").get_to(solving.seed);
   options.at("error").get_to(solving.error);
-  solving.eps = options.at("eps").get<double>();
   solving.min_area = options.at("min_area").get<double>();
   solving.min_discontinuity_weight = options.at("min_discontinuity_weight").get<double>();
   options.at("max_leaf_dsets").get_to(solving.max_leaf_dsets);
@@ -485,27 +529,14 @@ PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   solving.keep_hidden_discontinuities = options.value("keep_hidden_discontinuities", false);
   solving.triple_edge_tolerance = options.value("eee", 0.0);
   options.at("error_samples").get_to(solving.error_samples);
-  solving.refine = ChoiceValue(kRefinements, options.at("refine").get<std::string>());
-  options.at("corrections").get_to(solving.max_corrections);
-  if (options.contains("source_error")) solving.source_error = options["source_error"].get<double>();
-  solving.acceleration =
-      options.at(kAcceleration).get<bool>() ? Acceleration::kAnderson : Acceleration::kNone;
-  solving.relative_cutoff = options.at("relative_cutoff").get<double>();
-  options.at("iterations").get_to(solving.max_iterations);
-  solving.scheme = ChoiceValue(kSchemes, options.at("scheme").get<std::string>());
-  solving.oracle = ChoiceValue(kOracles, options.at("oracle").get<std::string>());
-  options.at("multigrid").get_to(solving.multigrid);
   if (options.contains("time_limit")) solving.time_limit = options["time_limit"].get<double>();
   if (options.contains("memory_limit")) solving.memory_limit = options["memory_limit"].get<double>();
-  options.at("bounces").get_to(solving.bounces);
-  solving.form_factors = ChoiceValue(kLinkFormFactors, options.at("form_factors").get<std::string>());
   if (options.at("solver") == "dense") {
-    const std::string basis = options.at("basis").get<std::string>();
     solving.dense.emplace();
-    solving.dense->degree = basis == "constant" ? BasisDegree::kConstant
-                            : basis == "linear" ? BasisDegree::kLinear
-                                                : BasisDegree::kQuadratic;
+    solving.dense->degree = ChoiceValue(kBases, options.at("basis").get<std::string>());
     options.at("divisions").get_to(solving.divisions);
+  } else {
+    TakeHierarchical(options, &solving);
   }
   options.at("nudge").get_to(solving.point.nudge);
   options.at("source_push_off").get_to(solving.point.source_push_off);
@@ -514,16 +545,28 @@ PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   return solving;
 }
 
+void TellWarnings(const LoadedScene& loaded) {
+  if (loaded.stored) return;
+  for (const std::string& warning : loaded.scene.warnings) Say(warning);
+}
+
 LoadedScene LoadScene(const SceneArguments& arguments) {
+  LoadedScene loaded = LoadQuietly(arguments);
+  TellWarnings(loaded);
+  return loaded;
+}
+
+LoadedScene LoadQuietly(const SceneArguments& arguments) {
   SetThreadCount(arguments.threads);
+  CheckOptions(arguments);
   const Stopwatch reading;
+  if (IsFile(arguments.scene)) arguments.outputs.RefuseInput(arguments.scene);
   const bool is_solution = IsSolution(arguments.scene);
   if (is_solution) RefuseSceneOptions(arguments);
   LoadedScene loaded = is_solution ? LoadSolution(arguments.scene)
                                    : LoadedScene{std::make_unique<const Scene>(ReadChangedScene(arguments))};
   loaded.seconds = reading.Seconds();
-  if (!is_solution)
-    for (const std::string& warning : loaded.scene.warnings) fmt::print(stderr, "{}\n", warning);
+  if (!is_solution) CheckDistances(arguments, loaded.scene);
   return loaded;
 }
 

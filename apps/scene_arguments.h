@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "apps/material_change.h"
+#include "apps/output.h"
 #include "mesh/pipeline.h"
 #include "solver/scene/scene.h"
 #include "solver/scene/scene_options.h"
@@ -30,6 +31,8 @@ struct SceneArguments {
   bool verbose = false;
   std::optional<std::string> report;   // where the report goes
   std::optional<std::string> restart;  // the solution whose links a solve begins with: LoadToSolve()
+  OutputFiles outputs;                 // what the command will write, which nothing that it reads may be
+  bool lit = true;                     // whether it is about light, and not geometry alone
 };
 
 // Threads, seed and verbosity: of every command that takes long.
@@ -70,6 +73,9 @@ struct LoadedScene {
 // Sets the number of threads and reads the scene, or the solution with its scene; warnings of scenes go to
 // standard error. Throws InputError, and UsageError if options of reading or solving come with a solution.
 LoadedScene LoadScene(const SceneArguments& arguments);
+// The same without the warnings, and these: for who may yet refuse what was read, which is told alone.
+LoadedScene LoadQuietly(const SceneArguments& arguments);
+void TellWarnings(const LoadedScene& loaded);
 // Reads a solution file. Throws InputError if it is none.
 LoadedScene LoadSolution(const std::string& path);
 

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <string_view>
 #include <utility>
 
 #include "apps/interruptible.h"
+#include "apps/messages.h"
+#include "apps/option_checks.h"
 #include "apps/output.h"
 #include "mesh/solution_file.h"
 #include "solver/base/check.h"
@@ -47,20 +50,47 @@ nlohmann::ordered_json StartOptions(const SceneArguments& arguments, const Loade
 
 }  // namespace
 
+std::string WhatWasMissed(const PipelineReport& report) {
+  constexpr std::string_view kOfError = "error: ";
+  std::string error, reasons;
+  for (const std::string& line : report.unmet) {
+    if (line.starts_with(kOfError))
+      error += (error.empty() ? "" : "; ") + line.substr(kOfError.size());
+    else
+      reasons += (reasons.empty() ? "" : "; ") + line;
+  }
+  if (report.error_met || (error.empty() && reasons.empty())) return "";
+  if (!error.empty()) return reasons.empty() ? error : fmt::format("{}; {}", error, reasons);
+  return fmt::format("whether the error asked for, {:g}, was met is not measured (--report does): {}",
+                     report.error_asked, reasons);
+}
+
 nlohmann::ordered_json StoredOptions(const nlohmann::ordered_json& stored, const SceneArguments& arguments,
                                      const ResolvedOptions& resolved) {
   nlohmann::ordered_json options = stored;
   options.update(OptionsUsed(arguments, &resolved));
-  for (const char* reading : {"scene", "emission_is_radiance", "two_sided"})
-    options[reading] = stored.at(reading);
+  for (const char* reading : {"scene", "emission_is_radiance", "flip", "two_sided"})
+    if (stored.contains(reading))
+      options[reading] = stored.at(reading);
+    else
+      options.erase(reading);  // there was no such option then
   return options;
 }
 
 std::string SolutionFileOf(const Pipeline& pipeline, const nlohmann::ordered_json& options) {
+  const std::string report = LastingReportJson(pipeline.report());
+  try {
+    PipelineReportFrom(nlohmann::ordered_json::parse(report));
+  } catch (const nlohmann::json::exception&) {  // JSON has no word for what is no number
+    throw InputError(
+        fmt::format("{}: error: the report holds what is no number, and the solution is not fit to be kept: "
+                    "this is a mistake of the program, and another --error may get around it",
+                    pipeline.scene().name));
+  }
   return EncodeSolution(
       pipeline,
-      LastingOptions(options).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace),
-      LastingReportJson(pipeline.report()), PENUMBRA_VERSION);
+      LastingOptions(options).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace), report,
+      PENUMBRA_VERSION);
 }
 
 SolveRun::SolveRun(const SceneArguments& arguments, LoadedScene& loaded,
@@ -73,6 +103,8 @@ SolveRun::SolveRun(const SceneArguments& arguments, LoadedScene& loaded,
       options_(StartOptions(arguments, loaded, pipeline_)) {
   options_.update(command_options);
   if (arguments_.verbose) PrintOptionsUsed(options_);
+  const std::string note = stored_ ? "" : CostNote(arguments, pipeline_.resolved());
+  if (!note.empty()) Say(note);
 }
 
 void SolveRun::Run(std::optional<MeshKind> kind, bool measure) {
@@ -84,9 +116,13 @@ void SolveRun::Run(std::optional<MeshKind> kind, bool measure) {
     // What interpolants show refines the sources, which are the same whatever is made of them.
     const bool refines = !stored_ && RefinesLight(arguments_.solving);
     if (refines && !context.Cancelled()) pipeline_.BuildMesh(MeshKind::kInterpolant, context);
+    const bool glances = !stored_ && !measure && !arguments_.solving.dense;
+    if (refines && glances && !context.Cancelled()) pipeline_.Glance(context);
     // Where a limit has ended that, asking for the same once more would change nothing.
     const bool is_made = refines && kind == MeshKind::kInterpolant;
     if (!context.Cancelled() && kind && !is_made) pipeline_.BuildMesh(*kind, context);
+    if (!refines && glances && kind == MeshKind::kInterpolant && !context.Cancelled())
+      pipeline_.Glance(context);
     if (context.Cancelled() || !kind || !measure) return;
     if (stored_)
       pipeline_.Diagnose();  // its error was measured when it was solved
@@ -104,13 +140,12 @@ void SolveRun::RunUnlit() {
 
 std::string SolveRun::SolutionFile() const { return SolutionFileOf(pipeline_, options_); }
 
-void SolveRun::Tell(bool table_follows) const {
-  for (const std::string& warning : pipeline_.report().warnings) fmt::print(stderr, "{}\n", warning);
-  if (!stored_ && !table_follows && !WantsReport(arguments_))
-    for (const std::string& line : pipeline_.report().unmet)
-      fmt::print(stderr, "{}: warning: {}\n", arguments_.scene, line);
+void SolveRun::Tell() const {
+  for (const std::string& warning : pipeline_.report().warnings) Say(warning);
+  const std::string missed = WhatWasMissed(pipeline_.report());
+  if (!missed.empty()) Say(fmt::format("{}: warning: {}", arguments_.scene, missed));
   if (arguments_.report) WriteResult(arguments_.report, ReportJson(report()));
-  if (arguments_.verbose) fmt::print(stderr, "{}", ReportTable(report()));
+  if (arguments_.verbose) SayAsItIs(ReportTable(report()));
 }
 
 RunReport SolveRun::report() const { return {options_, load_seconds_, pipeline_.report()}; }

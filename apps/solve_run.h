@@ -21,6 +21,10 @@ nlohmann::ordered_json StoredOptions(const nlohmann::ordered_json& stored, const
 // interpolants, and is measured.
 std::string SolutionFileOf(const Pipeline& pipeline, const nlohmann::ordered_json& options);
 
+// Whether the error asked for was missed, and what else fell short, in one sentence; empty if it was met, or
+// nothing says that it was not.
+std::string WhatWasMissed(const PipelineReport& report);
+
 // A scene on its way through the pipeline, as commands drive it: options are told, progress is shown, an
 // interrupt ends it, the report is written.
 class SolveRun {
@@ -39,9 +43,9 @@ class SolveRun {
   // Interrupted.
   void RunUnlit();
 
-  // Writes the report to its file, if it was asked for, and the table to standard error, with -v. Without
-  // either warns of what missed the target, unless the caller is about to print the table.
-  void Tell(bool table_follows = false) const;
+  // Warns of what looks wrong in the scene and of what missed the target; writes the report to its file, if
+  // it was asked for, and the table to standard error, with -v.
+  void Tell() const;
 
   const Pipeline& pipeline() const { return pipeline_; }
   RunReport report() const;

@@ -21,9 +21,8 @@ struct Axes {
 Axes CameraAxes(const Camera& camera) {
   const Vec3 forward = (camera.look_at - camera.eye).stableNormalized();
   for (const Vec3& up : {camera.up.stableNormalized().eval(), Vec3::UnitZ().eval(), Vec3::UnitY().eval()}) {
-    const Vec3 right = forward.cross(up);
-    if (right.norm() < kParallelSine) continue;
-    const Vec3 unit = right.normalized();
+    if (!CanBeUp(up, camera)) continue;
+    const Vec3 unit = forward.cross(up).normalized();
     return {unit, unit.cross(forward), forward};
   }
   PENUMBRA_CHECK(false && "no direction is parallel to both z and y");
@@ -33,6 +32,11 @@ Axes CameraAxes(const Camera& camera) {
 double HalfHeight(const Camera& camera) { return std::tan(camera.vertical_fov * (std::numbers::pi / 360)); }
 
 }  // namespace
+
+bool CanBeUp(const Vec3& up, const Camera& camera) {
+  const Vec3 forward = (camera.look_at - camera.eye).stableNormalized();
+  return forward.cross(up.stableNormalized()).norm() >= kParallelSine;
+}
 
 void ValidateCamera(const Camera& camera) {
   const std::string name = camera.name.empty() ? "camera" : fmt::format("camera '{}'", camera.name);

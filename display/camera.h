@@ -28,6 +28,7 @@ PixelRays MakePixelRays(const Camera& camera, int width, int height);
 
 // Throws InputError, with a line that says what to mend, unless eye, look_at, up and field of view are
 // finite, eye and look_at differ, and the field of view lies strictly between 0 and 180 degrees.
+bool CanBeUp(const Vec3& up, const Camera& camera);
 void ValidateCamera(const Camera& camera);
 
 // A camera for a scene without one: z up, looking down at the middle of the bounding box from outside, all of

@@ -110,7 +110,7 @@ RgbImage ReadExr(const std::string& path) {
     return image;
   } catch (const std::exception& error) {
     throw InputError(
-        fmt::format("{}:0: error: cannot read the image: {}; give an EXR file with the channels R, G and B",
+        fmt::format("{}: error: cannot read the image: {}; give an EXR file with the channels R, G and B",
                     path, error.what()));
   }
 }

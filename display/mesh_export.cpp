@@ -8,12 +8,14 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "display/mesh_nodes.h"
 #include "display/tone_mapping.h"
+#include "solver/base/check.h"
 
 namespace penumbra {
 namespace {
@@ -55,6 +57,20 @@ std::string DataArray(const char* type, const char* name, int components, const 
       name, components, Base64(raw + bytes));
 }
 
+// The nodes, for a file whose values have `Scalar`s. Throws InputError if one does not fit.
+template <class Scalar>
+MeshNodes NodesToWrite(const Scene& scene, const IrradianceMesh& mesh) {
+  MeshNodes nodes = FindMeshNodes(scene, mesh);
+  constexpr double kMost = std::numeric_limits<Scalar>::max();
+  for (const MeshNodes::Node& node : nodes.nodes)
+    if (!(node.irradiance.abs().maxCoeff() <= kMost && node.radiosity.abs().maxCoeff() <= kMost) ||
+        !node.irradiance.allFinite() || !node.radiosity.allFinite())
+      throw InputError(fmt::format(
+          "{}: error: the mesh holds a value that the format cannot, up to {:.2g}; give the scene less light",
+          scene.name, kMost));
+  return nodes;
+}
+
 // What a screen shows of a node, linear.
 Rgb ExposedAt(const Scene& scene, const MeshNodes::Node& node, double exposure) {
   if ((scene.MaterialOf(node.patch).emittance > 0).any()) return Rgb::Ones();
@@ -75,7 +91,7 @@ std::string Chunk(std::uint32_t type, std::string bytes, char filler) {
 }  // namespace
 
 std::string VtuBytes(const Scene& scene, const IrradianceMesh& mesh) {
-  const MeshNodes nodes = FindMeshNodes(scene, mesh);
+  const MeshNodes nodes = NodesToWrite<double>(scene, mesh);
   std::string points, irradiance, radiosity, connectivity, offsets, types, patches;
   for (const MeshNodes::Node& node : nodes.nodes) {
     AppendTriple<double>(points, node.position);
@@ -102,17 +118,17 @@ std::string VtuBytes(const Scene& scene, const IrradianceMesh& mesh) {
 }
 
 std::string PlyBytes(const Scene& scene, const IrradianceMesh& mesh, double exposure) {
-  const MeshNodes nodes = FindMeshNodes(scene, mesh);
+  const MeshNodes nodes = NodesToWrite<float>(scene, mesh);
   std::string bytes = fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment irradiance and radiosity in W/m^2, lengths in metres\n"
-      "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
+      "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
       "property uchar red\nproperty uchar green\nproperty uchar blue\n"
       "property float irradiance_r\nproperty float irradiance_g\nproperty float irradiance_b\n"
       "property float radiosity_r\nproperty float radiosity_g\nproperty float radiosity_b\n"
       "element face {}\nproperty list uchar int vertex_indices\nproperty int patch\nend_header\n",
       nodes.nodes.size(), 4 * nodes.triangles.size());
   for (const MeshNodes::Node& node : nodes.nodes) {
-    AppendTriple<float>(bytes, node.position);
+    AppendTriple<double>(bytes, node.position);
     const Rgb shown = ExposedAt(scene, node, exposure);
     for (int c = 0; c < 3; ++c)
       bytes.push_back(static_cast<char>(std::lround(255 * SrgbFromLinear(shown[c]))));
@@ -129,7 +145,7 @@ std::string PlyBytes(const Scene& scene, const IrradianceMesh& mesh, double expo
 }
 
 std::string GlbBytes(const Scene& scene, const IrradianceMesh& mesh, double exposure) {
-  const MeshNodes nodes = FindMeshNodes(scene, mesh);
+  const MeshNodes nodes = NodesToWrite<float>(scene, mesh);
   // Floats about the centre of the scene keep their digits far from the origin.
   const auto [low, high] = scene.Bounds();
   const Vec3 centre = 0.5 * (low + high);

@@ -128,6 +128,22 @@ StoredSolution Read(const Envelope& envelope) {
   return stored;
 }
 
+// Throws InputError for what Read() would refuse: a file that cannot be read must not take the place of one
+// that can.
+void CheckKept(const Pipeline& pipeline) {
+  try {
+    CheckScene(pipeline.scene());
+    CheckVisibility(pipeline.scene(), pipeline.visibility().rows());
+    CheckLight(pipeline.solution());
+    CheckMesh(pipeline.scene(), pipeline.mesh());
+  } catch (const Hdf5Error& error) {
+    throw InputError(fmt::format(
+        "{}: error: the solution is not fit to be kept: {}; nothing is written: this is a mistake of the "
+        "program, and another --error may get around it",
+        pipeline.scene().name, error.what()));
+  }
+}
+
 }  // namespace
 
 bool LooksLikeSolution(std::string_view beginning) {
@@ -139,6 +155,7 @@ std::string EncodeSolution(const Pipeline& pipeline, const std::string& options,
                            const std::string& version) {
   const std::vector<MeshKind> kind = {pipeline.mesh_kind().value()};
   PENUMBRA_CHECK(kind[0] == MeshKind::kInterpolant || kind[0] == MeshKind::kFlat);
+  CheckKept(pipeline);
   Hdf5Writer file;
   ArchiveWriter archive(&file);
   archive.Text("options", options);

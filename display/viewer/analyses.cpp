@@ -6,7 +6,7 @@ namespace penumbra::viewer {
 
 Analyses::Analyses()
     : discontinuities_([](const Light& light, const ExecutionContext& context) {
-        DiscontinuityOptions whatever_they_weigh;  // thesis B.4.4
+        DiscontinuityOptions whatever_they_weigh = light->discontinuities();  // thesis B.4.4
         whatever_they_weigh.min_weight = 0;
         return ListDiscontinuities(light->solution(), light->visibility(), whatever_they_weigh, context);
       }),

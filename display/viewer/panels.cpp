@@ -362,8 +362,8 @@ void Panels::Report(Viewer& viewer) {
       ImGui::EndTable();
     }
     for (std::size_t k = 0; k < kMeshKinds; ++k) {
-      constexpr const char* kNames[] = {"flat", "gouraud", "gouraud-mesh", "interpolant"};
-      if (now.mesh[k]) Text(fmt::format("{}: {} triangles", kNames[k], now.mesh[k]->mesh().triangles.size()));
+      const char* name = NameOf(static_cast<MeshKind>(k));
+      if (now.mesh[k]) Text(fmt::format("{}: {} triangles", name, now.mesh[k]->mesh().triangles.size()));
     }
     if (now.measured) {
       const PipelineReport& m = *now.measured;

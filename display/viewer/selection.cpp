@@ -91,15 +91,41 @@ std::vector<std::string> DescribeTriangle(const OverlayContext& context) {
   return lines;
 }
 
+// Without a default: the compiler tells which kind has no name.
+const char* NameOf(DiscontinuityKind kind) {
+  switch (kind) {
+    case DiscontinuityKind::kVE:
+      return "VE";
+    case DiscontinuityKind::kEV:
+      return "EV";
+    case DiscontinuityKind::kHorizon:
+      return "horizon";
+    case DiscontinuityKind::kContact:
+      return "contact";
+    case DiscontinuityKind::kEEE:
+      return "EEE";
+  }
+  return "";
+}
+
+const char* NameOf(DiscontinuityDegree degree) {
+  switch (degree) {
+    case DiscontinuityDegree::kD0:
+      return "D0: the irradiance jumps";
+    case DiscontinuityDegree::kD1:
+      return "D1: its slope jumps";
+    case DiscontinuityDegree::kD2:
+      return "D2: its curvature jumps";
+  }
+  return "";
+}
+
 std::vector<std::string> DescribeDiscontinuity(const OverlayContext& context) {
   const Discontinuity& d = SelectedDiscontinuity(context);
   const Scene& scene = *context.snapshot.scene;
-  constexpr const char* kKinds[] = {"VE", "EV", "horizon", "contact"};
-  constexpr const char* kDegrees[] = {"D0: the irradiance jumps", "D1: its slope jumps",
-                                      "D2: its curvature jumps"};
   const auto& ends = context.results.discontinuities->ends[static_cast<std::size_t>(context.selection.index)];
-  return {fmt::format("discontinuity {}: {}", context.selection.index, kKinds[static_cast<int>(d.kind)]),
-          kDegrees[static_cast<int>(d.degree)],
+  return {fmt::format("discontinuity {}: {}", context.selection.index, NameOf(d.kind)),
+          NameOf(d.degree),
           "source: " + PatchName(scene, d.source),
           "blocker: " + PatchName(scene, d.blocker),
           "receiver: " + PatchName(scene, d.receiver),
@@ -224,6 +250,11 @@ std::vector<std::string> DescribeSelection(const OverlayContext& context) {
       return DescribeDiscontinuity(context);
   }
   return {};
+}
+
+std::string DescribePlace(const ProbedPoint& at, const Scene& scene) {
+  return fmt::format("at {} on patch {}", Text(at.position),
+                     FaceName(scene, scene.FaceAt(at.patch, at.position), at.patch));
 }
 
 std::vector<std::string> DescribeProbe(const ProbeResult& probe, const Scene& scene) {

@@ -36,6 +36,7 @@ std::vector<std::uint32_t> IsolatedTriangles(const OverlayContext& context, cons
 
 // What there is to tell about it, a line each.
 std::vector<std::string> DescribeSelection(const OverlayContext& context);
+std::string DescribePlace(const ProbedPoint& at, const Scene& scene);
 std::vector<std::string> DescribeProbe(const ProbeResult& probe, const Scene& scene);
 
 }  // namespace penumbra::viewer

@@ -4,9 +4,12 @@
 
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "solver/geometry/vec.h"
@@ -43,23 +46,31 @@ class Settings {
                   double low, double high, bool logarithmic);
   Setting& Integer(const std::string& name, const std::string& group, const std::string& help, int* value,
                    int low, int high);
-  // `value` is an enum whose values are the places of the choices.
-  template <class Enum>
-  Setting& Choice(const std::string& name, const std::string& group, const std::string& help, Enum* value,
-                  std::vector<std::string> choices) {
-    return AddChoice(
-        name, group, help, std::move(choices), [value] { return static_cast<std::size_t>(*value); },
-        [value](std::size_t i) { *value = static_cast<Enum>(i); });
+  // A name and what it stands for.
+  template <class Value>
+  using Named = std::vector<std::pair<std::string, Value>>;
+
+  // REQUIRES: every value that `value` may have has a name.
+  template <class Value>
+  Setting& Choice(const std::string& name, const std::string& group, const std::string& help, Value* value,
+                  const Named<std::type_identity_t<Value>>& choices) {
+    std::vector<std::string> names;
+    for (const auto& choice : choices) names.push_back(choice.first);
+    const auto place = [value, choices] {
+      const auto found = std::find_if(choices.begin(), choices.end(),
+                                      [value](const auto& choice) { return choice.second == *value; });
+      return static_cast<std::size_t>(found - choices.begin());
+    };
+    return AddChoice(name, group, help, std::move(names), place,
+                     [value, choices](std::size_t i) { *value = choices[i].second; });
   }
   // The same, with `auto` for nothing.
-  template <class Enum>
+  template <class Value>
   Setting& OptionalChoice(const std::string& name, const std::string& group, const std::string& help,
-                          std::optional<Enum>* value, std::vector<std::string> choices) {
-    choices.insert(choices.begin(), "auto");
-    return AddChoice(
-        name, group, help, std::move(choices),
-        [value] { return *value ? static_cast<std::size_t>(**value) + 1 : 0; },
-        [value](std::size_t i) { *value = i == 0 ? std::nullopt : std::optional(static_cast<Enum>(i - 1)); });
+                          std::optional<Value>* value, const Named<std::type_identity_t<Value>>& choices) {
+    Named<std::optional<Value>> all = {{"auto", std::nullopt}};
+    for (const auto& [choice, meaning] : choices) all.emplace_back(choice, meaning);
+    return Choice(name, group, help, value, all);
   }
   Setting& Vector(const std::string& name, const std::string& group, const std::string& help,
                   std::function<Vec3()> get, std::function<void(const Vec3&)> set);

@@ -26,15 +26,19 @@ namespace penumbra::viewer {
 class LightState {
  public:
   LightState(std::shared_ptr<const Scene> scene, std::shared_ptr<const PatchVisibility> visibility,
-             RadiositySolution solution, const PointIrradianceOptions& options)
+             RadiositySolution solution, const PointIrradianceOptions& options,
+             const DiscontinuityOptions& discontinuities = {})
       : scene_(std::move(scene)),
         visibility_(std::move(visibility)),
         solution_(std::move(solution)),
-        options_(options) {}
+        options_(options),
+        discontinuities_(discontinuities) {}
 
   const Scene& scene() const { return *scene_; }
   const PatchVisibility& visibility() const { return *visibility_; }
   const RadiositySolution& solution() const { return solution_; }
+  // As the mesh of this light would look for them.
+  const DiscontinuityOptions& discontinuities() const { return discontinuities_; }
 
   // Irradiance at points, exact; made when first asked for. Safe from any thread.
   const PointIrradiance& Exact() const {
@@ -47,6 +51,7 @@ class LightState {
   std::shared_ptr<const PatchVisibility> visibility_;
   RadiositySolution solution_;
   PointIrradianceOptions options_;
+  DiscontinuityOptions discontinuities_;
   mutable std::once_flag made_;
   mutable std::optional<PointIrradiance> exact_;
 };
@@ -73,6 +78,20 @@ class MeshState {
 };
 
 inline constexpr std::size_t kMeshKinds = 4;
+// As modes of drawing are called. Without a default: the compiler tells which kind has no name.
+inline const char* NameOf(MeshKind kind) {
+  switch (kind) {
+    case MeshKind::kFlat:
+      return "flat";
+    case MeshKind::kGouraud:
+      return "gouraud";
+    case MeshKind::kGouraudMesh:
+      return "gouraud-mesh";
+    case MeshKind::kInterpolant:
+      return "interpolant";
+  }
+  return "";
+}
 
 struct Snapshot {
   std::uint64_t number = 0;  // ascending

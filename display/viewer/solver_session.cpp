@@ -33,8 +33,9 @@ std::shared_ptr<Snapshot> LightOf(const Pipeline& pipeline, const Snapshot& befo
   auto next = std::make_shared<Snapshot>(before);
   next->mesh = {};
   next->measured.reset();
-  next->light = std::make_shared<const LightState>(before.scene, std::move(visibility), pipeline.solution(),
-                                                   pipeline.options().point);
+  next->light =
+      std::make_shared<const LightState>(before.scene, std::move(visibility), pipeline.solution(),
+                                         pipeline.options().point, pipeline.resolved().discontinuities);
   const RadiositySolution& solution = next->light->solution();
   next->mesh[static_cast<std::size_t>(MeshKind::kFlat)] =
       std::make_shared<const MeshState>(before.scene, LeafMesh(solution.forest, solution.irradiance));

@@ -181,7 +181,7 @@ bool Viewer::Idle() {
 void Viewer::RunMenu(const std::string& path) {
   fresh_ = false;
   const MenuItem* item = menu_.Find(path);
-  if (!item) throw InputError(fmt::format("there is no menu item '{}'", path));
+  if (!item) throw InputError(fmt::format("there is no menu item '{}'; --help-script lists them", path));
   // A copy: the item may replace itself.
   const std::function<void()> run = item->run;
   run();
@@ -190,7 +190,7 @@ void Viewer::RunMenu(const std::string& path) {
 void Viewer::Set(const std::string& name, const std::string& value) {
   fresh_ = false;
   const Setting* setting = settings_.Find(name);
-  if (!setting) throw InputError(fmt::format("there is no option '{}'", name));
+  if (!setting) throw InputError(fmt::format("there is no option '{}'; --help-script lists them", name));
   if (own_links_ && std::find(kLinkOptions.begin(), kLinkOptions.end(), name) != kLinkOptions.end())
     throw InputError(
         fmt::format("{}: it says how links are made, but restart keeps those of a solution", name));
@@ -209,12 +209,13 @@ std::vector<std::string> Viewer::Details() const {
     for (std::string& line : DescribeProbe(*results_.probe, *snapshot_->scene))
       lines.push_back(std::move(line));
   }
-  if (results_.backprojection) {
+  if (results_.backprojection && view_.backprojection) {
     if (!lines.empty()) lines.emplace_back();
     std::size_t hidden = 0;
     for (const BackprojectedPatch& patch : *results_.backprojection) hidden += patch.visible.empty() ? 1 : 0;
     lines.push_back(fmt::format("backprojection on {} sources, {} of them hidden",
                                 results_.backprojection->size(), hidden));
+    lines.push_back(DescribePlace(*view_.backprojection, *snapshot_->scene));
   }
   return lines;
 }

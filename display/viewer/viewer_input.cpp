@@ -144,6 +144,9 @@ void Viewer::Probe(const InputEvent& event, bool backproject) {
   const auto at = PointAt(*snapshot_->scene, picture_.drawn(), *picture_.frame(), picture_.depth()->rays(),
                           event.x, event.y);
   (backproject ? view_.backprojection : view_.probe) = at;
+  // What is told together is of one place.
+  std::optional<ProbedPoint>& other = backproject ? view_.probe : view_.backprojection;
+  if (other != at) other.reset();
 }
 
 void Viewer::Walk(double seconds) {

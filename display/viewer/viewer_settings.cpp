@@ -42,9 +42,17 @@ std::uint64_t WholeNumber(const std::string& text) {
 void Viewer::AddViewSettings() {
   Settings& s = settings_;
   s.Choice("mode", "Drawing", "Drawing mode", &view_.mode,
-           {"flat", "gouraud", "gouraud-mesh", "interpolant", "exact", "lerp", "rho"});
-  s.Choice("backend", "Drawing", "Who draws the two passes", &view_.backend, {"software", "opengl"});
-  s.Choice("opengl-coordinates", "Drawing", "Coordinates by OpenGL", &view_.coordinates, {"float", "8bit"});
+           {{"flat", DrawMode::kFlat},
+            {"gouraud", DrawMode::kGouraud},
+            {"gouraud-mesh", DrawMode::kGouraudMesh},
+            {"interpolant", DrawMode::kInterpolant},
+            {"exact", DrawMode::kExact},
+            {"lerp", DrawMode::kLerp},
+            {"rho", DrawMode::kRho}});
+  s.Choice("backend", "Drawing", "Who draws the two passes", &view_.backend,
+           {{"software", Backend::kSoftware}, {"opengl", Backend::kOpenGl}});
+  s.Choice("opengl-coordinates", "Drawing", "Coordinates by OpenGL", &view_.coordinates,
+           {{"float", OpenGlCoordinates::kFloat}, {"8bit", OpenGlCoordinates::kTexture}});
   s.Toggle("faces", "Drawing", "Faces", &view_.faces);
   s.Toggle("trees-by-reflectance", "Drawing", "Flat faces by reflectance", &view_.trees_by_reflectance);
   s.Toggle("split", "Drawing", "Ids, coordinates, depth and picture", &view_.split);
@@ -83,7 +91,8 @@ void Viewer::AddViewSettings() {
   s.Integer("grid-density", "Graphs", "Grid density", &o.grid_density, 1, 200);
   s.Toggle("dynamic-grid", "Graphs", "Dynamic grid density", &o.dynamic_grid);
 
-  s.Choice("navigation", "Viewing", "Viewing mode", &view_.navigation, {"arcball", "walk"});
+  s.Choice("navigation", "Viewing", "Viewing mode", &view_.navigation,
+           {{"arcball", Navigation::kArcball}, {"walk", Navigation::kWalk}});
   s.Number("walk-speed", "Viewing", "Walking speed [m/s]", &view_.walk_speed, 1e-3, 1e4, true);
   s.Toggle("mouse-look", "Viewing", "The mouse turns a walking view", &view_.mouse_look);
   s.Vector(
@@ -139,11 +148,19 @@ void Viewer::AddSolveSettings() {
       changed));
   also(s.Integer("corner-divisions", "Solving", "Divisions towards ends of contacts", &o.corner_divisions, 0,
                  kMostCornerDivisions));
-  also(s.Choice("refine", "Solving", "Refine by", &o.refine, {"transport", "representation", "both"}));
+  also(s.Choice("refine", "Solving", "Refine by", &o.refine,
+                {{"transport", RefineBy::kTransport},
+                 {"representation", RefineBy::kRepresentation},
+                 {"both", RefineBy::kBoth}}));
   also(s.Choice("mesh-discontinuities", "Solving", "Discontinuities in the mesh", &o.discontinuities,
-                {"ranked", "adaptive", "none", "random", "all"}));
-  also(s.OptionalChoice("weight", "Solving", "Weight of discontinuities", &o.weight,
-                        {"thesis", "irradiance"}));
+                {{"ranked", DiscontinuityChoice::kRanked},
+                 {"adaptive", DiscontinuityChoice::kAdaptive},
+                 {"none", DiscontinuityChoice::kNone},
+                 {"random", DiscontinuityChoice::kRandom},
+                 {"all", DiscontinuityChoice::kAll}}));
+  also(s.OptionalChoice(
+      "weight", "Solving", "Weight of discontinuities", &o.weight,
+      {{"thesis", DiscontinuityWeight::kThesis}, {"irradiance", DiscontinuityWeight::kIrradiance}}));
   also(s.Toggle("keep-hidden-discontinuities", "Solving", "Hidden discontinuities, too",
                 &o.keep_hidden_discontinuities));
   also(s.Number("eee", "Solving", "Triple-edge discontinuities within [m], 0: none", &o.triple_edge_tolerance,
@@ -158,14 +175,20 @@ void Viewer::AddSolveSettings() {
       [this] { return Resolve(*snapshot_->scene, options_.solving).solver.relative_cutoff; }, changed));
   also(s.Integer("corrections", "Solving", "Corrections by exact irradiance", &o.max_corrections, 0, 100));
   also(s.Integer("iterations", "Solving", "Most iterations", &o.max_iterations, 1, 1'000'000));
-  also(s.Choice("scheme", "Solving", "Sweeps", &o.scheme, {"jacobi", "gauss-seidel"}));
+  also(s.Choice("scheme", "Solving", "Sweeps", &o.scheme,
+                {{"jacobi", IterationScheme::kJacobi}, {"gauss-seidel", IterationScheme::kGaussSeidel}}));
   also(s.Choice("acceleration", "Solving", "Guess ahead between sweeps", &o.acceleration,
-                {"none", "anderson"}));
+                {{"none", Acceleration::kNone}, {"anderson", Acceleration::kAnderson}}));
   also(s.Choice("oracle", "Solving", "Refinement of links", &o.oracle,
-                {"transport", "visibility", "gradient", "thesis"}));
+                {{"transport", OracleKind::kTransport},
+                 {"visibility", OracleKind::kVisibility},
+                 {"gradient", OracleKind::kGradient},
+                 {"thesis", OracleKind::kThesis}}));
   also(s.Toggle("multigrid", "Solving", "Coarse links first", &o.multigrid));
   also(s.Choice("form-factors", "Solving", "Form factors of links", &o.form_factors,
-                {"cubature", "exact", "disk"}));
+                {{"cubature", LinkFormFactors::kCubature},
+                 {"exact", LinkFormFactors::kExact},
+                 {"disk", LinkFormFactors::kDisk}}));
   s.Add(Optional("time-limit", "Time limit [s]", &o.time_limit, 1e-9, {}, changed));
   s.Add(Optional("memory-limit", "Memory limit [bytes]", &o.memory_limit, 1, {}, changed));
   also(s.Integer("bounces", "Solving", "Bounces that are reported", &o.bounces, 0, 1000));
@@ -180,8 +203,10 @@ void Viewer::AddSolveSettings() {
     changed();
   };
   s.Add(solver);
-  Setting& basis =
-      s.Choice("basis", "Solving", "Dense: basis", &dense_.degree, {"constant", "linear", "quadratic"});
+  Setting& basis = s.Choice("basis", "Solving", "Dense: basis", &dense_.degree,
+                            {{"constant", BasisDegree::kConstant},
+                             {"linear", BasisDegree::kLinear},
+                             {"quadratic", BasisDegree::kQuadratic}});
   basis.set = [&o, dense = &dense_, set = basis.set, changed](const std::string& text) {
     set(text);
     if (o.dense) o.dense = *dense;
@@ -268,7 +293,9 @@ void Viewer::AddFileSettings() {
         GoTo(camera);
         return;
       }
-    throw InputError(fmt::format("there is no camera '{}'", v));
+    std::string names;
+    for (const Camera& camera : cameras_) names += (names.empty() ? "" : ", ") + camera.name;
+    throw InputError(fmt::format("there is no camera '{}'; there are {}", v, names.empty() ? "none" : names));
   });
 }
 

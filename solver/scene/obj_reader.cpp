@@ -137,6 +137,8 @@ Scene ObjParser::Parse() {
   while (reader_.Next()) ReadStatement();
   CheckSize();
   MakeFaces();
+  if (options_.flip)
+    for (Face& face : scene_.faces) std::reverse(face.vertices.begin(), face.vertices.end());
   if (options_.two_sided) AddBacks();
   WarnOfRepairs();
   BuildScenePatches();
@@ -544,7 +546,11 @@ Scene ReadObj(const std::filesystem::path& path, const SceneOptions& options) {
   } catch (const ReadFailure& failure) {
     throw ErrorAt(path.string(), 0, std::string(failure.what()) + "; give an OBJ file that can be read");
   }
-  const MtlSource beside = [&](std::string_view name) { return ReadLibraryFile(path.parent_path() / name); };
+  const MtlSource beside = [&](std::string_view name) {
+    const std::filesystem::path library = path.parent_path() / name;
+    if (options.before_library) options.before_library(library.string());
+    return ReadLibraryFile(library);
+  };
   return ReadObjText(text, path.string(), beside, options);
 }
 

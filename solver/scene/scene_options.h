@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace penumbra {
@@ -20,6 +21,9 @@ struct SceneOptions {
   // one that emits is seen.
   std::function<void(std::vector<Material>&)> change_materials = nullptr;
   bool strict = false;  // what would be repaired and warned about is refused
+  bool flip = false;    // every face is turned: its vertices run the other way round
+  // Hears of every material library before it is opened, and may throw.
+  std::function<void(const std::string& path)> before_library = nullptr;
 };
 
 }  // namespace penumbra

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "solver/base/parallel.h"
@@ -12,6 +13,10 @@
 
 namespace penumbra {
 namespace {
+
+// A patch with less of its area free than this is covered: what rounding leaves of the difference of two
+// areas.
+constexpr double kCovered = 1e-6;
 
 const Link* FindLink(const std::vector<Link>& links, ElementId receiver, ElementId source) {
   const auto found = std::lower_bound(links.begin(), links.end(), std::pair(receiver, source),
@@ -100,18 +105,22 @@ ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch, st
     }
   });
   double area = 0;
+  const std::vector<double> free_area = FreeAreas(scene);
+  std::map<std::int32_t, bool> blind;  // by face, of those that are free anywhere
   for (std::size_t p = 0; p < scene.patches.size(); ++p) {
     area += scene.patches[p].area;
     diagnostics.escaping += scene.patches[p].area * static_cast<double>(away[p]);
-    if (back[p] == rays_per_patch)
-      diagnostics.reversed_faces.insert(diagnostics.reversed_faces.end(), scene.patches[p].faces.begin(),
-                                        scene.patches[p].faces.end());
+    // What something lies on sees nothing; a face is reversed as a whole.
+    if (free_area[p] <= kCovered * scene.patches[p].area) continue;
+    for (const std::int32_t face : scene.patches[p].faces) {
+      const auto [at, is_new] = blind.emplace(face, true);
+      at->second = at->second && back[p] == rays_per_patch;
+    }
   }
   diagnostics.rays = scene.patches.size() * rays_per_patch;
   diagnostics.escaping /= area * static_cast<double>(rays_per_patch);
-  std::vector<std::int32_t>& reversed = diagnostics.reversed_faces;
-  std::sort(reversed.begin(), reversed.end());
-  reversed.erase(std::unique(reversed.begin(), reversed.end()), reversed.end());
+  for (const auto& [face, sees_backs] : blind)
+    if (sees_backs) diagnostics.reversed_faces.push_back(face);
   return diagnostics;
 }
 
@@ -141,6 +150,49 @@ std::vector<std::int32_t> DarkEmitters(const Scene& scene, std::size_t rays_per_
   for (std::int32_t f = 0; f < static_cast<std::int32_t>(dark.size()); ++f)
     if (dark[static_cast<std::size_t>(f)]) faces.push_back(f);
   return faces;
+}
+
+LitSides FindLitSides(const Scene& scene, std::size_t rays_per_patch, std::uint64_t seed) {
+  // Lamps that are small are found from what they light by luck alone, and skies from their own side.
+  constexpr std::size_t kRaysOfEmitter = 1024;
+  const RayCaster caster(scene);
+  const double lift = ContactGap(scene);
+  const auto emits = [&](PatchId p) { return (scene.MaterialOf(p).emittance > 0).any(); };
+  struct Seen {
+    bool front = false, back = false;  // whether an emitter sees it
+    std::vector<RayCaster::Hit> lit;   // by it
+  };
+  std::vector<Seen> seen(scene.patches.size());
+  ParallelFor(seen.size(), 8, [&](std::size_t p) {
+    const auto id = static_cast<PatchId>(p);
+    const Patch& patch = scene.patches[p];
+    const auto cast = [&](const Vec3& normal, std::size_t i) {
+      const DiffuseRay ray = MakeDiffuseRay(patch.Vertices(), normal, lift, i, seed);
+      return caster.Cast(ray.origin, ray.direction, id);
+    };
+    for (std::size_t i = 0; i < rays_per_patch; ++i)
+      for (const bool front : {true, false}) {
+        const RayCaster::Hit hit = cast(front ? patch.normal : Vec3(-patch.normal), p * rays_per_patch + i);
+        if (hit.patch != kNoPatch && hit.front && emits(hit.patch))
+          (front ? seen[p].front : seen[p].back) = true;
+      }
+    for (std::size_t i = 0; i < kRaysOfEmitter && emits(id); ++i)
+      if (const RayCaster::Hit hit = cast(patch.normal, i); hit.patch != kNoPatch) seen[p].lit.push_back(hit);
+  });
+  for (std::size_t p = 0; p < seen.size(); ++p)
+    for (const RayCaster::Hit& hit : seen[p].lit) {
+      Seen& at = seen[static_cast<std::size_t>(hit.patch)];
+      (hit.front ? at.front : at.back) = true;
+    }
+  LitSides sides;
+  for (std::size_t p = 0; p < seen.size(); ++p) {
+    if ((scene.MaterialOf(static_cast<PatchId>(p)).reflectance <= 0).all()) continue;
+    if (seen[p].front)
+      sides.front += scene.patches[p].area;
+    else if (seen[p].back)
+      sides.back += scene.patches[p].area;
+  }
+  return sides;
 }
 
 }  // namespace penumbra

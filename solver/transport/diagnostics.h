@@ -36,7 +36,8 @@ LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution,
 struct ViewDiagnostics {
   std::size_t rays = 0;
   double escaping = 0;  // share of what leaves the fronts, evenly and diffusely, that meets nothing
-  // Faces whose fronts see nothing but backs, by number: their vertices may run the wrong way.
+  // Faces whose fronts, where nothing lies on them, see nothing but backs, by number: their vertices may run
+  // the wrong way.
   std::vector<std::int32_t> reversed_faces;
 };
 // Sends as many rays from each patch, by a low-discrepancy rule, cosine distributed. Deterministic for a
@@ -48,5 +49,16 @@ ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch = 6
 // their patches: what hides an emitter lies before it, or it looks away from all there is.
 std::vector<std::int32_t> DarkEmitters(const Scene& scene, std::size_t rays_per_patch = 512,
                                        std::uint64_t seed = 1);
+
+// Area that reflects and that emitters see [m^2]: on fronts, whatever else, or on backs alone.
+struct LitSides {
+  double front = 0, back = 0;
+  // Whether the scene, but for its lamps, is turned inside out: faces as they may be, a room's walls are lit
+  // from inside. A single face that light meets from behind is none.
+  bool TurnedInsideOut() const { return back > front; }
+};
+// By so many rays from either side of each patch, and a thousand from each emitter. Deterministic for a given
+// seed.
+LitSides FindLitSides(const Scene& scene, std::size_t rays_per_patch = 64, std::uint64_t seed = 1);
 
 }  // namespace penumbra

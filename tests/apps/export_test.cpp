@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "display/image_io.h"
+#include "solver/geometry/vec.h"
 #include "tests/apps/run_program.h"
 
 namespace penumbra {
@@ -46,6 +48,82 @@ TEST(Export, MeshesAreTheSameForAnyThreads) {
     EXPECT_EQ(ReadBytes(sandbox.Path(one)), ReadBytes(sandbox.Path(two)));
     EXPECT_EQ(sandbox.Run({"export", "empty.obj", "-o", one}).status, 0);
   }
+}
+
+// The numbers of this type, so many in a row.
+template <class Scalar>
+std::vector<double> Numbers(const std::string& bytes, std::size_t at, std::size_t count) {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < count; ++i) {
+    Scalar value;
+    std::memcpy(&value, bytes.data() + at + i * sizeof(Scalar), sizeof(Scalar));
+    numbers.push_back(static_cast<double>(value));
+  }
+  return numbers;
+}
+
+// What base64 stands for.
+std::string Decoded(std::string_view text) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t word = 0;
+  int bits = 0;
+  for (const char digit : text) {
+    if (digit == '=') break;
+    word = word << 6 | static_cast<std::uint32_t>(kDigits.find(digit));
+    bits += 6;
+    if (bits >= 8) bytes.push_back(static_cast<char>(word >> (bits -= 8) & 255));
+  }
+  return bytes;
+}
+
+// In every format a room lies where it is, to the last digit, however far from the origin: map coordinates
+// have more digits than floats. The corners of the room are among the vertices, and nothing lies outside.
+TEST(Export, MapCoordinatesKeepTheirDigits) {
+  const Sandbox sandbox;
+  sandbox.Write("utm.mtl", "newmtl warm\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
+  sandbox.Write("utm.obj",
+                "mtllib utm.mtl\nusemtl warm\nv 512345.125 5403210.5 118\nv 512345.375 5403210.5 118\n"
+                "v 512345.375 5403210.75 118\nv 512345.125 5403210.75 118\nf 1 2 3 4\n");
+  const Vec3 low(512345.125, 5403210.5, 118), high(512345.375, 5403210.75, 118);
+  const auto expect_box = [&](const std::vector<double>& numbers, std::size_t stride, const Vec3& at) {
+    Vec3 least = Vec3::Constant(INFINITY), most = -least;
+    for (std::size_t i = 0; i + 2 < numbers.size(); i += stride) {
+      const Vec3 v = at + Vec3(numbers[i], numbers[i + 1], numbers[i + 2]);
+      least = least.cwiseMin(v);
+      most = most.cwiseMax(v);
+    }
+    EXPECT_EQ(least, low);
+    EXPECT_EQ(most, high);
+  };
+  for (const char* file : {"a.ply", "a.vtu", "a.glb"})
+    ASSERT_EQ(sandbox.Run({"export", "utm.obj", "--error", "0.5", "-o", file}).status, 0);
+
+  const std::string ply = ReadBytes(sandbox.Path("a.ply"));
+  EXPECT_THAT(ply, HasSubstr("property double x\nproperty double y\nproperty double z\n"));
+  const std::size_t begin = ply.find("end_header\n") + 11;
+  const auto count = static_cast<std::size_t>(std::stoul(ply.substr(ply.find("element vertex ") + 15)));
+  constexpr std::size_t kVertex = 3 * 8 + 3 + 6 * 4;
+  std::vector<double> corners;
+  for (std::size_t i = 0; i < count; ++i)
+    for (const double x : Numbers<double>(ply, begin + i * kVertex, 3)) corners.push_back(x);
+  expect_box(corners, 3, Vec3::Zero());
+
+  const std::string vtu = ReadBytes(sandbox.Path("a.vtu"));
+  const std::string name =
+      "<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"binary\">";
+  const std::size_t from = vtu.find(name) + name.size();
+  const std::string points = Decoded(std::string_view(vtu).substr(from, vtu.find('<', from) - from));
+  expect_box(Numbers<double>(points, 8, (points.size() - 8) / 8), 3, Vec3::Zero());
+
+  const std::string glb = ReadBytes(sandbox.Path("a.glb"));
+  std::uint32_t length = 0;
+  std::memcpy(&length, glb.data() + 12, 4);
+  const json gltf = json::parse(glb.substr(20, length));
+  const json& at = gltf["nodes"][0]["translation"];  // y up
+  const std::size_t vertices = gltf["accessors"][0]["count"];
+  expect_box(Numbers<float>(glb, 20 + length + 8, 3 * vertices), 3,
+             Vec3(at[0].get<double>(), -at[2].get<double>(), at[1].get<double>()));
 }
 
 // What cannot be written is bad usage, and nothing is written.
@@ -93,7 +171,7 @@ TEST(Diff, TellsHowFarPicturesAre) {
 
   const Outcome sizes = sandbox.Run({"diff", "a.exr", "c.exr"});
   EXPECT_EQ(sizes.status, 1);
-  EXPECT_THAT(sizes.err, HasSubstr("c.exr:0: error: it has 20x11 pixels, but a.exr has 20x10"));
+  EXPECT_THAT(sizes.err, HasSubstr("c.exr: error: it has 20x11 pixels, but a.exr has 20x10"));
   b.Set(3, 4, {NAN, 0, 0});
   WriteExr(sandbox.Path("b.exr"), b);
   EXPECT_EQ(sandbox.Run({"diff", "a.exr", "b.exr"}).status, 1);

@@ -55,7 +55,16 @@ std::vector<std::string> Sandbox::Files() const {
 }
 
 pid_t Sandbox::Start(const std::vector<std::string>& arguments) const {
-  const std::string program = std::string(PENUMBRA_BINARY_DIR) + "/bin/penumbra";
+  return StartProgram(std::string(PENUMBRA_BINARY_DIR) + "/bin/penumbra", arguments);
+}
+
+Outcome Sandbox::RunScript(const std::string& script) const {
+  const std::string program =
+      "penumbra() { '" + std::string(PENUMBRA_BINARY_DIR) + "/bin/penumbra' \"$@\"; }\n";
+  return Finish(StartProgram("/bin/sh", {"-c", program + script}));
+}
+
+pid_t Sandbox::StartProgram(const std::string& program, const std::vector<std::string>& arguments) const {
   std::vector<const char*> argv = {program.c_str()};
   for (const std::string& argument : arguments) argv.push_back(argument.c_str());
   argv.push_back(nullptr);

@@ -33,12 +33,15 @@ class Sandbox {
 
   // Runs penumbra with these arguments, in this folder.
   Outcome Run(const std::vector<std::string>& arguments) const;
+  // Runs a script by sh in this folder; the program is `penumbra` there.
+  Outcome RunScript(const std::string& script) const;
   // Starts it and sends it the signal once its standard error holds `marker`.
   Outcome RunAndSignal(const std::vector<std::string>& arguments, const std::string& marker,
                        int signal) const;
 
  private:
   pid_t Start(const std::vector<std::string>& arguments) const;
+  pid_t StartProgram(const std::string& program, const std::vector<std::string>& arguments) const;
   Outcome Finish(pid_t child) const;
 
   std::filesystem::path folder_;

@@ -110,7 +110,7 @@ TEST(Solution, IsKeptWhenALimitEndsTheSolve) {
     const Outcome solve =
         sandbox.Run({"solve", "floating-cube", "--error", "0.3", option, value, "-o", "a.h5"});
     ASSERT_EQ(solve.status, 0) << solve.err;
-    EXPECT_THAT(solve.err, HasSubstr("floating-cube: warning: mesh: ended by the"));
+    EXPECT_THAT(solve.err, HasSubstr("; mesh: ended by the"));
     ASSERT_EQ(sandbox.Run({"solve", "floating-cube", option, value, "--report", "r.json"}).status, 0);
     const json report = json::parse(ReadBytes(sandbox.Path("r.json")));
     std::set<std::string> lines;

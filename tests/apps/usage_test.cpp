@@ -149,6 +149,40 @@ TEST(Usage, BadUsageEndsWithTwo) {
       {"probe", "furnace", "--points", "p.csv", "--direct", "--report", "r.json"},
       {"probe", "furnace", "--points", "p.csv", "--direct", "--restart", "a.h5"},
       {"export", "furnace", "-o", "furnace2.obj", "--restart", "a.h5"},
+      // out of range
+      {"solve", "furnace", "--error", "1e-300"},
+      {"solve", "furnace", "--source-error", "1e-300"},
+      {"solve", "furnace", "--eps", "1e-300"},
+      {"solve", "furnace", "--relative-cutoff", "2"},
+      {"solve", "furnace", "--nudge", "0.3"},
+      {"solve", "furnace", "--nudge", "nan"},
+      {"solve", "furnace", "--source-push-off", "1"},
+      {"solve", "furnace", "--eee", "1e-300"},
+      {"solve", "furnace", "--time-limit", "1e300"},
+      {"solve", "furnace", "--min-backprojection-segment", "2"},
+      {"form-factor", "furnace", "--from", "0", "--to", "1", "--tolerance", "1e-300"},
+      {"render", "furnace", "-o", "image.png", "--eye", "1e300,0,0"},
+      {"render", "furnace", "-o", "image.png", "--fov", "1e-300"},
+      {"render", "furnace", "-o", "image.png", "--exposure", "1e300"},
+      // at odds with each other
+      {"solve", "furnace", "--solver", "dense", "--oracle", "transport"},
+      {"solve", "furnace", "--solver", "dense", "--eps", "1"},
+      {"solve", "furnace", "--solver", "dense", "--no-acceleration"},
+      {"solve", "furnace", "--corrections", "0", "--source-error", "0.1"},
+      {"render", "furnace", "-o", "image.png", "--split", "--false-colour"},
+      {"render", "furnace", "-o", "image.png", "--split", "--supersampling", "4"},
+      {"render", "furnace", "-o", "image.exr", "--supersampling", "4"},
+      {"render", "furnace", "-o", "image.png", "--samples", "4"},
+      {"render", "furnace", "-o", "image.png", "--mode", "exact", "--supersampling", "4"},
+      {"render", "furnace", "-o", "image.png", "--opengl-coordinates", "8bit"},
+      {"render", "furnace", "-o", "image.png", "--up", "0,0,0"},
+      {"render", "furnace", "-o", "image.png", "--eye", "0,0,0", "--look-at", "0,0,1", "--up", "0,0,-2"},
+      {"probe", "furnace", "--points", "p.csv", "--method", "clipping", "--min-backprojection-segment",
+       "0.1"},
+      {"form-factor", "furnace", "--from", "0", "--to", "1", "--method", "disk", "--tolerance", "0.1"},
+      {"form-factor", "furnace", "--from", "0", "--to", "1", "--rays", "10"},
+      {"export", "furnace", "-o", "furnace.vtu", "--exposure", "1"},
+      {"export", "furnace", "-o", "furnace.ply", "--eye", "1,1,1"},
   };
   const Sandbox sandbox;
   for (const std::vector<std::string>& arguments : bad) {
@@ -241,7 +275,7 @@ TEST(Input, FileWinsOverBuiltInName) {
   EXPECT_THAT(outcome.out, HasSubstr("2, 1 of them dropped"));
   ASSERT_GE(Lines(outcome.err).size(), 1u);
   for (const std::string& line : Lines(outcome.err))
-    EXPECT_THAT(line, testing::ContainsRegex("^office:[0-9]+: warning: "));
+    EXPECT_THAT(line, testing::ContainsRegex("^office:([0-9]+:)? warning: "));
 }
 
 // Bad points get one line that names file and line, and status 1.
@@ -400,6 +434,129 @@ TEST(Output, UnwritablePlaceIsNamed) {
     EXPECT_THAT(outcome.err, HasSubstr("error: cannot write"));
   }
   EXPECT_THAT(sandbox.Files(), SizeIs(0));
+}
+
+// Whatever would be lost by it is no place for an output: what is read, its library, what else is written.
+TEST(Output, IsNeverWhatIsReadOrAnotherOutput) {
+  const Sandbox sandbox;
+  const std::string room = "mtllib room.mtl\nusemtl warm\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const std::string library = "newmtl warm\nKd 0.5 0.5 0.5\nKe 1 1 1\n";
+  const std::string points = "x,y,z,nx,ny,nz\n0.2,0.2,1,0,0,-1\n";
+  sandbox.Write("room.obj", room);
+  sandbox.Write("room.mtl", library);
+  sandbox.Write("p.csv", points);
+  std::filesystem::create_symlink("room.obj", sandbox.Path("link.ply"));
+  std::filesystem::create_hard_link(sandbox.Path("room.mtl"), sandbox.Path("hard.json"));
+  std::filesystem::create_directory(sandbox.Path("sub"));
+  const std::vector<std::string> before = sandbox.Files();
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"solve", "room.obj", "-o", "room.obj"},
+           {"solve", "room.obj", "-o", "./sub/../room.obj"},
+           {"solve", "room.obj", "-o", "room.mtl"},
+           {"solve", "room.obj", "--report", "hard.json"},
+           {"solve", "room.obj", "-o", "a", "--report", "a"},
+           {"solve", "room.obj", "-o", "a", "--report", "./a"},
+           {"export", "room.obj", "-o", "link.ply"},
+           {"export", "room.obj", "-o", "room.obj"},
+           {"export", "room.obj", "-o", "a.ply", "--report", "p.csv", "--report", "a.ply"},
+           {"probe", "room.obj", "--points", "p.csv", "-o", "p.csv"},
+           {"probe", "room.obj", "--points", "p.csv", "--direct", "-o", "room.obj"},
+           {"info", "room.obj", "--report", "room.mtl"}}) {
+    const Outcome outcome = sandbox.Run(arguments);
+    EXPECT_EQ(outcome.status, 2) << testing::PrintToString(arguments) << outcome.err;
+    EXPECT_THAT(Lines(outcome.err), SizeIs(1)) << outcome.err;
+    EXPECT_EQ(sandbox.Files(), before);
+  }
+  EXPECT_EQ(ReadBytes(sandbox.Path("room.obj")), room);
+  EXPECT_EQ(ReadBytes(sandbox.Path("room.mtl")), library);
+  EXPECT_EQ(ReadBytes(sandbox.Path("p.csv")), points);
+  // Devices may be written to more than once.
+  EXPECT_EQ(sandbox.Run({"solve", "room.obj", "-o", "/dev/null", "--report", "/dev/null"}).status, 0);
+}
+
+// A file that nobody is permitted to write stays, whoever runs the program, and that is told before the
+// solve; one that is replaced keeps its permissions.
+TEST(Output, KeepsPermissions) {
+  const Sandbox sandbox;
+  sandbox.Write("kept.h5", "old");
+  sandbox.Write("mine.h5", "old");
+  namespace fs = std::filesystem;
+  fs::permissions(sandbox.Path("kept.h5"), fs::perms::owner_read);
+  fs::permissions(sandbox.Path("mine.h5"), fs::perms::owner_read | fs::perms::owner_write);
+  const Outcome outcome = sandbox.Run({"solve", "office", "--error", "1e-6", "-o", "kept.h5"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("kept.h5: error: cannot write: Permission denied"));
+  EXPECT_EQ(ReadBytes(sandbox.Path("kept.h5")), "old");
+  EXPECT_EQ(sandbox.Run({"solve", "furnace", "--error", "0.5", "-o", "mine.h5"}).status, 0);
+  EXPECT_EQ(fs::status(sandbox.Path("mine.h5")).permissions(),
+            fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_THAT(sandbox.Files(), ElementsAre("kept.h5", "mine.h5"));
+}
+
+// A limit to the size of files is an error like a full disk: one line, and nothing of the file is left.
+TEST(Output, LimitOfFileSizeLeavesNothing) {
+  const Sandbox sandbox;
+  sandbox.Write("a.h5", "old");
+  const Outcome outcome = sandbox.RunScript("ulimit -f 8; penumbra solve furnace --error 0.5 -o a.h5");
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_THAT(Lines(outcome.err), SizeIs(1)) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("a.h5: error: cannot write: File too large"));
+  EXPECT_EQ(ReadBytes(sandbox.Path("a.h5")), "old");
+  EXPECT_THAT(sandbox.Files(), ElementsAre("a.h5"));
+}
+
+// Streams that are closed or full are told by the status; nobody is killed, and files are written all the
+// same.
+TEST(Output, ClosedStreamsAreTold) {
+  const Sandbox sandbox;
+  for (const std::string script :
+       {"penumbra scenes >&-", "penumbra scenes >/dev/full", "penumbra --help >/dev/full",
+        "penumbra --version >&-", "penumbra info furnace >/dev/full",
+        "penumbra solve furnace --error 0.5 >&-", "penumbra solve no-such-scene 2>&-",
+        "penumbra view --help-script >/dev/full"})
+    EXPECT_EQ(sandbox.RunScript(script).status, 1) << script;
+  EXPECT_EQ(sandbox.RunScript("penumbra solve furnace --error 0.5 -o a.h5 >&- 2>&-").status, 0);
+  EXPECT_EQ(sandbox.RunScript("penumbra solve furnace --error 0.5 -v -o b.h5 2>/dev/full").status, 1);
+  EXPECT_EQ(ReadBytes(sandbox.Path("a.h5")), ReadBytes(sandbox.Path("b.h5")));
+  EXPECT_EQ(sandbox.RunScript("penumbra solve --wrong 2>/dev/full").status, 2);
+  // Who has read enough of a pipe is not told that there was more.
+  const Outcome piped = sandbox.RunScript("penumbra solve furnace --error 0.5 --help | true");
+  EXPECT_EQ(piped.status, 0);
+  EXPECT_EQ(piped.err, "");
+}
+
+// Names may hold anything: a message is one line, which a terminal takes for text.
+TEST(Output, MessagesAreOneLine) {
+  const Sandbox sandbox;
+  for (const std::string& name :
+       {std::string("a\nb\x1b[31m\x07.obj"), std::string("\xff\xfe.obj"), std::string(3000, 'a')}) {
+    const Outcome outcome = sandbox.Run({"info", name});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(Lines(outcome.err), SizeIs(1));
+    EXPECT_LE(outcome.err.size(), 2001U);
+    for (const char c : outcome.err.substr(0, outcome.err.size() - 1))
+      EXPECT_GE(static_cast<unsigned char>(c), 0x20U);
+  }
+}
+
+// The built-in scenes are sound: no command warns of anything.
+TEST(Scenes, GiveNoWarnings) {
+  const Sandbox sandbox;
+  sandbox.Write("p.csv", "x,y,z,nx,ny,nz\n0.4,0.4,0.4,0,0,1\n");
+  for (const std::string scene : {"office", "cornell", "floating-cube", "furnace", "blind", "building-1x1"})
+    for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+             {"info"},
+             {"solve", "--error", "0.5", "-o", "a.h5"},
+             {"probe", "--points", "p.csv", "--direct"},
+             {"form-factor", "--from", "0", "--to", "1", "--method", "disk"},
+             {"export", "-o", "a.mgf"},
+             {"render", "--mode", "rho", "--size", "16x12", "-o", "a.png"}}) {
+      std::vector<std::string> arguments = command;
+      arguments.insert(arguments.begin() + 1, scene);
+      const Outcome outcome = sandbox.Run(arguments);
+      EXPECT_EQ(outcome.status, 0);
+      EXPECT_EQ(outcome.err, "") << scene << " " << command[0];
+    }
 }
 
 // An interrupt ends a solve with status 130 and writes nothing.

@@ -80,10 +80,11 @@ void ExpectJson(const fs::path& file, const json& has) {
     SCOPED_TRACE(pointer);
     const json::json_pointer at(pointer);
     ASSERT_TRUE(document.contains(at));
-    if (want.is_object())
+    if (want.is_object()) {
       ExpectNumber(document[at].get<double>(), want.value("want", json()), want, pointer);
-    else
+    } else {
       EXPECT_EQ(document[at], want);
+    }
   }
 }
 

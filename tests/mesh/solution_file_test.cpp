@@ -64,6 +64,11 @@ const std::string& CornellFile() {
   return bytes;
 }
 
+PipelineState StateOf(const Pipeline& pipeline) {
+  return {pipeline.visibility(), pipeline.solution(), MeshKind::kInterpolant, pipeline.mesh(),
+          pipeline.report()};
+}
+
 // What the reader says about the bytes; empty if it takes them.
 std::string Refusal(std::string_view bytes) {
   try {
@@ -344,6 +349,22 @@ TEST(SolutionFile, ChecksWhatItReads) {
   bad_mesh([](IrradianceMesh& m) { m.irradiance.pop_back(); });
   bad_mesh([](IrradianceMesh& m) { m.irradiance[0].d[0] = kNan; });
   bad_mesh([](IrradianceMesh& m) { m.positions[0].z() = INFINITY; });
+}
+
+// Light that is no number is not kept: no file is written that cannot be read.
+TEST(SolutionFile, KeepsNumbersOnly) {
+  const Solved& cornell = Cornell();
+  const auto refused = [&](const auto& spoil) {
+    PipelineState state = StateOf(*cornell.pipeline);
+    spoil(state);
+    const Pipeline spoilt(cornell.scene, Rough(), std::move(state));
+    EXPECT_THROW(Encode(spoilt), InputError);
+  };
+  refused([](PipelineState& state) { state.mesh.irradiance[3].d[1] = NAN; });
+  refused([](PipelineState& state) { state.mesh.positions[2].x() = INFINITY; });
+  refused([](PipelineState& state) { state.solution.radiosity[5][0] = NAN; });
+  refused([](PipelineState& state) { state.solution.irradiance[1][2] = -INFINITY; });
+  Encode(Pipeline(cornell.scene, Rough(), StateOf(*cornell.pipeline)));
 }
 
 }  // namespace

@@ -101,5 +101,36 @@ TEST(DiagnoseViews, OpenAndReversed) {
   EXPECT_EQ(DiagnoseViews(Scene()).rays, 0U);
 }
 
+// What stands on a face hides it, and does not make it a reversed one: of a tower of two blocks every face is
+// right.
+TEST(DiagnoseViews, CoveredFacesAreNotReversed) {
+  Scene room;
+  AddMaterial(room, 0.5, 1);
+  AddBox(room, Vec3::Zero(), {4, 3, 2}, true, 0);
+  AddBox(room, {1, 1, 0}, {2, 2, 0.5}, false, 0);
+  AddBox(room, {1, 1, 0.5}, {2, 2, 1}, false, 0);
+  for (std::size_t p = 0; p < room.patches.size(); ++p)
+    room.patches[p].faces = {static_cast<std::int32_t>(p)};
+  EXPECT_TRUE(DiagnoseViews(room).reversed_faces.empty());
+}
+
+// In a room that is turned inside out the lamp, which is right, lights backs alone; in one that is not, it
+// lights fronts, and a box lit from outside has fronts as well.
+TEST(FindLitSides, TurnedRooms) {
+  for (const bool turned : {false, true}) {
+    Scene room;
+    AddMaterial(room, 0.5, 0);
+    AddMaterial(room, 0, 10);
+    AddBox(room, Vec3::Zero(), {4, 3, 2}, !turned, 0);
+    room.patches.push_back(
+        MakePatch(std::vector<Vec3>{{1, 2, 1.9}, {2, 2, 1.9}, {2, 1, 1.9}, {1, 1, 1.9}}, 1, 0, {6}));
+    const LitSides sides = FindLitSides(room);
+    EXPECT_EQ(sides.TurnedInsideOut(), turned);
+    // The ceiling is lit from the lamp by the others alone; nobody emits into the gap above the lamp.
+    EXPECT_NEAR(turned ? sides.back : sides.front, 2 * (4 * 3 + 4 * 2 + 3 * 2) - 4 * 3, 1e-12);
+    EXPECT_EQ(turned ? sides.front : sides.back, 0);
+  }
+}
+
 }  // namespace
 }  // namespace penumbra::scene_test

@@ -10,11 +10,15 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <set>
+#include <thread>
 
 #include "display/image_io.h"
 #include "display/opengl_passes.h"
+#include "display/viewer/analyses.h"
 #include "display/viewer/script.h"
+#include "display/viewer/selection.h"
 #include "display/viewer/user_files.h"
 #include "solver/base/check.h"
 #include "tests/viewer/viewer_test_scenes.h"
@@ -313,6 +317,73 @@ TEST_F(SolvedViewer, ProbesTellWhatTheyFind) {
   viewer.RunMenu("Geometry/Unselect all");
   ASSERT_TRUE(Settle(viewer));
   EXPECT_TRUE(viewer.Details().empty());
+}
+
+// A discontinuity is called what it is, of whatever kind.
+TEST_F(SolvedViewer, EveryKindOfDiscontinuityHasAName) {
+  AnalysisResults results;
+  auto list = std::make_shared<DiscontinuityList>();
+  using enum DiscontinuityKind;
+  for (const auto& [kind, name] : {std::pair(kVE, "VE"), std::pair(kEV, "EV"), std::pair(kHorizon, "horizon"),
+                                   std::pair(kContact, "contact"), std::pair(kEEE, "EEE")}) {
+    Discontinuity d;
+    d.kind = kind;
+    d.receiver = 0;
+    *list = {{d}, {{Vec3::Zero(), Vec3::UnitX()}}};
+    results.discontinuities = list;
+    const Selection selection{SelectionKind::kDiscontinuity, 0};
+    const OverlayContext context{viewer.snapshot(), *viewer.snapshot().Mesh(MeshKind::kInterpolant),
+                                 viewer.view().overlays, selection, results};
+    EXPECT_EQ(DescribeSelection(context)[0], std::string("discontinuity 0: ") + name);
+  }
+}
+
+// The discontinuities that are listed are those that the mesh was made of, by the options of the solve,
+// whatever they weigh.
+TEST(ViewerOptionsOfSolve, AreThoseOfListedDiscontinuities) {
+  ViewerOptions options = Options(true);
+  options.solving.triple_edge_tolerance = 0.01;
+  options.solving.keep_hidden_discontinuities = true;
+  options.solving.min_discontinuity_weight = 1e3;
+  Viewer viewer(ShadowScene(), std::move(options));
+  ASSERT_TRUE(Settle(viewer));
+  const LightState& light = *viewer.snapshot().light;
+  EXPECT_EQ(light.discontinuities().triple_edge_tolerance, 0.01);
+  EXPECT_TRUE(light.discontinuities().keep_hidden);
+  EXPECT_EQ(light.discontinuities().weight, DiscontinuityWeight::kThesis);
+  ViewState view;
+  view.overlays.discontinuities = true;
+  Analyses analyses;
+  std::shared_ptr<const DiscontinuityList> listed;
+  for (int i = 0; i < 3000 && !listed; ++i) {
+    listed = analyses.Update(viewer.snapshot(), nullptr, view).discontinuities;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ASSERT_TRUE(listed);
+  DiscontinuityOptions expected = light.discontinuities();
+  expected.min_weight = 0;
+  const DiscontinuityList wanted = ListDiscontinuities(light.solution(), light.visibility(), expected, {});
+  ASSERT_EQ(listed->all.size(), wanted.all.size());
+  for (std::size_t i = 0; i < wanted.all.size(); ++i) EXPECT_EQ(listed->all[i].weight, wanted.all[i].weight);
+}
+
+// What is told of a place is of that place: a backprojection elsewhere ends a probe, and the other way round.
+TEST_F(SolvedViewer, ProbesAreOfOnePlace) {
+  const ScreenPoint a = PlaceOf(viewer, Vec3(-0.7, -0.6, 0)), b = PlaceOf(viewer, Vec3(-0.5, -0.7, 0));
+  Click(viewer, MouseButton::kRight, a.x, a.y);
+  Click(viewer, MouseButton::kRight, a.x, a.y, kShift);
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_TRUE(viewer.view().probe.has_value());
+  EXPECT_EQ(viewer.view().probe, viewer.view().backprojection);
+  Click(viewer, MouseButton::kRight, b.x, b.y, kShift);
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_FALSE(viewer.view().probe.has_value());
+  EXPECT_THAT(viewer.Details(), testing::Not(testing::Contains(HasSubstr("analytic"))));
+  EXPECT_THAT(viewer.Details(), testing::Contains(HasSubstr("at (-0.")));
+  Click(viewer, MouseButton::kRight, a.x, a.y);
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_FALSE(viewer.view().backprojection.has_value());
+  EXPECT_THAT(viewer.Details(), testing::Not(testing::Contains(HasSubstr("backprojection"))));
 }
 
 TEST_F(SolvedViewer, KeysRunMenusAndFlyWhileWalking) {

@@ -1,0 +1,24 @@
+// apps/option_checks.h
+//
+// Options of solving that cannot hold together, or not with the scene: told before the work.
+
+#pragma once
+
+#include "apps/scene_arguments.h"
+
+namespace penumbra {
+
+// The options that mean something to the hierarchical solver alone, in the words of the command line without
+// its dashes.
+bool IsHierarchicalOption(const std::string& name);
+
+// Throws UsageError for options that contradict each other.
+void CheckOptions(const SceneArguments& arguments);
+
+// Throws UsageError for distances that are too large for the scene.
+void CheckDistances(const SceneArguments& arguments, const Scene& scene);
+
+// What a solve with these options may cost beyond measure, in a sentence; empty where nothing is to be said.
+std::string CostNote(const SceneArguments& arguments, const ResolvedOptions& resolved);
+
+}  // namespace penumbra
