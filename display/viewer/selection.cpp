@@ -104,6 +104,8 @@ const char* NameOf(DiscontinuityKind kind) {
       return "contact";
     case DiscontinuityKind::kEEE:
       return "EEE";
+    case DiscontinuityKind::kNear:
+      return "near edge";
   }
   return "";
 }
