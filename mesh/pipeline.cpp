@@ -411,12 +411,15 @@ void Pipeline::Measure(const ExecutionContext& context) {
   const IrradianceMesh& mesh = impl_->shown.mesh();
   const std::unique_ptr<const PointIrradiance> better =
       impl_->shown.BetterIrradiance(impl_->Solution(), running);
-  if (!better && ended()) return;
+  const std::unique_ptr<const PointIrradiance> shown =
+      impl_->shown.ShownIrradiance(impl_->Solution(), running);
+  if ((!better || !shown) && ended()) return;
   const double tolerance = kMeasuredShare * report.error_asked;
   const IrradianceSampler sampler = WhileGoing(NearSampler(irradiance(), tolerance), running);
+  const IrradianceSampler truths[] = {WhileGoing(NearSampler(*better, tolerance), running),
+                                      WhileGoing(NearSampler(*shown, tolerance), running)};
   const auto measure = [&](std::size_t at) {
-    return MeasureError(impl_->scene, mesh, sampler, WhileGoing(NearSampler(*better, tolerance), running), at,
-                        seed, report.error_asked);
+    return MeasureError(impl_->scene, mesh, sampler, truths, at, seed, report.error_asked);
   };
   MeasuredError error = measure(std::min(points, kFewSourcePoints));
   if (points > kFewSourcePoints && error.above > kClearlyMet && error.above < kClearlyMissed)
@@ -451,10 +454,12 @@ void Pipeline::Glance(const ExecutionContext& context) {
     return;
   context.Report("measure", 0);
   PipelineReport& report = impl_->report;
-  const PointIrradiance better = impl_->shown.BetterIrradiance(impl_->Solution());
+  const std::unique_ptr<const PointIrradiance> better =
+      impl_->shown.BetterIrradiance(impl_->Solution(), limits.context());
+  if (!better) return;
   const double tolerance = kMeasuredShare * report.error_asked;
   const RepresentationError seen =
-      MeasureRepresentationError(impl_->scene, impl_->shown.mesh(), NearSampler(better, tolerance),
+      MeasureRepresentationError(impl_->scene, impl_->shown.mesh(), NearSampler(*better, tolerance),
                                  std::min(impl_->options.error_points, kGlancePoints), impl_->options.seed);
   impl_->DropUnmet("error: ");
   if (seen.p99_at_least > report.error_asked)

@@ -20,14 +20,17 @@ constexpr std::size_t kPartPoints = 40, kAllPartPoints = 400, kFewestPartPoints 
 // What is found at some points.
 struct Values {
   std::vector<SurfacePoint> at;
-  std::vector<Rgb> shown, exact, truth;  // [W/m^2]
+  std::vector<Rgb> shown, exact;         // [W/m^2]
+  std::vector<std::vector<Rgb>> truths;  // by each of the better samplers
 };
 
 void Evaluate(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
-              const IrradianceSampler& better, Values& values) {
+              std::span<const IrradianceSampler> better, Values& values) {
   const MeshLocator locator(scene, mesh);
   const std::size_t count = values.at.size();
-  for (std::vector<Rgb>* of : {&values.shown, &values.exact, &values.truth}) of->resize(count);
+  values.shown.resize(count);
+  values.exact.resize(count);
+  values.truths.assign(better.size(), std::vector<Rgb>(count));
   ParallelFor(count, kPointsATask, [&](std::size_t i) {
     const SurfacePoint& at = values.at[i];
     const auto place = locator.Find(at.patch, at.position);
@@ -37,7 +40,8 @@ void Evaluate(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSa
     receiver.position = at.position;
     receiver.normal = scene.patches[static_cast<std::size_t>(at.patch)].normal;
     values.exact[i] = sampler(at.patch, receiver).irradiance;
-    if (better) values.truth[i] = better(at.patch, receiver).irradiance;
+    for (std::size_t k = 0; k < better.size(); ++k)
+      values.truths[k][i] = better[k](at.patch, receiver).irradiance;
   });
 }
 
@@ -65,6 +69,13 @@ RepresentationError Summarise(const Scene& scene, std::span<const SurfacePoint> 
   error.p95 = Quantile(errors, 0.95);
   error.rms = std::sqrt(squares / static_cast<double>(errors.size()));
   return error;
+}
+
+// Of two lists of the same values the larger errors; the second may be empty at first.
+void KeepLarger(const std::vector<ValueError>& errors, std::vector<ValueError>& largest) {
+  if (largest.empty()) largest = errors;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    largest[i].error = std::max(largest[i].error, errors[i].error);
 }
 
 // Points in each part that is seen; none where there is only one.
@@ -152,7 +163,7 @@ double Quantile(std::span<const ValueError> values, double q) {
 }
 
 MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
-                           const IrradianceSampler& better, std::size_t points, std::uint64_t seed,
+                           std::span<const IrradianceSampler> better, std::size_t points, std::uint64_t seed,
                            double bound) {
   MeasuredError error;
   if (scene.patches.empty() || points == 0) return error;
@@ -160,27 +171,30 @@ MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const
   Values values;
   values.at = SpreadPoints(scene, areas, points, seed);
   std::vector<ScenePart> parts;
-  if (better) {
+  if (!better.empty()) {
     parts = PartsOf(scene);
     const std::vector<SurfacePoint> further = SpreadOverParts(scene, areas, parts, seed);
     values.at.insert(values.at.end(), further.begin(), further.end());
   }
   Evaluate(scene, mesh, sampler, better, values);
   // Means are those of the first points, which spread evenly; so are all figures but those of parts.
-  const auto errors = [&](const std::vector<Rgb>& shown, const std::vector<Rgb>& truth) {
-    return SeenErrors(scene, std::span(values.at).first(points), std::span(shown).first(points),
-                      std::span(truth).first(points));
-  };
-  error.interpolant = Summarise(scene, values.at, errors(values.shown, values.exact));
-  if (!better) return error;
-  error.sources = Summarise(scene, values.at, errors(values.exact, values.truth));
-  const std::vector<ValueError> whole = errors(values.shown, values.truth);
-  error.whole = Summarise(scene, values.at, whole);
+  const auto first = [&](const std::vector<Rgb>& of) { return std::span(of).first(points); };
+  const std::span<const SurfacePoint> evenly = std::span(values.at).first(points);
+  error.interpolant =
+      Summarise(scene, evenly, SeenErrors(scene, evenly, first(values.shown), first(values.exact)));
+  if (better.empty()) return error;
+  std::vector<ValueError> sources, whole, everywhere;
+  for (const std::vector<Rgb>& truth : values.truths) {
+    KeepLarger(SeenErrors(scene, evenly, first(values.exact), first(truth)), sources);
+    KeepLarger(SeenErrors(scene, evenly, first(values.shown), first(truth)), whole);
+    KeepLarger(SeenErrors(scene, values.at, values.shown, truth), everywhere);
+  }
+  error.sources = Summarise(scene, evenly, sources);
+  error.whole = Summarise(scene, evenly, whole);
   error.above = static_cast<double>(std::count_if(whole.begin(), whole.end(),
                                                   [&](const ValueError& e) { return e.error > bound; })) /
                 static_cast<double>(std::max<std::size_t>(1, whole.size()));
-  error.by_part =
-      SummariseParts(scene, parts, values.at, SeenErrors(scene, values.at, values.shown, values.truth));
+  error.by_part = SummariseParts(scene, parts, values.at, everywhere);
   return error;
 }
 

@@ -67,10 +67,11 @@ struct PartError {
 
 struct MeasuredError {
   RepresentationError interpolant;  // of the interpolants, against exact irradiance under the same sources
-  RepresentationError sources;      // of that, against exact irradiance under better sources
-  RepresentationError whole;        // of the interpolants, against the latter
-  double above = 0;                 // the share of the latter's values that are above `bound`
-  std::vector<PartError> by_part;   // of the latter: parts that are seen
+  RepresentationError
+      sources;  // of that, against exact irradiance under better sources, whichever differs more
+  RepresentationError whole;       // of the interpolants, against the latter
+  double above = 0;                // the share of the latter's values that are above `bound`
+  std::vector<PartError> by_part;  // of the latter: parts that are seen
 };
 
 // Measures at `points` random points that spread evenly by area over the fronts that are seen (SeenAreas),
@@ -78,7 +79,7 @@ struct MeasuredError {
 // gives the same points. Points are offset from all interpolation nodes with probability one. Without
 // `better` sources the others are left empty.
 MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
-                           const IrradianceSampler& better, std::size_t points, std::uint64_t seed,
+                           std::span<const IrradianceSampler> better, std::size_t points, std::uint64_t seed,
                            double bound);
 
 // The first of these.

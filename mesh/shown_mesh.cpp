@@ -91,6 +91,14 @@ std::unique_ptr<const PointIrradiance> ShownMesh::BetterIrradiance(const Radiosi
       irradiance_.Get()->WithSources(SourceSet::FromSolution(better.solution())));
 }
 
+std::unique_ptr<const PointIrradiance> ShownMesh::ShownIrradiance(const RadiositySolution& solution,
+                                                                  const ExecutionContext& context) {
+  const SourceCells cells = Cells(solution, context);
+  if (context.Cancelled()) return nullptr;
+  return std::make_unique<const PointIrradiance>(irradiance_.Get()->WithSources(
+      SourceSet::FromSolution(solution, cells.Fragments(cells.Cut(0), /*whole_leaves=*/true))));
+}
+
 SourceCells ShownMesh::Cells(const RadiositySolution& solution, const ExecutionContext& context) {
   return SourceCells(solution, plan_.forest, triangulations_, mesh_, *irradiance_.Get(),
                      kFinestScore * options_.error, context);

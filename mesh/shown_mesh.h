@@ -58,6 +58,10 @@ class ShownMesh {
   // was cancelled.
   std::unique_ptr<const PointIrradiance> BetterIrradiance(const RadiositySolution& solution,
                                                           const ExecutionContext& context);
+  // The same without those bounces: what one more bounce makes of the light that is shown, past all links.
+  // Where links carry light that should not be there, this does not bring it back.
+  std::unique_ptr<const PointIrradiance> ShownIrradiance(const RadiositySolution& solution,
+                                                         const ExecutionContext& context);
 
   const IrradianceMesh& mesh() const { return mesh_; }
   // What it was made of; empty if it was made elsewhere.
