@@ -52,7 +52,7 @@ struct Packed<bool> : PackedByte<bool, 2> {};
 template <>
 struct Packed<Visibility> : PackedByte<Visibility, 2> {};
 template <>
-struct Packed<DiscontinuityKind> : PackedByte<DiscontinuityKind, 5> {};
+struct Packed<DiscontinuityKind> : PackedByte<DiscontinuityKind, 6> {};
 template <>
 struct Packed<DiscontinuityDegree> : PackedByte<DiscontinuityDegree, 3> {};
 template <>

@@ -324,8 +324,9 @@ TEST_F(SolvedViewer, EveryKindOfDiscontinuityHasAName) {
   AnalysisResults results;
   auto list = std::make_shared<DiscontinuityList>();
   using enum DiscontinuityKind;
-  for (const auto& [kind, name] : {std::pair(kVE, "VE"), std::pair(kEV, "EV"), std::pair(kHorizon, "horizon"),
-                                   std::pair(kContact, "contact"), std::pair(kEEE, "EEE")}) {
+  for (const auto& [kind, name] :
+       {std::pair(kVE, "VE"), std::pair(kEV, "EV"), std::pair(kHorizon, "horizon"),
+        std::pair(kContact, "contact"), std::pair(kEEE, "EEE"), std::pair(kNear, "near")}) {
     Discontinuity d;
     d.kind = kind;
     d.receiver = 0;
