@@ -22,13 +22,15 @@ Scene Cut(Scene scene) {
   return scene;
 }
 
-void Add(Scene& scene, const Polygon3& polygon) { scene.patches.push_back(MakePatch(polygon, 0, 0, {0})); }
+void AddGrey(Scene& scene, const Polygon3& polygon) {
+  scene.patches.push_back(MakePatch(polygon, 0, 0, {0}));
+}
 
 // A floor of 8 m by 4 m, the first patch.
 Scene Floor() {
   Scene scene;
   AddMaterial(scene, 0.5, 0);
-  Add(scene, {{0, 0, 0}, {8, 0, 0}, {8, 4, 0}, {0, 4, 0}});
+  AddGrey(scene, {{0, 0, 0}, {8, 0, 0}, {8, 4, 0}, {0, 4, 0}});
   return scene;
 }
 
@@ -49,7 +51,7 @@ TEST(CutAtWalls, NoPieceReachesUnderAWall) {
   for (const double doorway : {0.0, 0.005, 0.9, 1.9})
     for (const double above : {0.0, 0.01}) {
       Scene scene = Floor();
-      Add(scene, {{5, 0, above}, {5, 4 - doorway, above}, {5, 4 - doorway, 2}, {5, 0, 2}});
+      AddGrey(scene, {{5, 0, above}, {5, 4 - doorway, above}, {5, 4 - doorway, 2}, {5, 0, 2}});
       scene = Cut(scene);
       EXPECT_EQ(PiecesOfFloor(scene).size(), 2U) << doorway << " m, " << above << " m above";
       double area = 0;
@@ -73,13 +75,13 @@ TEST(CutAtWalls, LeavesFurnitureAlone) {
   AddBox(box, {2, 1, 0}, {3, 2, 1}, false, 0);
   EXPECT_EQ(PiecesOfFloor(Cut(box)).size(), 2U);  // the floor, and the bottom of the box
   Scene screen = Floor();
-  Add(screen, {{5, 1, 0}, {5, 2.5, 0}, {5, 2.5, 2}, {5, 1, 2}});
+  AddGrey(screen, {{5, 1, 0}, {5, 2.5, 0}, {5, 2.5, 2}, {5, 1, 2}});
   EXPECT_EQ(PiecesOfFloor(Cut(screen)).size(), 1U);
   Scene doorway = Floor();
-  Add(doorway, {{5, 0, 0}, {5, 1.9, 0}, {5, 1.9, 2}, {5, 0, 2}});
+  AddGrey(doorway, {{5, 0, 0}, {5, 1.9, 0}, {5, 1.9, 2}, {5, 0, 2}});
   EXPECT_EQ(PiecesOfFloor(Cut(doorway)).size(), 1U);
   Scene lintel = Floor();
-  Add(lintel, {{5, 0, 1}, {5, 4, 1}, {5, 4, 2}, {5, 0, 2}});
+  AddGrey(lintel, {{5, 0, 1}, {5, 4, 1}, {5, 4, 2}, {5, 0, 2}});
   EXPECT_EQ(PiecesOfFloor(Cut(lintel)).size(), 1U);
 }
 
@@ -87,7 +89,7 @@ TEST(CutAtWalls, LeavesFurnitureAlone) {
 TEST(CutAtWalls, KeepsSolidsWhole) {
   Scene scene = Floor();
   AddBox(scene, {4, 0, 0}, {4.25, 4, 2}, false, 0);
-  Add(scene, {{4.25, 2, 0}, {8, 2, 0}, {8, 2, 2}, {4.25, 2, 2}});
+  AddGrey(scene, {{4.25, 2, 0}, {8, 2, 0}, {8, 2, 2}, {4.25, 2, 2}});
   const std::size_t before = scene.patches.size();
   scene = Cut(scene);
   ASSERT_EQ(scene.solids.size(), 1U);
@@ -120,7 +122,7 @@ TEST(CutAtWalls, Closets) {
       return Vec3(centre + Vec3(radius * std::cos(angle), radius * std::sin(angle), z));
     };
     for (int k = 0; k < walls; ++k)
-      Add(scene, {corner(k, 0), corner(k, 2), corner(k + 1, 2), corner(k + 1, 0)});
+      AddGrey(scene, {corner(k, 0), corner(k, 2), corner(k + 1, 2), corner(k + 1, 0)});
     const Motion motion = RandomMotion(random, 10);
     const Scene moved = Mapped(scene, motion);
     const Scene cut = Cut(moved);
