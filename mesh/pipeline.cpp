@@ -37,6 +37,21 @@ const PartError* WorstPart(std::span<const PartError> parts, double bound) {
   return worst;
 }
 
+// One line that says by how much the error that was asked for is missed; `worst` may be null.
+std::string MissedError(const PipelineReport& report, const PartError* worst) {
+  const RepresentationError& whole = report.whole_error;
+  const double shown = std::max(report.interpolant_error.p99, whole.p99);
+  std::string line = fmt::format("error: the error asked for, {:g}, was missed: ", report.error_asked);
+  if (shown > report.error_asked)
+    line += fmt::format("{:.3g} is shown (99th percentile; {:.3g} by interpolating, {:.3g} by the sources); ",
+                        shown, report.interpolant_error.p99, report.solution_error_estimate);
+  if (worst)
+    line += fmt::format("{} errs by {:.3g}, more than {:g} times as much; ", worst->name, worst->whole.p99,
+                        kPartError);
+  const Vec3& at = whole.worst_point;
+  return line + fmt::format("the worst point is ({:.4g}, {:.4g}, {:.4g})", at.x(), at.y(), at.z());
+}
+
 }  // namespace
 
 struct Pipeline::Impl {
@@ -433,17 +448,7 @@ void Pipeline::Measure(const ExecutionContext& context) {
   report.part_errors = std::move(error.by_part);
   const PartError* worst = WorstPart(report.part_errors, kPartError * report.error_asked);
   report.error_met = !worst && std::max(report.interpolant_error.p99, error.whole.p99) <= report.error_asked;
-  if (!report.error_met)
-    report.unmet.push_back(fmt::format(
-        "error: the error asked for, {:g}, was missed: {:.3g} is shown (99th percentile; {:.3g} by "
-        "interpolating, {:.3g} by the sources); the worst point is ({:.4g}, {:.4g}, {:.4g})",
-        report.error_asked, std::max(report.interpolant_error.p99, error.whole.p99),
-        report.interpolant_error.p99, error.sources.p99, error.whole.worst_point.x(),
-        error.whole.worst_point.y(), error.whole.worst_point.z()));
-  if (worst)
-    report.unmet.push_back(
-        fmt::format("error: {} errs by {:.3g} (99th percentile), more than {:g} times what was asked for",
-                    worst->name, worst->whole.p99, kPartError));
+  if (!report.error_met) report.unmet.push_back(MissedError(report, worst));
 }
 
 void Pipeline::Glance(const ExecutionContext& context) {

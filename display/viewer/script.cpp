@@ -271,7 +271,7 @@ Script ReadScript(const std::string& path) {
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file)
     throw InputError(fmt::format(
-        "{}:0: error: the script cannot be read; check its name and the permission to read it", path));
+        "{}: error: the script cannot be read; check its name and the permission to read it", path));
   return ParseScript(path, text);
 }
 
