@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "solver/base/size.h"
-#include "solver/geometry/constrained_triangulation.h"
-#include "solver/geometry/convex_pieces.h"
 #include "solver/scene/contacts.h"
 #include "solver/scene/tolerances.h"
 
@@ -90,7 +88,7 @@ class PatchCutter {
       if (const std::optional<Stretch> wall = WallOf(i)) CutAlong(*wall, pieces);
     if (pieces.size() == 1) return {};
     std::vector<Polygon3> small;
-    for (Polygon3& piece : pieces) AddQuadrilaterals(std::move(piece), small);
+    for (const Polygon3& piece : pieces) AddQuadrilaterals(piece, small);
     return small;
   }
 
@@ -210,26 +208,28 @@ class PatchCutter {
     return place;
   }
 
-  void AddQuadrilaterals(Polygon3 piece, std::vector<Polygon3>& pieces) const {
-    if (piece.size() <= 4) {
-      pieces.push_back(std::move(piece));
-      return;
+  // A convex piece as triangles and quadrilaterals around one of its corners: that which makes the best
+  // shaped.
+  static void AddQuadrilaterals(const Polygon3& piece, std::vector<Polygon3>& pieces) {
+    std::vector<Polygon3> best;
+    double best_shape = -1;
+    for (std::size_t corner = 0; corner < piece.size(); ++corner) {
+      std::vector<Polygon3> fan;
+      double worst = INFINITY;
+      for (std::size_t k = 1; k + 1 < piece.size(); k += 2) {
+        Polygon3 part = {piece[corner]};
+        for (std::size_t i = k; i < std::min(k + 3, piece.size()); ++i)
+          part.push_back(piece[(corner + i) % piece.size()]);
+        const double diameter = Diameter(part);
+        worst = std::min(worst, VectorArea(part).norm() / (diameter * diameter));
+        fan.push_back(std::move(part));
+      }
+      if (worst > best_shape) {
+        best_shape = worst;
+        best = std::move(fan);
+      }
     }
-    std::vector<Vec2> flat;
-    std::vector<ConstraintSegment> border;
-    for (std::int32_t i = 0; i < Size(piece); ++i) {
-      flat.push_back(frame_.ToPlane(piece[i]));
-      border.push_back({i, (i + 1) % Size(piece), kBorder});
-    }
-    ConstrainedTriangulator triangulator;
-    std::vector<std::array<std::int32_t, 3>> inside;
-    for (const auto& triangle : triangulator.Triangulate(flat, border).triangles)
-      if (triangle.Inside()) inside.push_back(triangle.vertex);
-    for (const ConvexPiece& joined : JoinTriangles(flat, inside)) {
-      Polygon3 polygon;
-      for (int i = 0; i < joined.Size(); ++i) polygon.push_back(piece[joined.vertex[i]]);
-      pieces.push_back(std::move(polygon));
-    }
+    pieces.insert(pieces.end(), best.begin(), best.end());
   }
 
   const Scene& scene_;
@@ -260,6 +260,7 @@ void CutAtWalls(Scene& scene) {
       pieces = PatchCutter(scene, id).Cut(search.FindWithHanging(id));
     if (pieces.empty()) patches.push_back(patch);
     for (const Polygon3& piece : pieces) {
+      if (VectorArea(piece).norm() == 0) continue;  // rounding left a straight corner
       patches.push_back(MakePatch(piece, patch.material, patch.object, patch.faces));
       patches.back().normal = patch.normal;  // one plane for all pieces, to the bit
     }
