@@ -27,7 +27,6 @@
 #include "solver/scene/file_format.h"
 #include "solver/scene/named_scene.h"
 #include "solver/scene/text_reader.h"
-#include "solver/transport/diagnostics.h"
 
 namespace penumbra {
 namespace {
@@ -560,7 +559,8 @@ LoadedScene LoadQuietly(const SceneArguments& arguments) {
   SetThreadCount(arguments.threads);
   CheckOptions(arguments);
   const Stopwatch reading;
-  if (IsFile(arguments.scene)) arguments.outputs.RefuseInput(arguments.scene);
+  std::error_code ignored;
+  if (std::filesystem::exists(arguments.scene, ignored)) arguments.outputs.RefuseInput(arguments.scene);
   const bool is_solution = IsSolution(arguments.scene);
   if (is_solution) RefuseSceneOptions(arguments);
   LoadedScene loaded = is_solution ? LoadSolution(arguments.scene)
