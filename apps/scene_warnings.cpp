@@ -64,7 +64,10 @@ void AddLight(const Scene& scene, std::vector<std::string>* warnings) {
         "MATERIAL=r,g,b");
     return;
   }
-  const std::vector<std::int32_t> dark = DarkEmitters(scene);
+  const bool any_reflects = std::any_of(scene.patches.begin(), scene.patches.end(), [&](const Patch& patch) {
+    return (scene.materials[static_cast<std::size_t>(patch.material)].reflectance > 0).any();
+  });
+  const std::vector<std::int32_t> dark = any_reflects ? DarkEmitters(scene) : std::vector<std::int32_t>();
   if (!dark.empty())
     warnings->push_back(fmt::format(
         "{} {} nothing, the first is face {} (counted from 0): before its front there is nothing, or only "

@@ -105,7 +105,7 @@ const char* NameOf(DiscontinuityKind kind) {
     case DiscontinuityKind::kEEE:
       return "EEE";
     case DiscontinuityKind::kNear:
-      return "near edge";
+      return "near";
   }
   return "";
 }

@@ -8,20 +8,21 @@
 
 #include "solver/base/size.h"
 #include "solver/scene/contacts.h"
+#include "solver/scene/convex_solids.h"
 #include "solver/scene/tolerances.h"
 
 namespace penumbra {
 namespace {
 
 // Of the line from stop to stop, how much feet cover where they make a wall.
-constexpr double kCovered = 0.5;
+constexpr double kCovered = 0.6;
 // The least size of feet that touch each other, beside the patch's diameter: a booth in a hall is a room, the
 // leg of a chair is none.
 constexpr double kLeastRoom = 0.02;
 // A piece narrower than this part of the cut is not cut off: what a sheet of two sides covers.
 constexpr double kLeastWidth = 1e-3;
 // A patch smaller than this part of the largest that reflects is the side of some furniture, and in one room.
-constexpr double kLeastPatch = 0.1;
+constexpr double kLeastPatch = 0.25;
 // Of each patch, the most feet that are looked at, the longest first, and the most pieces.
 constexpr std::size_t kMostFeet = 512, kMostPieces = 64;
 
@@ -249,28 +250,21 @@ void CutAtWalls(Scene& scene) {
     if ((scene.MaterialOf(id).reflectance > 0).any())
       largest = std::max(largest, Diameter(scene.patches[id].Vertices()));
   std::vector<Patch> patches;
-  std::vector<SolidId> solid_of;
-  std::vector<PatchId> first(scene.patches.size());  // of the pieces of each patch
   const ContactSearch search(scene);
   for (PatchId id = 0; id < Size(scene.patches); ++id) {
     const Patch& patch = scene.patches[id];
-    first[id] = Size(patches);
     std::vector<Polygon3> pieces;
     if (Diameter(patch.Vertices()) >= kLeastPatch * largest)
-      pieces = PatchCutter(scene, id).Cut(search.FindWithHanging(id));
+      pieces = PatchCutter(scene, id).Cut(search.FindWalls(id));
     if (pieces.empty()) patches.push_back(patch);
     for (const Polygon3& piece : pieces) {
       if (VectorArea(piece).norm() == 0) continue;  // rounding left a straight corner
       patches.push_back(MakePatch(piece, patch.material, patch.object, patch.faces));
-      patches.back().normal = patch.normal;  // one plane for all pieces, to the bit
     }
-    solid_of.resize(patches.size(), scene.SolidOf(id));
   }
+  const bool cut = patches.size() != scene.patches.size();
   scene.patches = std::move(patches);
-  scene.solid_of = std::move(solid_of);
-  for (ConvexSolid& solid : scene.solids)
-    for (ConvexSolid::Side& side : solid.sides)
-      if (side.patch != kNoPatch) side.patch = first[side.patch];
+  if (cut) FindConvexSolids(scene);
 }
 
 }  // namespace penumbra

@@ -41,7 +41,8 @@ class ContactFinder {
     return std::move(found_);
   }
 
-  std::vector<Contact> FindWithHanging(std::span<const PatchId> others) {
+  std::vector<Contact> FindWalls(std::span<const PatchId> others) {
+    lids_too_ = false;
     for (const PatchId other : others) {
       Meet(other);
       Hang(other);
@@ -68,6 +69,7 @@ class ContactFinder {
     }
     if ((low.array() > high_.array()).any() || (high.array() < low_.array()).any()) return;
     if (!above && !below) {
+      if (!lids_too_) return;
       // In the receiver's plane: a lid on it, unless it is a neighbour in the same plane that looks the same
       // way.
       if (patch.normal.dot(patch_.normal) > 0 && highest <= snap_) return;
@@ -121,8 +123,9 @@ class ContactFinder {
   const Scene& scene_;
   PatchId id_;
   const Patch& patch_;
-  double snap_, gap_;  // [m]
-  Vec3 low_, high_;    // the receiver's bounding box, widened by the gap
+  double snap_, gap_;     // [m]
+  Vec3 low_, high_;       // the receiver's bounding box, widened by the gap
+  bool lids_too_ = true;  // what lies flat on the receiver
   std::vector<Contact> found_;
 };
 
@@ -165,8 +168,8 @@ ContactSearch::ContactSearch(const Scene& scene)
   for (std::vector<PatchId>& near : near_) std::sort(near.begin(), near.end());
 }
 
-std::vector<Contact> ContactSearch::FindWithHanging(PatchId receiver) const {
-  return ContactFinder(scene_, receiver, gap_).FindWithHanging(near_[receiver]);
+std::vector<Contact> ContactSearch::FindWalls(PatchId receiver) const {
+  return ContactFinder(scene_, receiver, gap_).FindWalls(near_[receiver]);
 }
 
 std::vector<Contact> ContactSearch::Find(PatchId receiver) const {

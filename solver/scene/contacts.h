@@ -33,9 +33,10 @@ class ContactSearch {
   // FindContacts().
   std::vector<Contact> Find(PatchId receiver) const;
 
-  // All contacts on the front of the receiver, and the feet of what hangs closely above it: the edges of
-  // other patches that rise from at most kHanging above it, projected onto it.
-  std::vector<Contact> FindWithHanging(PatchId receiver) const;
+  // The contacts on the front of the receiver of what rises from it, and the feet of what hangs closely above
+  // it: the edges of other patches that rise from at most kHanging above it, projected onto it. What lies
+  // flat on it is left out.
+  std::vector<Contact> FindWalls(PatchId receiver) const;
 
  private:
   const Scene& scene_;

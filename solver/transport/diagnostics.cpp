@@ -14,10 +14,6 @@
 namespace penumbra {
 namespace {
 
-// A patch with less of its area free than this is covered: what rounding leaves of the difference of two
-// areas.
-constexpr double kCovered = 1e-6;
-
 const Link* FindLink(const std::vector<Link>& links, ElementId receiver, ElementId source) {
   const auto found = std::lower_bound(links.begin(), links.end(), std::pair(receiver, source),
                                       [](const Link& link, const std::pair<ElementId, ElementId>& key) {
@@ -92,29 +88,33 @@ ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch, st
   if (scene.patches.empty() || rays_per_patch == 0 || context.Cancelled()) return diagnostics;
   const RayCaster caster(scene);
   const double lift = ContactGap(scene);
-  std::vector<std::size_t> away(scene.patches.size()), back(scene.patches.size());
+  // Rays that meet nothing, those that meet backs, and those that begin where something lies on the patch.
+  std::vector<std::size_t> away(scene.patches.size()), back(scene.patches.size()),
+      covered(scene.patches.size());
   ParallelFor(scene.patches.size(), 8, [&](std::size_t p) {
+    const auto id = static_cast<PatchId>(p);
     const Patch& patch = scene.patches[p];
     if (context.Cancelled()) return;
     for (std::size_t i = 0; i < rays_per_patch; ++i) {
       const DiffuseRay ray =
           MakeDiffuseRay(patch.Vertices(), patch.normal, lift, p * rays_per_patch + i, seed);
-      const RayCaster::Hit hit = caster.Cast(ray.origin, ray.direction, static_cast<PatchId>(p));
-      ++(hit.patch == kNoPatch ? away : back)[p];
-      if (hit.patch != kNoPatch && hit.front) --back[p];
+      const RayCaster::Hit hit = caster.Cast(ray.origin, ray.direction, id);
+      if (hit.patch == kNoPatch) ++away[p];
+      if (hit.patch == kNoPatch || hit.front) continue;
+      const RayCaster::Hit lid = caster.Cast(ray.origin - 3 * lift * patch.normal, patch.normal, id);
+      ++(lid.patch != kNoPatch && lid.distance <= 4 * lift ? covered : back)[p];
     }
   });
   double area = 0;
-  const std::vector<double> free_area = FreeAreas(scene);
   std::map<std::int32_t, bool> blind;  // by face, of those that are free anywhere
   for (std::size_t p = 0; p < scene.patches.size(); ++p) {
     area += scene.patches[p].area;
     diagnostics.escaping += scene.patches[p].area * static_cast<double>(away[p]);
     // What something lies on sees nothing; a face is reversed as a whole.
-    if (free_area[p] <= kCovered * scene.patches[p].area) continue;
+    if (covered[p] == rays_per_patch) continue;
     for (const std::int32_t face : scene.patches[p].faces) {
       const auto [at, is_new] = blind.emplace(face, true);
-      at->second = at->second && back[p] == rays_per_patch;
+      at->second = at->second && back[p] + covered[p] == rays_per_patch;
     }
   }
   diagnostics.rays = scene.patches.size() * rays_per_patch;
