@@ -23,6 +23,8 @@ constexpr double kLeastRoom = 0.02;
 constexpr double kLeastWidth = 1e-3;
 // A patch smaller than this part of the largest that reflects is the side of some furniture, and in one room.
 constexpr double kLeastPatch = 0.25;
+// Nor is a solid's: what is cut is no solid any more, and casts its shadow side by side.
+constexpr double kLeastOfSolid = 0.5;
 // Of each patch, the most feet that are looked at, the longest first, and the most pieces.
 constexpr std::size_t kMostFeet = 512, kMostPieces = 64;
 
@@ -254,7 +256,8 @@ void CutAtWalls(Scene& scene) {
   for (PatchId id = 0; id < Size(scene.patches); ++id) {
     const Patch& patch = scene.patches[id];
     std::vector<Polygon3> pieces;
-    if (Diameter(patch.Vertices()) >= kLeastPatch * largest)
+    const double least = scene.SolidOf(id) == kNoSolid ? kLeastPatch : kLeastOfSolid;
+    if (Diameter(patch.Vertices()) >= least * largest)
       pieces = PatchCutter(scene, id).Cut(search.FindWalls(id));
     if (pieces.empty()) patches.push_back(patch);
     for (const Polygon3& piece : pieces) {
