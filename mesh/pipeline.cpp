@@ -28,12 +28,11 @@ constexpr std::size_t kEnergyRays = std::size_t{1} << 18, kViewRays = 64;
 // Random points of a glance, which take 1 % of the time of a solve: what so few can feign is not told.
 constexpr std::size_t kGlancePoints = 200;
 
-// The part whose 99th percentile is most beyond the bound, by more than its few points can feign; null if
-// none is.
+// The part whose 99th percentile is most beyond the bound; null if none is.
 const PartError* WorstPart(std::span<const PartError> parts, double bound) {
   const PartError* worst = nullptr;
   for (const PartError& part : parts)
-    if (part.whole.p99_at_least > (worst ? worst->whole.p99_at_least : bound)) worst = &part;
+    if (part.whole.p99 > (worst ? worst->whole.p99 : bound)) worst = &part;
   return worst;
 }
 

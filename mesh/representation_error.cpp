@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "mesh/mesh_locator.h"
@@ -14,8 +15,8 @@ namespace {
 
 constexpr std::size_t kPointsATask = 16;
 // Further points in each part of the scene: so many if there are few parts, so many of all parts together,
-// and so many at least.
-constexpr std::size_t kPartPoints = 40, kAllPartPoints = 400, kFewestPartPoints = 4;
+// and so many at least. A part that seems to err by too much gets more: what few points see may be bad luck.
+constexpr std::size_t kPartPoints = 20, kAllPartPoints = 160, kFewestPartPoints = 4, kSuspectPoints = 300;
 
 // What is found at some points.
 struct Values {
@@ -24,24 +25,29 @@ struct Values {
   std::vector<std::vector<Rgb>> truths;  // by each of the better samplers
 };
 
+// Adds what is found at further points.
 void Evaluate(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
-              std::span<const IrradianceSampler> better, Values& values) {
+              std::span<const IrradianceSampler> better, std::span<const SurfacePoint> points,
+              Values& values) {
   const MeshLocator locator(scene, mesh);
-  const std::size_t count = values.at.size();
-  values.shown.resize(count);
-  values.exact.resize(count);
-  values.truths.assign(better.size(), std::vector<Rgb>(count));
-  ParallelFor(count, kPointsATask, [&](std::size_t i) {
+  const std::size_t before = values.at.size();
+  values.at.insert(values.at.end(), points.begin(), points.end());
+  values.shown.resize(values.at.size());
+  values.exact.resize(values.at.size());
+  values.truths.resize(better.size());
+  for (std::vector<Rgb>& truth : values.truths) truth.resize(values.at.size());
+  ParallelFor(points.size(), kPointsATask, [&](std::size_t p) {
+    const std::size_t i = before + p;
     const SurfacePoint& at = values.at[i];
-    const auto place = locator.Find(at.patch, at.position);
-    PENUMBRA_CHECK(place.has_value());
-    values.shown[i] = IrradianceAt(mesh, *place).max(0.0);
     ReceiverPoint receiver;
     receiver.position = at.position;
     receiver.normal = scene.patches[static_cast<std::size_t>(at.patch)].normal;
     values.exact[i] = sampler(at.patch, receiver).irradiance;
     for (std::size_t k = 0; k < better.size(); ++k)
       values.truths[k][i] = better[k](at.patch, receiver).irradiance;
+    // A face that is narrower than the mesh resolves shows nothing that could be wrong.
+    const auto place = locator.Find(at.patch, at.position);
+    values.shown[i] = place ? Rgb(IrradianceAt(mesh, *place).max(0.0)) : values.exact[i];
   });
 }
 
@@ -78,23 +84,15 @@ void KeepLarger(const std::vector<ValueError>& errors, std::vector<ValueError>& 
     largest[i].error = std::max(largest[i].error, errors[i].error);
 }
 
-// Points in each part that is seen; none where there is only one.
-std::vector<SurfacePoint> SpreadOverParts(const Scene& scene, std::span<const double> areas,
-                                          std::span<const ScenePart> parts, std::uint64_t seed) {
-  std::vector<SurfacePoint> points;
-  if (parts.size() < 2) return points;
-  const std::size_t count = std::clamp(kAllPartPoints / parts.size(), kFewestPartPoints, kPartPoints);
-  for (const ScenePart& part : parts) {
-    std::vector<double> weights(areas.size(), 0.0);
-    double total = 0;
-    for (const PatchId p : part.patches)
-      total += weights[static_cast<std::size_t>(p)] = areas[static_cast<std::size_t>(p)];
-    if (total == 0) continue;
-    const std::vector<SurfacePoint> own =
-        SpreadPoints(scene, weights, count, seed + 1 + static_cast<std::uint64_t>(part.patches[0]));
-    points.insert(points.end(), own.begin(), own.end());
-  }
-  return points;
+// So many random points in a part of the scene; none where it is not seen.
+std::vector<SurfacePoint> SpreadOverPart(const Scene& scene, std::span<const double> areas,
+                                         const ScenePart& part, std::size_t count, std::uint64_t seed) {
+  std::vector<double> weights(areas.size(), 0.0);
+  double total = 0;
+  for (const PatchId p : part.patches)
+    total += weights[static_cast<std::size_t>(p)] = areas[static_cast<std::size_t>(p)];
+  if (total == 0) return {};
+  return SpreadPoints(scene, weights, count, seed + 1 + static_cast<std::uint64_t>(part.patches[0]));
 }
 
 // The errors of the values, sorted into the parts that their points lie in; parts without any are left out.
@@ -108,8 +106,39 @@ std::vector<PartError> SummariseParts(const Scene& scene, std::span<const SceneP
     own[part_of[static_cast<std::size_t>(at[value.point].patch)]].push_back(value);
   std::vector<PartError> by_part;
   for (std::size_t k = 0; k < parts.size(); ++k)
-    if (!own[k].empty()) by_part.push_back({parts[k].name, Summarise(scene, at, own[k])});
+    if (!own[k].empty()) by_part.push_back({parts[k].name, k, Summarise(scene, at, own[k])});
   return by_part;
+}
+
+// Measures part by part, at the points that are there and at further ones, which `evaluate` adds to the
+// values.
+std::vector<PartError> MeasureParts(const Scene& scene,
+                                    const std::function<void(std::span<const SurfacePoint>)>& evaluate,
+                                    std::uint64_t seed, double bound, const Values& values) {
+  const std::vector<ScenePart> parts = PartsOf(scene);
+  const std::vector<double> areas = SeenAreas(scene);
+  const auto summarise = [&] {
+    std::vector<ValueError> errors;
+    for (const std::vector<Rgb>& truth : values.truths)
+      KeepLarger(SeenErrors(scene, values.at, values.shown, truth), errors);
+    return SummariseParts(scene, parts, values.at, errors);
+  };
+  if (parts.size() < 2) return summarise();
+  const std::size_t count = std::clamp(kAllPartPoints / parts.size(), kFewestPartPoints, kPartPoints);
+  std::vector<SurfacePoint> points;
+  const auto add = [&](const ScenePart& part, std::size_t so_many, std::uint64_t with_seed) {
+    const std::vector<SurfacePoint> own = SpreadOverPart(scene, areas, part, so_many, with_seed);
+    points.insert(points.end(), own.begin(), own.end());
+  };
+  for (const ScenePart& part : parts) add(part, count, seed);
+  evaluate(points);
+  const std::vector<PartError> first = summarise();
+  points.clear();
+  for (const PartError& suspect : first)
+    if (suspect.whole.p99 > bound) add(parts[suspect.part], kSuspectPoints, seed + 1);
+  if (points.empty()) return first;
+  evaluate(points);
+  return summarise();
 }
 
 }  // namespace
@@ -169,32 +198,27 @@ MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const
   if (scene.patches.empty() || points == 0) return error;
   const std::vector<double> areas = SeenAreas(scene);
   Values values;
-  values.at = SpreadPoints(scene, areas, points, seed);
-  std::vector<ScenePart> parts;
-  if (!better.empty()) {
-    parts = PartsOf(scene);
-    const std::vector<SurfacePoint> further = SpreadOverParts(scene, areas, parts, seed);
-    values.at.insert(values.at.end(), further.begin(), further.end());
-  }
-  Evaluate(scene, mesh, sampler, better, values);
+  Evaluate(scene, mesh, sampler, better, SpreadPoints(scene, areas, points, seed), values);
   // Means are those of the first points, which spread evenly; so are all figures but those of parts.
   const auto first = [&](const std::vector<Rgb>& of) { return std::span(of).first(points); };
   const std::span<const SurfacePoint> evenly = std::span(values.at).first(points);
   error.interpolant =
       Summarise(scene, evenly, SeenErrors(scene, evenly, first(values.shown), first(values.exact)));
   if (better.empty()) return error;
-  std::vector<ValueError> sources, whole, everywhere;
+  std::vector<ValueError> sources, whole;
   for (const std::vector<Rgb>& truth : values.truths) {
     KeepLarger(SeenErrors(scene, evenly, first(values.exact), first(truth)), sources);
     KeepLarger(SeenErrors(scene, evenly, first(values.shown), first(truth)), whole);
-    KeepLarger(SeenErrors(scene, values.at, values.shown, truth), everywhere);
   }
   error.sources = Summarise(scene, evenly, sources);
   error.whole = Summarise(scene, evenly, whole);
   error.above = static_cast<double>(std::count_if(whole.begin(), whole.end(),
                                                   [&](const ValueError& e) { return e.error > bound; })) /
                 static_cast<double>(std::max<std::size_t>(1, whole.size()));
-  error.by_part = SummariseParts(scene, parts, values.at, everywhere);
+  const auto evaluate = [&](std::span<const SurfacePoint> at) {
+    Evaluate(scene, mesh, sampler, better, at, values);
+  };
+  error.by_part = MeasureParts(scene, evaluate, seed, kPartError * bound, values);
   return error;
 }
 

@@ -62,6 +62,7 @@ double Quantile(std::span<const ValueError> values, double q);
 // How one part of the scene (PartsOf) does.
 struct PartError {
   std::string name;
+  std::size_t part = 0;  // of PartsOf()
   RepresentationError whole;
 };
 
