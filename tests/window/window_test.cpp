@@ -407,10 +407,9 @@ wait idle
   for (const char* name : {"a.h5", "b.h5", "d.h5"})
     EXPECT_TRUE(ReadBytes(sandbox.Path(name)) == ReadBytes(sandbox.Path("over.h5"))) << name;
   EXPECT_TRUE(ReadBytes(sandbox.Path("c.h5")) == ReadBytes(sandbox.Path("anew.h5")));
-  for (const auto& [script, says] :
-       {std::pair("set eps 1", "eps: it says how links are made"),
-        {"set two-sided on", "it is no solution of"},
-        {"set restart nowhere.h5", "restart: nowhere.h5: error: there is no"}}) {
+  for (const auto& [script, says] : {std::pair("set eps 1", "eps: it says how links are made"),
+                                     {"set two-sided on", "it is no solution of"},
+                                     {"set restart nowhere.h5", "restart: nowhere.h5: error: there is no"}}) {
     const Outcome wrong = Play(script, over);
     EXPECT_EQ(wrong.status, 1) << script;
     EXPECT_THAT(wrong.err, HasSubstr(says));
