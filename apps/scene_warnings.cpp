@@ -64,6 +64,16 @@ void AddLight(const Scene& scene, std::vector<std::string>* warnings) {
         "MATERIAL=r,g,b");
     return;
   }
+  const std::size_t rays = std::clamp(kRays / scene.patches.size(), kFewestRays, kMostRays);
+  const LitSides sides = FindLitSides(scene, rays);
+  if (sides.TurnedInsideOut()) {
+    warnings->push_back(
+        fmt::format("{:.0f} % of the area that the light falls on is lit on its back, which is black; if "
+                    "faces are reversed, "
+                    "--flip turns every face, and --two-sided gives each a second one",
+                    100 * sides.back / (sides.back + sides.front)));
+    return;
+  }
   const bool any_reflects = std::any_of(scene.patches.begin(), scene.patches.end(), [&](const Patch& patch) {
     return (scene.materials[static_cast<std::size_t>(patch.material)].reflectance > 0).any();
   });
@@ -74,14 +84,6 @@ void AddLight(const Scene& scene, std::vector<std::string>* warnings) {
         "what "
         "turns its back",
         dark.size(), dark.size() == 1 ? "face that emits lights" : "faces that emit light", dark[0]));
-  const std::size_t rays = std::clamp(kRays / scene.patches.size(), kFewestRays, kMostRays);
-  const LitSides sides = FindLitSides(scene, rays);
-  if (sides.TurnedInsideOut())
-    warnings->push_back(
-        fmt::format("{:.0f} % of the area that the light falls on is lit on its back, which is black; if "
-                    "faces are reversed, "
-                    "--flip turns every face, and --two-sided gives each a second one",
-                    100 * sides.back / (sides.back + sides.front)));
 }
 
 }  // namespace

@@ -261,16 +261,17 @@ void PatchBuilder::AddFlat(Polygon3 piece, std::vector<Polygon3>& pieces) {
   pieces.push_back(std::move(piece));
 }
 
-// What is no wider than the snap distance of its points has no inside. A face that emits lights others all
-// the same.
+// What is no wider than the snap distance of its points has no inside. A lamp lights others all the same.
 void PatchBuilder::AddPatch(std::span<const Vec3> vertices, const Outline& outline) {
   if (VectorArea(vertices).norm() > 0) {
     const Patch patch = MakePatch(vertices, outline.material, outline.object, outline.faces);
     const Frame frame = MakeFrame(vertices[0], patch.normal);
     Polygon2 shape;
     for (const Vec3& p : vertices) shape.push_back(frame.ToPlane(p));
-    const bool emits = (scene_.materials[outline.material].emittance > 0).any() && outline.winners.empty();
-    if (emits || NarrowestStrip(shape).width > kNarrowest * SnapDistance(patch)) {
+    const Material& material = scene_.materials[outline.material];
+    const bool lamp =
+        (material.emittance > 0).any() && (material.reflectance == 0).all() && outline.winners.empty();
+    if (lamp || NarrowestStrip(shape).width > kNarrowest * SnapDistance(patch)) {
       scene_.patches.push_back(patch);
       return;
     }
