@@ -1,6 +1,6 @@
 // apps/option_checks.h
 //
-// Options of solving that cannot hold together, or not with the scene: told before the work.
+// Refuses options of a solve that contradict each other or do not fit the scene, before the work begins.
 
 #pragma once
 

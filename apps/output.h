@@ -35,7 +35,8 @@ void CheckWritable(const std::string& path);
 // The files that a command writes: none may be one that it reads, nor another that it writes.
 class OutputFiles {
  public:
-  // `option` names it to the user. CheckWritable(), and throws UsageError if it is one of the others.
+  // Adds the file that the option names. Checks that it can be written (CheckWritable), and throws UsageError
+  // if the command reads it, or writes it already.
   void Add(const std::string& option, const std::string& path);
   void Add(const std::string& option, const std::optional<std::string>& path) {
     if (path) Add(option, *path);

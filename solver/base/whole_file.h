@@ -24,7 +24,8 @@ struct FileToWrite {
 // The same for files that belong together: none is replaced before all are written beside their places.
 void WriteWholeFiles(std::span<const FileToWrite> files);
 
-// Throws what WriteWholeFile() would throw, as far as that can be known before; leaves nothing behind.
+// Tries whether WriteWholeFile() can write to the path, and throws the same error if it cannot. Writes
+// nothing.
 void TryWholeFile(const std::string& path);
 
 // Whether something stands there that is written to as it is.

@@ -24,8 +24,8 @@ Vec3 VectorArea(std::span<const Vec3> polygon);
 // The area's centroid; the mean of the vertices where the area is zero.
 Vec3 Centroid(std::span<const Vec3> polygon);
 
-// The two vertices farthest apart, the lower index first. Time is linear in the number of vertices: of more
-// than 512 the distance may fall short of the largest by half a per cent.
+// The two vertices farthest apart, the lower index first. The time is linear in the number of vertices: where
+// there are more than 512, the pair may be half a per cent nearer to each other than the farthest one.
 std::pair<std::size_t, std::size_t> FarthestPair(std::span<const Vec3> polygon);
 
 // Their distance [m].
