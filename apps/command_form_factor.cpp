@@ -15,9 +15,9 @@
 #include "apps/output.h"
 #include "apps/scene_arguments.h"
 #include "solver/base/check.h"
-#include "solver/transport/approximate_form_factor.h"
-#include "solver/visibility/area_form_factor.h"
-#include "solver/visibility/occlusion_method.h"
+#include "solver/transport/links/approximate_form_factor.h"
+#include "solver/visibility/area/area_form_factor.h"
+#include "solver/visibility/point/occlusion_method.h"
 
 namespace penumbra {
 namespace {

@@ -13,7 +13,7 @@
 #include "apps/restart.h"
 #include "apps/scene_arguments.h"
 #include "apps/solve_run.h"
-#include "mesh/solution_file.h"
+#include "mesh/pipeline/solution_file.h"
 #include "solver/scene/plane_overlaps.h"
 
 namespace penumbra {

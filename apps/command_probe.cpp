@@ -17,9 +17,9 @@
 #include "apps/restart.h"
 #include "apps/scene_arguments.h"
 #include "apps/solve_run.h"
-#include "solver/transport/source_set.h"
-#include "solver/visibility/occlusion_method.h"
-#include "solver/visibility/patch_visibility.h"
+#include "solver/transport/sources/source_set.h"
+#include "solver/visibility/pair/patch_visibility.h"
+#include "solver/visibility/point/occlusion_method.h"
 
 namespace penumbra {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "mesh/irradiance_mesh.h"
+#include "mesh/interpolants/irradiance_mesh.h"
 #include "solver/scene/scene.h"
 
 namespace penumbra {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "apps/points_csv.h"
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 #include "solver/base/progress.h"
 #include "solver/scene/scene.h"
-#include "solver/transport/point_irradiance.h"
-#include "solver/visibility/ray_caster.h"
+#include "solver/transport/points/point_irradiance.h"
+#include "solver/visibility/point/ray_caster.h"
 
 namespace penumbra {
 

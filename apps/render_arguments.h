@@ -15,7 +15,7 @@
 #include "apps/scene_arguments.h"
 #include "display/opengl_passes.h"
 #include "display/two_pass_display.h"
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 
 namespace penumbra {
 

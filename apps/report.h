@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 
 namespace penumbra {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "apps/commands.h"
-#include "mesh/link_options.h"
-#include "mesh/solution_check.h"
+#include "mesh/pipeline/link_options.h"
+#include "mesh/pipeline/solution_check.h"
 #include "solver/base/check.h"
 #include "solver/scene/geometry_difference.h"
 

@@ -15,7 +15,7 @@
 
 #include "apps/material_change.h"
 #include "apps/output.h"
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 #include "solver/scene/scene.h"
 #include "solver/scene/scene_options.h"
 

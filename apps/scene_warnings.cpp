@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "solver/transport/diagnostics.h"
+#include "solver/transport/solvers/diagnostics.h"
 
 namespace penumbra {
 namespace {

@@ -10,7 +10,7 @@
 #include "apps/messages.h"
 #include "apps/option_checks.h"
 #include "apps/output.h"
-#include "mesh/solution_file.h"
+#include "mesh/pipeline/solution_file.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
 

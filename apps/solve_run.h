@@ -8,7 +8,7 @@
 
 #include "apps/report.h"
 #include "apps/scene_arguments.h"
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 
 namespace penumbra {
 

@@ -43,9 +43,18 @@ if(CMAKE_UNITY_BUILD)
   target_compile_options(penumbra_warnings INTERFACE -Wno-subobject-linkage)
 endif()
 
-# penumbra_library(NAME [LIBS...]): the static library penumbra_NAME from this folder's sources.
+# penumbra_library(NAME [LIBS...]): the static library penumbra_NAME from the sources of this folder and of its rooms,
+# which are those of its folders that have no CMakeLists.txt of their own.
 function(penumbra_library name)
-  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/*.h")
+  file(GLOB rooms CONFIGURE_DEPENDS LIST_DIRECTORIES true "${CMAKE_CURRENT_SOURCE_DIR}/*")
+  list(PREPEND rooms "${CMAKE_CURRENT_SOURCE_DIR}")
+  set(sources)
+  foreach(room IN LISTS rooms)
+    if(IS_DIRECTORY "${room}" AND (room STREQUAL CMAKE_CURRENT_SOURCE_DIR OR NOT EXISTS "${room}/CMakeLists.txt"))
+      file(GLOB of_room CONFIGURE_DEPENDS "${room}/*.cpp" "${room}/*.h")
+      list(APPEND sources ${of_room})
+    endif()
+  endforeach()
   if(NOT sources)
     message(FATAL_ERROR "no sources in ${CMAKE_CURRENT_SOURCE_DIR}")
   endif()

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesh/irradiance_mesh.h"
+#include "mesh/interpolants/irradiance_mesh.h"
 #include "solver/scene/scene.h"
 
 namespace penumbra {

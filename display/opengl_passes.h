@@ -13,7 +13,7 @@
 #include <memory>
 
 #include "display/passes.h"
-#include "mesh/irradiance_mesh.h"
+#include "mesh/interpolants/irradiance_mesh.h"
 
 namespace penumbra {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "display/camera.h"
-#include "mesh/mesh_locator.h"
+#include "mesh/interpolants/mesh_locator.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
 #include "solver/base/random.h"

@@ -11,11 +11,11 @@
 
 #include "display/camera.h"
 #include "display/image.h"
-#include "mesh/irradiance_mesh.h"
+#include "mesh/interpolants/irradiance_mesh.h"
 #include "solver/base/progress.h"
 #include "solver/scene/scene.h"
-#include "solver/transport/point_irradiance.h"
-#include "solver/visibility/ray_caster.h"
+#include "solver/transport/points/point_irradiance.h"
+#include "solver/visibility/point/ray_caster.h"
 
 namespace penumbra {
 

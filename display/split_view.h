@@ -7,7 +7,7 @@
 #include "display/camera.h"
 #include "display/image.h"
 #include "display/two_pass_display.h"
-#include "mesh/irradiance_mesh.h"
+#include "mesh/interpolants/irradiance_mesh.h"
 
 namespace penumbra {
 

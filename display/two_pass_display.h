@@ -13,7 +13,7 @@
 #include "display/rasteriser.h"
 #include "display/tone_mapping.h"
 #include "display/vector_kernels.h"
-#include "mesh/irradiance_mesh.h"
+#include "mesh/interpolants/irradiance_mesh.h"
 #include "solver/scene/scene.h"
 
 namespace penumbra {

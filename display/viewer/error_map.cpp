@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "display/viewer/mesh_tools.h"
-#include "mesh/representation_error.h"
+#include "mesh/interpolants/representation_error.h"
 #include "solver/base/parallel.h"
 
 namespace penumbra::viewer {

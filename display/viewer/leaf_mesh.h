@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "mesh/irradiance_mesh.h"
-#include "solver/transport/element_forest.h"
+#include "mesh/interpolants/irradiance_mesh.h"
+#include "solver/transport/links/element_forest.h"
 
 namespace penumbra::viewer {
 

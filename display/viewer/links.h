@@ -9,7 +9,7 @@
 
 #include "display/viewer/overlay_drawing.h"
 #include "display/viewer/view_state.h"
-#include "solver/transport/solution.h"
+#include "solver/transport/links/solution.h"
 
 namespace penumbra::viewer {
 

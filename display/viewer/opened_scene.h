@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 #include "solver/scene/scene.h"
 
 namespace penumbra::viewer {

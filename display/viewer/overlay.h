@@ -14,7 +14,7 @@
 #include "display/viewer/probes.h"
 #include "display/viewer/snapshot.h"
 #include "display/viewer/view_state.h"
-#include "mesh/discontinuity_list.h"
+#include "mesh/pipeline/discontinuity_list.h"
 
 namespace penumbra::viewer {
 

@@ -14,7 +14,7 @@
 #include "display/image.h"
 #include "display/two_pass_display.h"
 #include "display/viewer/overlay_drawing.h"
-#include "mesh/irradiance_mesh.h"
+#include "mesh/interpolants/irradiance_mesh.h"
 
 namespace penumbra::viewer {
 

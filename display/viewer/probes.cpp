@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "solver/visibility/backprojection.h"
-#include "solver/visibility/point_view.h"
+#include "solver/visibility/exact/backprojection.h"
+#include "solver/visibility/point/point_view.h"
 
 namespace penumbra::viewer {
 namespace {

@@ -12,13 +12,13 @@
 #include <optional>
 #include <vector>
 
-#include "mesh/irradiance_mesh.h"
-#include "mesh/mesh_locator.h"
-#include "mesh/pipeline.h"
+#include "mesh/interpolants/irradiance_mesh.h"
+#include "mesh/interpolants/mesh_locator.h"
+#include "mesh/pipeline/pipeline.h"
 #include "solver/scene/scene.h"
-#include "solver/transport/point_irradiance.h"
-#include "solver/transport/solution.h"
-#include "solver/visibility/patch_visibility.h"
+#include "solver/transport/links/solution.h"
+#include "solver/transport/points/point_irradiance.h"
+#include "solver/visibility/pair/patch_visibility.h"
 
 namespace penumbra::viewer {
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "display/viewer/leaf_mesh.h"
-#include "mesh/local_pass.h"
-#include "mesh/run_limits.h"
+#include "mesh/pipeline/run_limits.h"
+#include "mesh/refinement/local_pass.h"
 #include "solver/base/check.h"
 
 namespace penumbra::viewer {

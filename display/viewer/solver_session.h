@@ -14,7 +14,7 @@
 
 #include "display/viewer/opened_scene.h"
 #include "display/viewer/snapshot.h"
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 #include "solver/base/progress.h"
 
 namespace penumbra::viewer {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "display/opengl_passes.h"
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 #include "solver/scene/scene.h"
 
 namespace penumbra::viewer {

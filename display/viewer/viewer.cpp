@@ -7,7 +7,7 @@
 
 #include "display/viewer/selection.h"
 #include "display/viewer/walk.h"
-#include "mesh/link_options.h"
+#include "mesh/pipeline/link_options.h"
 #include "solver/base/check.h"
 
 namespace penumbra::viewer {

@@ -8,7 +8,7 @@
 #include "display/image_io.h"
 #include "display/ray_display.h"
 #include "display/viewer/viewer.h"
-#include "mesh/link_options.h"
+#include "mesh/pipeline/link_options.h"
 #include "solver/base/check.h"
 #include "solver/scene/named_scene.h"
 

@@ -13,8 +13,8 @@
 
 #include "solver/base/random.h"
 #include "solver/scene/scene.h"
-#include "solver/visibility/occlusion_method.h"
-#include "solver/visibility/point_view.h"
+#include "solver/visibility/point/occlusion_method.h"
+#include "solver/visibility/point/point_view.h"
 
 namespace penumbra {
 

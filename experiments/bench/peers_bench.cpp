@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "experiments/studies/reference_case.h"
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 #include "solver/base/parallel.h"
 
 namespace penumbra {

@@ -15,13 +15,13 @@
 #include "solver/base/random.h"
 #include "solver/scene/builtin_scenes.h"
 #include "solver/scene/surface_points.h"
-#include "solver/transport/point_irradiance.h"
-#include "solver/transport/source_set.h"
-#include "solver/visibility/backprojection.h"
-#include "solver/visibility/form_factor.h"
-#include "solver/visibility/form_factor_batch.h"
-#include "solver/visibility/occlusion_method.h"
-#include "solver/visibility/point_view.h"
+#include "solver/transport/points/point_irradiance.h"
+#include "solver/transport/sources/source_set.h"
+#include "solver/visibility/exact/backprojection.h"
+#include "solver/visibility/point/form_factor.h"
+#include "solver/visibility/point/form_factor_batch.h"
+#include "solver/visibility/point/occlusion_method.h"
+#include "solver/visibility/point/point_view.h"
 
 namespace penumbra {
 namespace {

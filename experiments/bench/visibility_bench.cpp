@@ -6,7 +6,7 @@
 
 #include "experiments/bench/bench_scenes.h"
 #include "solver/base/parallel.h"
-#include "solver/visibility/patch_visibility.h"
+#include "solver/visibility/pair/patch_visibility.h"
 
 namespace penumbra {
 namespace {

@@ -17,7 +17,7 @@
 #include <fmt/format.h>
 
 #include "display/two_pass_display.h"
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 #include "solver/base/parallel.h"
 #include "solver/scene/builtin_scenes.h"
 

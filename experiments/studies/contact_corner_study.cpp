@@ -12,13 +12,13 @@
 #include <fmt/format.h>
 
 #include "experiments/studies/study.h"
-#include "mesh/contact_corners.h"
-#include "mesh/discontinuity.h"
-#include "mesh/irradiance_mesh_builder.h"
-#include "mesh/local_pass.h"
-#include "mesh/mesh_locator.h"
-#include "mesh/pipeline.h"
-#include "mesh/representation_error.h"
+#include "mesh/discontinuities/contact_corners.h"
+#include "mesh/discontinuities/discontinuity.h"
+#include "mesh/interpolants/irradiance_mesh_builder.h"
+#include "mesh/interpolants/mesh_locator.h"
+#include "mesh/interpolants/representation_error.h"
+#include "mesh/pipeline/pipeline.h"
+#include "mesh/refinement/local_pass.h"
 #include "solver/base/random.h"
 #include "solver/scene/builtin_scenes.h"
 

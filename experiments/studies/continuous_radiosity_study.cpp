@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/studies/study.h"
-#include "solver/transport/hierarchical_solver.h"
-#include "solver/transport/point_irradiance.h"
+#include "solver/transport/points/point_irradiance.h"
+#include "solver/transport/solvers/hierarchical_solver.h"
 
 namespace penumbra {
 namespace {

@@ -16,8 +16,8 @@
 
 #include "experiments/studies/reference_case.h"
 #include "experiments/studies/study.h"
-#include "mesh/local_pass.h"
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
+#include "mesh/refinement/local_pass.h"
 #include "solver/scene/builtin_scenes.h"
 
 namespace penumbra {

@@ -14,7 +14,7 @@
 #include "display/two_pass_display.h"
 #include "experiments/studies/reference_case.h"
 #include "experiments/studies/study.h"
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 #include "solver/base/check.h"
 #include "solver/scene/builtin_scenes.h"
 

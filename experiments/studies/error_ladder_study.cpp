@@ -7,8 +7,8 @@
 
 #include "experiments/studies/reference_case.h"
 #include "experiments/studies/study.h"
-#include "mesh/pipeline.h"
-#include "mesh/representation_error.h"
+#include "mesh/interpolants/representation_error.h"
+#include "mesh/pipeline/pipeline.h"
 
 namespace penumbra {
 namespace {

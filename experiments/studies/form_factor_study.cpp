@@ -7,8 +7,8 @@
 
 #include "experiments/bench/bench_scenes.h"
 #include "experiments/studies/study.h"
-#include "solver/transport/approximate_form_factor.h"
-#include "solver/visibility/area_form_factor.h"
+#include "solver/transport/links/approximate_form_factor.h"
+#include "solver/visibility/area/area_form_factor.h"
 
 namespace penumbra {
 namespace {

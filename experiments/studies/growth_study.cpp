@@ -14,7 +14,7 @@
 #include "display/two_pass_display.h"
 #include "experiments/bench/bench_scenes.h"
 #include "experiments/studies/study.h"
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 #include "solver/base/parallel.h"
 #include "solver/base/stopwatch.h"
 #include "solver/scene/builtin_scenes.h"

@@ -14,12 +14,12 @@
 #include <fmt/format.h>
 
 #include "experiments/studies/study.h"
-#include "mesh/irradiance_mesh_builder.h"
-#include "mesh/lagrange_interpolant.h"
-#include "mesh/local_pass.h"
-#include "mesh/mesh_locator.h"
-#include "mesh/pipeline.h"
-#include "mesh/representation_error.h"
+#include "mesh/interpolants/irradiance_mesh_builder.h"
+#include "mesh/interpolants/lagrange_interpolant.h"
+#include "mesh/interpolants/mesh_locator.h"
+#include "mesh/interpolants/representation_error.h"
+#include "mesh/pipeline/pipeline.h"
+#include "mesh/refinement/local_pass.h"
 #include "solver/base/parallel.h"
 #include "solver/base/stopwatch.h"
 #include "solver/scene/builtin_scenes.h"

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "experiments/studies/study.h"
-#include "mesh/pipeline.h"
-#include "mesh/representation_error.h"
+#include "mesh/interpolants/representation_error.h"
+#include "mesh/pipeline/pipeline.h"
 #include "solver/base/stopwatch.h"
 #include "solver/scene/builtin_scenes.h"
 

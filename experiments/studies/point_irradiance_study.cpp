@@ -7,8 +7,8 @@
 
 #include "experiments/bench/bench_scenes.h"
 #include "experiments/studies/study.h"
-#include "solver/visibility/backprojection.h"
-#include "solver/visibility/sampled_visibility.h"
+#include "solver/visibility/exact/backprojection.h"
+#include "solver/visibility/point/sampled_visibility.h"
 
 namespace penumbra {
 namespace {

@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 
 #include "experiments/studies/study.h"
-#include "mesh/pipeline.h"
-#include "mesh/representation_error.h"
+#include "mesh/interpolants/representation_error.h"
+#include "mesh/pipeline/pipeline.h"
 #include "solver/base/random.h"
 #include "solver/scene/obj_reader.h"
 

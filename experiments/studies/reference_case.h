@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "experiments/studies/study.h"
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 #include "solver/scene/scene.h"
 
 namespace penumbra {

@@ -12,9 +12,9 @@
 
 #include "experiments/bench/bench_scenes.h"
 #include "experiments/studies/study.h"
-#include "solver/transport/point_irradiance.h"
-#include "solver/visibility/backprojection.h"
-#include "solver/visibility/form_factor.h"
+#include "solver/transport/points/point_irradiance.h"
+#include "solver/visibility/exact/backprojection.h"
+#include "solver/visibility/point/form_factor.h"
 
 namespace penumbra {
 namespace {

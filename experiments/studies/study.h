@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/representation_error.h"
+#include "mesh/interpolants/representation_error.h"
 #include "solver/geometry/vec.h"
 
 namespace penumbra {

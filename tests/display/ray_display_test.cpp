@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "display/two_pass_display.h"
-#include "mesh/mesh_locator.h"
+#include "mesh/interpolants/mesh_locator.h"
 #include "solver/base/parallel.h"
 #include "tests/display/synthetic_room.h"
 

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "mesh/irradiance_mesh.h"
+#include "mesh/interpolants/irradiance_mesh.h"
 #include "solver/base/random.h"
 #include "solver/scene/scene.h"
 

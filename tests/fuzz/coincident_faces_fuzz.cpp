@@ -21,14 +21,14 @@
 #include <optional>
 #include <string>
 
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 #include "solver/base/check.h"
 #include "solver/base/random.h"
 #include "solver/geometry/orientation.h"
 #include "solver/geometry/plane_projection.h"
 #include "solver/scene/obj_reader.h"
 #include "solver/scene/plane_overlaps.h"
-#include "solver/transport/point_irradiance.h"
+#include "solver/transport/points/point_irradiance.h"
 
 namespace penumbra {
 namespace {

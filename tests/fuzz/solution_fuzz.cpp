@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "mesh/pipeline.h"
-#include "mesh/solution_file.h"
-#include "mesh/triangle_quality.h"
+#include "mesh/interpolants/triangle_quality.h"
+#include "mesh/pipeline/pipeline.h"
+#include "mesh/pipeline/solution_file.h"
 #include "solver/base/check.h"
 #include "solver/base/sha256.h"
 #include "solver/scene/obj_reader.h"

@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
-#include "mesh/local_pass.h"
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
+#include "mesh/refinement/local_pass.h"
 #include "mesh_test_scenes.h"
 #include "solver/scene/builtin_scenes.h"
 #include "solver/scene/tolerances.h"

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <span>
 
-#include "mesh/leaf_lines.h"
-#include "mesh/leaf_triangulation.h"
+#include "mesh/discontinuities/leaf_lines.h"
+#include "mesh/triangulation/leaf_triangulation.h"
 #include "mesh_test_scenes.h"
 #include "solver/base/check.h"
 #include "solver/scene/tolerances.h"

@@ -1,6 +1,6 @@
 // Leaves graded towards the ends of contact edges.
 
-#include "mesh/contact_corners.h"
+#include "mesh/discontinuities/contact_corners.h"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 #include <cstdio>
 #include <numbers>
 
-#include "mesh/irradiance_mesh_builder.h"
-#include "mesh/local_pass.h"
-#include "mesh/mesh_locator.h"
-#include "mesh/pipeline.h"
-#include "mesh/representation_error.h"
+#include "mesh/interpolants/irradiance_mesh_builder.h"
+#include "mesh/interpolants/mesh_locator.h"
+#include "mesh/interpolants/representation_error.h"
+#include "mesh/pipeline/pipeline.h"
+#include "mesh/refinement/local_pass.h"
 #include "mesh_test_scenes.h"
 #include "solver/base/random.h"
 #include "tests/visibility/test_scenes.h"

@@ -1,4 +1,4 @@
-#include "mesh/discontinuity.h"
+#include "mesh/discontinuities/discontinuity.h"
 
 #include <gtest/gtest.h>
 

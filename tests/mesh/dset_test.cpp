@@ -1,12 +1,12 @@
-#include "mesh/dset.h"
+#include "mesh/discontinuities/dset.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "mesh/leaf_triangulation.h"
-#include "mesh/line_jumps.h"
+#include "mesh/discontinuities/line_jumps.h"
+#include "mesh/triangulation/leaf_triangulation.h"
 #include "mesh_test_scenes.h"
 #include "solver/scene/builtin_scenes.h"
 

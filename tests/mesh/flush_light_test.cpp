@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <set>
 
-#include "mesh/discontinuity.h"
-#include "mesh/dset.h"
+#include "mesh/discontinuities/discontinuity.h"
+#include "mesh/discontinuities/dset.h"
 #include "mesh_test_scenes.h"
 #include "solver/scene/obj_reader.h"
 #include "test_paths.h"

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
-#include "mesh/lagrange_interpolant.h"
-#include "mesh/quadratic_interpolant.h"
+#include "mesh/interpolants/lagrange_interpolant.h"
+#include "mesh/interpolants/quadratic_interpolant.h"
 #include "solver/base/random.h"
 
 namespace penumbra {

@@ -1,4 +1,4 @@
-#include "mesh/irradiance_jump.h"
+#include "mesh/discontinuities/irradiance_jump.h"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@
 #include <cstdio>
 #include <map>
 
-#include "mesh/dset.h"
-#include "mesh/leaf_triangulation.h"
+#include "mesh/discontinuities/dset.h"
+#include "mesh/triangulation/leaf_triangulation.h"
 #include "mesh_test_scenes.h"
 #include "solver/scene/builtin_scenes.h"
 #include "solver/scene/tolerances.h"
-#include "solver/transport/point_irradiance.h"
+#include "solver/transport/points/point_irradiance.h"
 
 namespace penumbra {
 namespace {

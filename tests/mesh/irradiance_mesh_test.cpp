@@ -4,11 +4,11 @@
 #include <cstdio>
 #include <memory>
 
-#include "mesh/discontinuity.h"
-#include "mesh/irradiance_mesh_builder.h"
-#include "mesh/local_pass.h"
-#include "mesh/mesh_locator.h"
-#include "mesh/representation_error.h"
+#include "mesh/discontinuities/discontinuity.h"
+#include "mesh/interpolants/irradiance_mesh_builder.h"
+#include "mesh/interpolants/mesh_locator.h"
+#include "mesh/interpolants/representation_error.h"
+#include "mesh/refinement/local_pass.h"
 #include "mesh_test_scenes.h"
 #include "solver/base/parallel.h"
 

@@ -1,6 +1,6 @@
 // How dark it is in places of a leaf, and what that is good for.
 
-#include "mesh/leaf_light.h"
+#include "mesh/interpolants/leaf_light.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "mesh/local_pass.h"
-#include "mesh/pipeline.h"
-#include "mesh/representation_error.h"
+#include "mesh/interpolants/representation_error.h"
+#include "mesh/pipeline/pipeline.h"
+#include "mesh/refinement/local_pass.h"
 #include "mesh_test_scenes.h"
 #include "solver/base/random.h"
 #include "solver/scene/builtin_scenes.h"

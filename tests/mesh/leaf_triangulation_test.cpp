@@ -1,4 +1,4 @@
-#include "mesh/leaf_triangulation.h"
+#include "mesh/triangulation/leaf_triangulation.h"
 
 #include <gtest/gtest.h>
 

@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <cstring>
 
-#include "mesh/local_pass.h"
+#include "mesh/refinement/local_pass.h"
 #include "mesh_test_scenes.h"
 #include "solver/scene/builtin_scenes.h"
-#include "solver/transport/hierarchical_solver.h"
+#include "solver/transport/solvers/hierarchical_solver.h"
 
 namespace penumbra {
 namespace {

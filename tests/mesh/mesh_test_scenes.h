@@ -10,11 +10,11 @@
 #include <tuple>
 #include <vector>
 
-#include "mesh/dset.h"
+#include "mesh/discontinuities/dset.h"
 #include "solver/base/random.h"
 #include "solver/scene/convex_solids.h"
 #include "solver/scene/scene.h"
-#include "solver/transport/element_forest.h"
+#include "solver/transport/links/element_forest.h"
 
 namespace penumbra::mesh_test {
 

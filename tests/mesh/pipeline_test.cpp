@@ -1,6 +1,6 @@
 // The pipeline step by step.
 
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 
 #include <gtest/gtest.h>
 

@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 #include "solver/scene/builtin_scenes.h"
-#include "solver/transport/source_set.h"
+#include "solver/transport/sources/source_set.h"
 #include "test_paths.h"
 
 namespace penumbra {

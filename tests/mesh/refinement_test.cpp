@@ -10,12 +10,12 @@
 #include <set>
 #include <span>
 
-#include "mesh/local_pass.h"
-#include "mesh/mesh_refinement.h"
-#include "mesh/pipeline.h"
-#include "mesh/refinement_step.h"
-#include "mesh/source_cells.h"
-#include "mesh/source_cut.h"
+#include "mesh/pipeline/pipeline.h"
+#include "mesh/refinement/local_pass.h"
+#include "mesh/refinement/mesh_refinement.h"
+#include "mesh/refinement/refinement_step.h"
+#include "mesh/refinement/source_cells.h"
+#include "mesh/refinement/source_cut.h"
 #include "solver/base/parallel.h"
 #include "solver/scene/obj_reader.h"
 #include "solver/scene/scene_parts.h"

@@ -1,13 +1,13 @@
 // Limits end a run, and say so.
 
-#include "mesh/run_limits.h"
+#include "mesh/pipeline/run_limits.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <thread>
 
-#include "mesh/pipeline.h"
+#include "mesh/pipeline/pipeline.h"
 #include "tests/visibility/test_scenes.h"
 
 namespace penumbra {

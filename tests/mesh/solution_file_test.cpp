@@ -1,6 +1,6 @@
 // Solution files give back what was written, to the bit, and refuse everything else in one line.
 
-#include "mesh/solution_file.h"
+#include "mesh/pipeline/solution_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,9 +12,9 @@
 #include <thread>
 #include <vector>
 
-#include "mesh/hdf5_image.h"
-#include "mesh/light_beside.h"
-#include "mesh/solution_check.h"
+#include "mesh/interpolants/light_beside.h"
+#include "mesh/pipeline/hdf5_image.h"
+#include "mesh/pipeline/solution_check.h"
 #include "solver/base/check.h"
 #include "solver/base/random.h"
 #include "solver/base/sha256.h"

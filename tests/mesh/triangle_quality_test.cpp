@@ -1,4 +1,4 @@
-#include "mesh/triangle_quality.h"
+#include "mesh/interpolants/triangle_quality.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mesh/triple_edge.h"
+#include "mesh/discontinuities/triple_edge.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "mesh/discontinuity.h"
+#include "mesh/discontinuities/discontinuity.h"
 #include "mesh_test_scenes.h"
 #include "solver/base/random.h"
 

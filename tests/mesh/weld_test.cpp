@@ -1,10 +1,10 @@
-#include "mesh/weld.h"
+#include "mesh/triangulation/weld.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "mesh/leaf_triangulation.h"
+#include "mesh/triangulation/leaf_triangulation.h"
 #include "mesh_test_scenes.h"
 
 namespace penumbra {

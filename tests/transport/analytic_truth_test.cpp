@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/transport/dense_solver.h"
+#include "solver/transport/solvers/dense_solver.h"
 #include "tests/transport/transport_test_tools.h"
 #include "tests/transport/truth_files.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/transport/point_irradiance.h"
+#include "solver/transport/points/point_irradiance.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra::scene_test {

@@ -1,6 +1,6 @@
 // The rules that average over receivers.
 
-#include "solver/transport/cubature.h"
+#include "solver/transport/links/cubature.h"
 
 #include <gtest/gtest.h>
 

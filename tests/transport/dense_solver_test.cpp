@@ -1,6 +1,6 @@
 // The dense solver past blockers, on skew shapes, and against manufactured solutions.
 
-#include "solver/transport/dense_solver.h"
+#include "solver/transport/solvers/dense_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 
 #include "solver/base/parallel.h"
 #include "solver/base/random.h"
-#include "solver/transport/manufactured.h"
-#include "solver/transport/source_quadrature.h"
+#include "solver/transport/solvers/manufactured.h"
+#include "solver/transport/sources/source_quadrature.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "solver/transport/dense_solver.h"
+#include "solver/transport/solvers/dense_solver.h"
 #include "tests/transport/transport_test_tools.h"
 #include "tests/transport/truth_files.h"
 

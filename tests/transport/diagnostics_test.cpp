@@ -1,12 +1,12 @@
 // What tells whether scenes and links are sound.
 
-#include "solver/transport/diagnostics.h"
+#include "solver/transport/solvers/diagnostics.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "solver/transport/free_area.h"
+#include "solver/transport/points/free_area.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra::scene_test {

@@ -1,6 +1,6 @@
 // The quadtrees of elements: geometry, topology, balance.
 
-#include "solver/transport/element_forest.h"
+#include "solver/transport/links/element_forest.h"
 
 #include <gtest/gtest.h>
 

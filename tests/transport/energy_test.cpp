@@ -1,10 +1,10 @@
 // Energy where faces lie on each other: what looks the other way neither lights nor blocks.
 
-#include "solver/transport/energy.h"
+#include "solver/transport/solvers/energy.h"
 
 #include <gtest/gtest.h>
 
-#include "solver/transport/hierarchical_solver.h"
+#include "solver/transport/solvers/hierarchical_solver.h"
 
 namespace penumbra {
 namespace {

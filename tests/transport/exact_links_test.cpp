@@ -6,7 +6,7 @@
 #include <map>
 
 #include "solver/scene/named_scene.h"
-#include "solver/transport/diagnostics.h"
+#include "solver/transport/solvers/diagnostics.h"
 #include "test_paths.h"
 #include "tests/transport/transport_test_tools.h"
 

@@ -1,6 +1,6 @@
 // The solver: invariants of its solutions, energy, determinism.
 
-#include "solver/transport/hierarchical_solver.h"
+#include "solver/transport/solvers/hierarchical_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "solver/base/parallel.h"
 #include "solver/scene/surface_points.h"
-#include "solver/transport/energy.h"
+#include "solver/transport/solvers/energy.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra::scene_test {

@@ -1,7 +1,7 @@
 // Leaves cut into parts by what their light costs where it arrives: they tile their leaves, keep constants,
 // and bring irradiance as near to the continuous radiosity equation as is asked for, beside edges too.
 
-#include "solver/transport/leaf_cells.h"
+#include "solver/transport/points/leaf_cells.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Links: factors, blockers, shares.
 
-#include "solver/transport/link_former.h"
+#include "solver/transport/links/link_former.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "solver/transport/gathering.h"
+#include "solver/transport/points/gathering.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra::scene_test {

@@ -1,6 +1,6 @@
 // Oracles and what they refine, in random rooms.
 
-#include "solver/transport/refinement.h"
+#include "solver/transport/links/refinement.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <array>
 #include <map>
 
-#include "solver/transport/energy.h"
+#include "solver/transport/solvers/energy.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra::scene_test {

@@ -1,6 +1,6 @@
 // Sweeps and the bound of what they leave.
 
-#include "solver/transport/settling.h"
+#include "solver/transport/solvers/settling.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "solver/base/parallel.h"
-#include "solver/transport/closure.h"
+#include "solver/transport/solvers/closure.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra::scene_test {

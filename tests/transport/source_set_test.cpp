@@ -1,6 +1,6 @@
 // What a source's subtrees tell of their leaves.
 
-#include "solver/transport/source_set.h"
+#include "solver/transport/sources/source_set.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "solver/transport/solution.h"
+#include "solver/transport/links/solution.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra {

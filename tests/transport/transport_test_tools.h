@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "solver/transport/hierarchical_solver.h"
-#include "solver/transport/point_irradiance.h"
-#include "solver/transport/source_set.h"
+#include "solver/transport/points/point_irradiance.h"
+#include "solver/transport/solvers/hierarchical_solver.h"
+#include "solver/transport/sources/source_set.h"
 #include "tests/visibility/test_scenes.h"
 
 namespace penumbra::scene_test {

@@ -9,8 +9,8 @@
 
 #include "solver/scene/patch_builder.h"
 #include "solver/scene/surface_points.h"
-#include "solver/visibility/area_form_factor.h"
-#include "solver/visibility/form_factor.h"
+#include "solver/visibility/area/area_form_factor.h"
+#include "solver/visibility/point/form_factor.h"
 #include "tests/transport/transport_test_tools.h"
 #include "tests/transport/truth_files.h"
 

@@ -11,7 +11,7 @@
 #include "display/viewer/mesh_tools.h"
 #include "display/viewer/probes.h"
 #include "solver/base/random.h"
-#include "solver/transport/hierarchical_solver.h"
+#include "solver/transport/solvers/hierarchical_solver.h"
 #include "tests/viewer/viewer_test_scenes.h"
 
 namespace penumbra::viewer {

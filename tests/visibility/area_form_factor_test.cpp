@@ -1,7 +1,7 @@
 // Form factors between areas: the sum over all that is seen, either way of integrating, splitting, blockers
 // that can only take away, and brute force.
 
-#include "solver/visibility/area_form_factor.h"
+#include "solver/visibility/area/area_form_factor.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // What walls hide together, and what their openings let through, against segments.
 
-#include "solver/visibility/beams.h"
+#include "solver/visibility/pair/beams.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 
 #include "solver/scene/builtin_scenes.h"
 #include "solver/scene/surface_points.h"
-#include "solver/visibility/patch_visibility.h"
-#include "solver/visibility/tube_blockers.h"
+#include "solver/visibility/pair/patch_visibility.h"
+#include "solver/visibility/pair/tube_blockers.h"
 #include "tests/visibility/test_scenes.h"
 
 namespace penumbra::scene_test {

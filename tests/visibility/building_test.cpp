@@ -6,7 +6,7 @@
 #include "solver/base/random.h"
 #include "solver/scene/builtin_scenes.h"
 #include "solver/scene/surface_points.h"
-#include "solver/visibility/ray_caster.h"
+#include "solver/visibility/point/ray_caster.h"
 
 namespace penumbra {
 namespace {

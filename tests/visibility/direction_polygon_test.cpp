@@ -1,8 +1,8 @@
 // Cutting cones out of what a point sees.
 
-#include "solver/visibility/direction_polygon.h"
-#include "solver/visibility/clipping.h"
-#include "solver/visibility/form_factor.h"
+#include "solver/visibility/point/direction_polygon.h"
+#include "solver/visibility/point/clipping.h"
+#include "solver/visibility/point/form_factor.h"
 
 #include <gtest/gtest.h>
 

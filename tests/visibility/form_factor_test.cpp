@@ -1,6 +1,6 @@
 // The form factor of a point to a polygon of directions.
 
-#include "solver/visibility/form_factor.h"
+#include "solver/visibility/point/form_factor.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "solver/visibility/form_factor_batch.h"
+#include "solver/visibility/point/form_factor_batch.h"
 #include "tests/visibility/test_scenes.h"
 
 namespace penumbra::scene_test {

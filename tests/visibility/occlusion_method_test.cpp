@@ -1,6 +1,6 @@
 // All exact methods find the same visible part of a source, whatever coincides.
 
-#include "solver/visibility/occlusion_method.h"
+#include "solver/visibility/point/occlusion_method.h"
 
 #include <gtest/gtest.h>
 
@@ -11,12 +11,12 @@
 #include <memory>
 
 #include "solver/base/parallel.h"
-#include "solver/visibility/backprojection.h"
-#include "solver/visibility/clipping.h"
-#include "solver/visibility/form_factor.h"
-#include "solver/visibility/point_view.h"
-#include "solver/visibility/sampled_visibility.h"
-#include "solver/visibility/vertex_tracing.h"
+#include "solver/visibility/exact/backprojection.h"
+#include "solver/visibility/exact/vertex_tracing.h"
+#include "solver/visibility/point/clipping.h"
+#include "solver/visibility/point/form_factor.h"
+#include "solver/visibility/point/point_view.h"
+#include "solver/visibility/point/sampled_visibility.h"
 #include "tests/visibility/test_scenes.h"
 
 namespace penumbra::scene_test {

@@ -1,13 +1,13 @@
 // Which patches see each other: found through hierarchies and screens as by trying all pairs.
 
-#include "solver/visibility/patch_visibility.h"
+#include "solver/visibility/pair/patch_visibility.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 #include <optional>
 
-#include "solver/visibility/tube_blockers.h"
+#include "solver/visibility/pair/tube_blockers.h"
 #include "tests/visibility/test_scenes.h"
 
 namespace penumbra::scene_test {

@@ -1,6 +1,6 @@
 // Rays through a scene.
 
-#include "solver/visibility/ray_caster.h"
+#include "solver/visibility/point/ray_caster.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 // The outline of a solid hides what its sides hide one by one.
 
-#include "solver/visibility/solid_outline.h"
+#include "solver/visibility/point/solid_outline.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
 #include "solver/scene/convex_solids.h"
-#include "solver/visibility/form_factor.h"
-#include "solver/visibility/point_view.h"
+#include "solver/visibility/point/form_factor.h"
+#include "solver/visibility/point/point_view.h"
 #include "tests/visibility/test_scenes.h"
 
 namespace penumbra::scene_test {

@@ -1,11 +1,11 @@
 // Tubes, and the pairs of patches that they decide about, against brute force.
 
-#include "solver/visibility/tube.h"
+#include "solver/visibility/pair/tube.h"
 
 #include <gtest/gtest.h>
 
 #include "solver/scene/surface_points.h"
-#include "solver/visibility/patch_visibility.h"
+#include "solver/visibility/pair/patch_visibility.h"
 #include "tests/visibility/test_scenes.h"
 
 namespace penumbra::scene_test {

@@ -1,0 +1,221 @@
+#include "mesh/interpolants/irradiance_mesh_builder.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "mesh/discontinuities/discontinuity.h"
+#include "mesh/discontinuities/leaf_margins.h"
+#include "solver/base/check.h"
+#include "solver/base/parallel.h"
+#include "solver/scene/tolerances.h"
+
+namespace penumbra {
+namespace {
+
+// What a triangle's sample refers to: a slot of `values`.
+using Slot = std::uint32_t;
+
+struct Node {
+  PatchId patch = kNoPatch;
+  std::uint32_t triangle = 0;  // that asks, in IrradianceMesh::triangles
+  std::uint8_t sample = 0;     // which of its samples, in the order of kSampleAt
+};
+
+// The triangles of all patches with their vertices, without interpolants.
+IrradianceMesh JoinPatches(std::span<const PatchTriangulation> patches) {
+  IrradianceMesh mesh;
+  for (const PatchTriangulation& patch : patches) {
+    const auto base = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), patch.positions.begin(), patch.positions.end());
+    for (const PatchTriangulation::Triangle& t : patch.triangles) {
+      IrradianceMesh::Triangle joined;
+      joined.patch = patch.patch;
+      for (int k = 0; k < 3; ++k) {
+        joined.vertex[k] = base + t.vertex[k];
+        joined.discontinuity[k] = t.line[k] != kNoLine;
+      }
+      mesh.triangles.push_back(joined);
+    }
+  }
+  return mesh;
+}
+
+// All nodes of a mesh, and which of them each triangle's samples are.
+struct Nodes {
+  std::vector<Node> first;  // per node, the first triangle that asks
+  std::vector<std::array<Slot, 6>> of_triangle;
+};
+
+Nodes NumberNodes(const IrradianceMesh& mesh, bool midpoints) {
+  Nodes nodes;
+  constexpr Slot kNone = ~Slot{0};
+  std::vector<Slot> at_vertex(mesh.positions.size(), kNone);
+  std::unordered_map<std::uint64_t, Slot> at_edge;
+  if (midpoints) at_edge.reserve(2 * mesh.triangles.size());
+  nodes.of_triangle.resize(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const IrradianceMesh::Triangle& triangle = mesh.triangles[t];
+    const auto add = [&](int sample) {
+      nodes.first.push_back(
+          {triangle.patch, static_cast<std::uint32_t>(t), static_cast<std::uint8_t>(sample)});
+      return static_cast<Slot>(nodes.first.size() - 1);
+    };
+    for (int k = 0; k < 3; ++k) {
+      const std::uint64_t v = triangle.vertex[k], w = triangle.vertex[(k + 1) % 3];
+      if (at_vertex[v] == kNone) at_vertex[v] = add(2 * k);
+      nodes.of_triangle[t][2 * k] = at_vertex[v];
+      if (!midpoints) continue;
+      const auto [place, added] = at_edge.try_emplace(std::min(v, w) << 32 | std::max(v, w), kNone);
+      if (added) place->second = add(2 * k + 1);
+      nodes.of_triangle[t][2 * k + 1] = place->second;
+    }
+  }
+  return nodes;
+}
+
+double Uncertainty(const Patch& patch, double gap) { return std::max(kOnLine * SnapDistance(patch), gap); }
+
+class Sampling {
+ public:
+  Sampling(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
+           SampleCache* cache, const ExecutionContext& context)
+      : mesh_(mesh), sampler_(sampler), cache_(cache), context_(context), scene_(scene) {
+    const double gap = ContactGap(scene);
+    for (const Patch& patch : scene.patches) uncertainty_.push_back(Uncertainty(patch, gap));
+  }
+
+  // The nodes' samples, from the triangles that they name.
+  std::vector<PointIrradianceResult> Evaluate(std::span<const Node> nodes, double done_before,
+                                              double done_after) {
+    std::vector<PointIrradianceResult> results(nodes.size());
+    std::vector<std::size_t> unknown;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const PointIrradianceResult* known = cache_ ? cache_->Find(nodes[i].patch, At(nodes[i])) : nullptr;
+      if (known)
+        results[i] = *known;
+      else
+        unknown.push_back(i);
+    }
+    constexpr std::size_t kNodesATask = 64;
+    // In batches, so that progress is told from one thread and a cancelled run ends soon.
+    constexpr std::size_t kBatch = 1 << 14;
+    for (std::size_t begin = 0; begin < unknown.size() && !context_.Cancelled(); begin += kBatch) {
+      const std::size_t size = std::min(kBatch, unknown.size() - begin);
+      context_.Report("interpolate", done_before + (done_after - done_before) * static_cast<double>(begin) /
+                                                       static_cast<double>(unknown.size()));
+      ParallelFor(size, kNodesATask, [&](std::size_t k) {
+        if (context_.Cancelled()) return;
+        const std::size_t i = unknown[begin + k];
+        results[i] = sampler_(nodes[i].patch, At(nodes[i]));
+      });
+      evaluations_ += size;
+    }
+    if (cache_ && !context_.Cancelled())
+      for (const std::size_t i : unknown) cache_->Insert(nodes[i].patch, At(nodes[i]), results[i]);
+    return results;
+  }
+
+  std::size_t evaluations() const { return evaluations_; }
+
+ private:
+  ReceiverPoint At(const Node& node) const {
+    const IrradianceMesh::Triangle& t = mesh_.triangles[node.triangle];
+    const auto corner = [&](int k) -> const Vec3& { return mesh_.positions[t.vertex[k % 3]]; };
+    const int k = node.sample / 2;
+    ReceiverPoint at;
+    if (node.sample % 2 == 0) {
+      at.position = corner(k);
+    } else {
+      // Ascending ids: the same bits from both sides of the edge.
+      const bool ascending = t.vertex[k] < t.vertex[(k + 1) % 3];
+      at.position = 0.5 * (ascending ? corner(k) + corner(k + 1) : corner(k + 1) + corner(k));
+    }
+    at.normal = scene_.patches[node.patch].normal;
+    at.approach = (corner(0) + corner(1) + corner(2)) / 3 - at.position;
+    at.uncertainty = uncertainty_[node.patch];
+    return at;
+  }
+
+  const IrradianceMesh& mesh_;
+  const IrradianceSampler& sampler_;
+  SampleCache* cache_;
+  const ExecutionContext& context_;
+  const Scene& scene_;
+  std::vector<double> uncertainty_;  // per patch [m]
+  std::size_t evaluations_ = 0;
+};
+
+}  // namespace
+
+IrradianceSampler NearSampler(const PointIrradiance& exact, double tolerance) {
+  return [&exact, tolerance](PatchId patch, const ReceiverPoint& at) {
+    return exact.NearlyOnPatch(patch, at, tolerance);
+  };
+}
+
+IrradianceSampler WhileGoing(IrradianceSampler sampler, const ExecutionContext& context) {
+  return [sampler = std::move(sampler), &context](PatchId patch, const ReceiverPoint& at) {
+    return context.Cancelled() ? PointIrradianceResult() : sampler(patch, at);
+  };
+}
+
+// What comes within the contact gap touches the node. This holds for all nodes, not only those on contacts:
+// where a shadow's edge starts at a foot, vertices lie within the gap beside it.
+double SampleUncertainty(const Scene& scene, const Patch& patch) {
+  return Uncertainty(patch, ContactGap(scene));
+}
+
+BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangulation> patches,
+                              InterpolantOrder order, const IrradianceSampler& sampler,
+                              const ExecutionContext& context, SampleCache* cache) {
+  PENUMBRA_CHECK(order != InterpolantOrder::kConstant);
+  BuiltMesh built;
+  built.mesh = JoinPatches(patches);
+  IrradianceMesh& mesh = built.mesh;
+  const bool quadratic = order == InterpolantOrder::kQuadratic;
+  Nodes nodes = NumberNodes(mesh, quadratic);
+  Sampling sampling(scene, mesh, sampler, cache, context);
+
+  // Each node from its first triangle; then, where the side matters, from every other triangle as well.
+  constexpr double kFirstShare = 0.8;
+  std::vector<PointIrradianceResult> values = sampling.Evaluate(nodes.first, 0, kFirstShare);
+  std::vector<Node> again;
+  const int step = quadratic ? 1 : 2;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int sample = 0; sample < 6; sample += step) {
+      Slot& slot = nodes.of_triangle[t][sample];
+      if (!values[slot].one_sided || nodes.first[slot].triangle == t) continue;
+      slot = static_cast<Slot>(values.size() + again.size());
+      again.push_back(
+          {mesh.triangles[t].patch, static_cast<std::uint32_t>(t), static_cast<std::uint8_t>(sample)});
+    }
+  const std::vector<PointIrradianceResult> more = sampling.Evaluate(again, kFirstShare, 1);
+  values.insert(values.end(), more.begin(), more.end());
+  built.point_evaluations = sampling.evaluations();
+
+  mesh.irradiance.resize(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto value = [&](int sample) { return values[nodes.of_triangle[t][sample]].irradiance; };
+    mesh.irradiance[t] =
+        quadratic
+            ? QuadraticInterpolant::Quadratic({value(0), value(1), value(2), value(3), value(4), value(5)})
+            : QuadraticInterpolant::Linear({value(0), value(2), value(4)});
+  }
+  return built;
+}
+
+IrradianceMesh BuildConstantMesh(std::span<const PatchTriangulation> patches,
+                                 std::span<const Rgb> element_irradiance) {
+  IrradianceMesh mesh = JoinPatches(patches);
+  for (const PatchTriangulation& patch : patches)
+    for (std::size_t leaf = 0; leaf < patch.leaves.size(); ++leaf) {
+      const Rgb& irradiance = element_irradiance[static_cast<std::size_t>(patch.leaves[leaf])];
+      for (std::uint32_t t = patch.first_triangle[leaf]; t < patch.first_triangle[leaf + 1]; ++t)
+        mesh.irradiance.push_back(QuadraticInterpolant::Constant(irradiance));
+    }
+  return mesh;
+}
+
+}  // namespace penumbra

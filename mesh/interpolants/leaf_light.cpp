@@ -1,0 +1,53 @@
+#include "mesh/interpolants/leaf_light.h"
+
+#include <array>
+#include <limits>
+
+#include "solver/geometry/polygon.h"
+
+namespace penumbra {
+
+LeafLight::LeafLight(const ElementForest& forest, PatchId patch, const IrradianceSampler& sampler)
+    : forest_(forest),
+      id_(patch),
+      patch_(forest.scene().patches[static_cast<std::size_t>(patch)]),
+      sampler_(sampler),
+      uncertainty_(SampleUncertainty(forest.scene(), patch_)) {}
+
+Rgb LeafLight::At(ElementId leaf, const Vec3& place) {
+  const Element& element = forest_[leaf];
+  // The triangle, of those that the quarters fall into, in which the place lies deepest, or least far
+  // outside.
+  std::array<Vec3, 3> around;
+  Vec3 weights = Vec3::Constant(-std::numeric_limits<double>::infinity());
+  for (const std::array<Vec3, 4>& quarter : Quarters(element))
+    for (std::size_t k = 1; k + 1 < static_cast<std::size_t>(element.size); ++k) {
+      const Vec3 a = quarter[0] - place, b = quarter[k] - place, c = quarter[k + 1] - place;
+      const Vec3 areas(patch_.normal.dot(b.cross(c)), patch_.normal.dot(c.cross(a)),
+                       patch_.normal.dot(a.cross(b)));
+      if (!(areas.sum() > 0)) continue;  // of a leaf that is no wider than a rounding
+      const Vec3 barycentric = areas / areas.sum();
+      if (barycentric.minCoeff() <= weights.minCoeff()) continue;
+      weights = barycentric;
+      around = {quarter[0], quarter[k], quarter[k + 1]};
+    }
+  weights = weights.cwiseMax(0);
+  if (!(weights.sum() > 0)) return Sample(element, place);
+  Rgb light = Rgb::Zero();
+  for (int k = 0; k < 3; ++k) light += weights[k] / weights.sum() * Sample(element, around[k]);
+  return light;
+}
+
+Rgb LeafLight::Sample(const Element& leaf, const Vec3& point) {
+  ReceiverPoint at;
+  at.position = point;
+  at.normal = patch_.normal;
+  at.approach = Centroid(leaf.Vertices()) - point;
+  at.uncertainty = uncertainty_;
+  if (const PointIrradianceResult* known = samples_.Find(id_, at)) return known->irradiance;
+  const PointIrradianceResult sample = sampler_(id_, at);
+  samples_.Insert(id_, at, sample);
+  return sample.irradiance;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,53 @@
+#include "mesh/interpolants/light_beside.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "mesh/interpolants/representation_error.h"
+
+namespace penumbra {
+namespace {
+
+constexpr double kDarkest = 0.05;  // of the mean: a leaf's mean is all that is known of its dark places
+
+}  // namespace
+
+LightBeside::LightBeside(const RadiositySolution& solution, DiscontinuityWeight weight)
+    : solution_(solution),
+      darkest_(solution.forest.scene().patches.size(), std::numeric_limits<double>::infinity()) {
+  if (weight == DiscontinuityWeight::kThesis) return;
+  double area = 0;
+  for (std::size_t i = 0; i < solution.irradiance.size(); ++i) {
+    const Element& element = solution.forest.elements()[i];
+    if (!element.IsLeaf()) continue;
+    const double light = solution.irradiance[i].maxCoeff();
+    double& darkest = darkest_[static_cast<std::size_t>(element.patch)];
+    darkest = std::min(darkest, light);
+    mean_ += element.area * light;
+    area += element.area;
+  }
+  if (area > 0) mean_ /= area;
+}
+
+double LightBeside::ScaleOf(const ElementForest& forest, ElementId leaf) const {
+  if (mean_ == 0) return 1;
+  while (static_cast<std::size_t>(leaf) >= solution_.irradiance.size()) leaf = forest[leaf].parent;
+  return Scale(solution_.irradiance[static_cast<std::size_t>(leaf)].maxCoeff(), kDarkest);
+}
+
+double LightBeside::ScaleIn(const Rgb& light) const { return Scale(light.maxCoeff(), kErrorFloor); }
+
+double LightBeside::LargestScale(PatchId patch) const {
+  return Scale(darkest_[static_cast<std::size_t>(patch)], kDarkest);
+}
+
+DiscontinuityOptions LightBeside::ToFindOn(PatchId patch, DiscontinuityOptions options) const {
+  options.min_weight = options.LeastWeight() / LargestScale(patch);
+  return options;
+}
+
+double LightBeside::Scale(double light, double darkest) const {
+  return mean_ > 0 ? mean_ / std::max(light, darkest * mean_) : 1;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,34 @@
+// mesh/interpolants/quadratic_interpolant.h
+//
+// The irradiance over one triangle as a quadratic in barycentric coordinates (thesis 3.3, eq. 3.1).
+//
+// Vertex 0 of the triangle is at (s, t) = (0, 0), vertex 1 at (1, 0), vertex 2 at (0, 1).
+
+#pragma once
+
+#include <array>
+
+#include "solver/geometry/vec.h"
+
+namespace penumbra {
+
+// The order of the six samples (thesis 3.3): vertices and edge midpoints in turn, from vertex 0 along edge
+// 01.
+inline constexpr std::array<std::array<double, 2>, 6> kSampleAt = {
+    {{0, 0}, {0.5, 0}, {1, 0}, {0.5, 0.5}, {0, 1}, {0, 0.5}}};
+
+// R(s, t) = a s^2 + b2 s t + c2 s + d t^2 + e2 t + f, in W/m^2 for each channel. The doubled coefficients 2B,
+// 2C and 2E are what is stored, as in the thesis.
+struct QuadraticInterpolant {
+  Rgb a = Rgb::Zero(), b2 = Rgb::Zero(), c2 = Rgb::Zero(), d = Rgb::Zero(), e2 = Rgb::Zero(), f = Rgb::Zero();
+
+  Rgb At(double s, double t) const { return (a * s + b2 * t + c2) * s + (d * t + e2) * t + f; }
+
+  // Through six samples in the order of kSampleAt; quadratic data are reproduced to rounding.
+  static QuadraticInterpolant Quadratic(const std::array<Rgb, 6>& r);
+  // Through the samples at the three vertices.
+  static QuadraticInterpolant Linear(const std::array<Rgb, 3>& r);
+  static QuadraticInterpolant Constant(const Rgb& r);
+};
+
+}  // namespace penumbra

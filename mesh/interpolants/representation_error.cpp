@@ -1,0 +1,231 @@
+#include "mesh/interpolants/representation_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "mesh/interpolants/mesh_locator.h"
+#include "solver/base/check.h"
+#include "solver/base/parallel.h"
+#include "solver/scene/scene_parts.h"
+
+namespace penumbra {
+namespace {
+
+constexpr std::size_t kPointsATask = 16;
+// Further points in each part of the scene: so many if there are few parts, so many of all parts together,
+// and so many at least. A part that seems to err by too much gets more: what few points see may be bad luck.
+constexpr std::size_t kPartPoints = 20, kAllPartPoints = 160, kFewestPartPoints = 4, kSuspectPoints = 300;
+
+// What is found at some points.
+struct Values {
+  std::vector<SurfacePoint> at;
+  std::vector<Rgb> shown, exact;         // [W/m^2]
+  std::vector<std::vector<Rgb>> truths;  // by each of the better samplers
+};
+
+// Adds what is found at further points.
+void Evaluate(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
+              std::span<const IrradianceSampler> better, std::span<const SurfacePoint> points,
+              Values& values) {
+  const MeshLocator locator(scene, mesh);
+  const std::size_t before = values.at.size();
+  values.at.insert(values.at.end(), points.begin(), points.end());
+  values.shown.resize(values.at.size());
+  values.exact.resize(values.at.size());
+  values.truths.resize(better.size());
+  for (std::vector<Rgb>& truth : values.truths) truth.resize(values.at.size());
+  ParallelFor(points.size(), kPointsATask, [&](std::size_t p) {
+    const std::size_t i = before + p;
+    const SurfacePoint& at = values.at[i];
+    ReceiverPoint receiver;
+    receiver.position = at.position;
+    receiver.normal = scene.patches[static_cast<std::size_t>(at.patch)].normal;
+    values.exact[i] = sampler(at.patch, receiver).irradiance;
+    for (std::size_t k = 0; k < better.size(); ++k)
+      values.truths[k][i] = better[k](at.patch, receiver).irradiance;
+    // A face that is narrower than the mesh resolves shows nothing that could be wrong.
+    const auto place = locator.Find(at.patch, at.position);
+    values.shown[i] = place ? Rgb(IrradianceAt(mesh, *place).max(0.0)) : values.exact[i];
+  });
+}
+
+// Of the errors of values at these points.
+RepresentationError Summarise(const Scene& scene, std::span<const SurfacePoint> at,
+                              std::span<const ValueError> errors) {
+  RepresentationError error;
+  if (errors.empty()) return error;
+  double squares = 0;
+  for (const ValueError& value : errors) {
+    squares += value.error * value.error;
+    if (value.error <= error.max) continue;
+    error.max = value.error;
+    error.worst_point = at[value.point].position;
+    error.worst_face = scene.FaceAt(at[value.point].patch, error.worst_point);
+  }
+  error.points = 1;
+  for (std::size_t i = 1; i < errors.size(); ++i)
+    error.points += errors[i].point != errors[i - 1].point ? 1 : 0;
+  error.p99 = Quantile(errors, 0.99);
+  const double deviation = std::sqrt(0.99 * 0.01 / static_cast<double>(error.points));
+  error.p99_at_most = Quantile(errors, std::min(0.99 + deviation, 1.0));
+  error.p99_at_least =
+      Quantile(errors, std::max(0.0, 0.99 - deviation - 1 / static_cast<double>(error.points)));
+  error.p95 = Quantile(errors, 0.95);
+  error.rms = std::sqrt(squares / static_cast<double>(errors.size()));
+  return error;
+}
+
+// Of two lists of the same values the larger errors; the second may be empty at first.
+void KeepLarger(const std::vector<ValueError>& errors, std::vector<ValueError>& largest) {
+  if (largest.empty()) largest = errors;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    largest[i].error = std::max(largest[i].error, errors[i].error);
+}
+
+// So many random points in a part of the scene; none where it is not seen.
+std::vector<SurfacePoint> SpreadOverPart(const Scene& scene, std::span<const double> areas,
+                                         const ScenePart& part, std::size_t count, std::uint64_t seed) {
+  std::vector<double> weights(areas.size(), 0.0);
+  double total = 0;
+  for (const PatchId p : part.patches)
+    total += weights[static_cast<std::size_t>(p)] = areas[static_cast<std::size_t>(p)];
+  if (total == 0) return {};
+  return SpreadPoints(scene, weights, count, seed + 1 + static_cast<std::uint64_t>(part.patches[0]));
+}
+
+// The errors of the values, sorted into the parts that their points lie in; parts without any are left out.
+std::vector<PartError> SummariseParts(const Scene& scene, std::span<const ScenePart> parts,
+                                      std::span<const SurfacePoint> at, std::span<const ValueError> errors) {
+  std::vector<std::size_t> part_of(scene.patches.size());
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    for (const PatchId p : parts[k].patches) part_of[static_cast<std::size_t>(p)] = k;
+  std::vector<std::vector<ValueError>> own(parts.size());
+  for (const ValueError& value : errors)
+    own[part_of[static_cast<std::size_t>(at[value.point].patch)]].push_back(value);
+  std::vector<PartError> by_part;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (!own[k].empty()) by_part.push_back({parts[k].name, k, Summarise(scene, at, own[k])});
+  return by_part;
+}
+
+// Measures part by part, at the points that are there and at further ones, which `evaluate` adds to the
+// values.
+std::vector<PartError> MeasureParts(const Scene& scene,
+                                    const std::function<void(std::span<const SurfacePoint>)>& evaluate,
+                                    std::uint64_t seed, double bound, const Values& values) {
+  const std::vector<ScenePart> parts = PartsOf(scene);
+  const std::vector<double> areas = SeenAreas(scene);
+  const auto summarise = [&] {
+    std::vector<ValueError> errors;
+    for (const std::vector<Rgb>& truth : values.truths)
+      KeepLarger(SeenErrors(scene, values.at, values.shown, truth), errors);
+    return SummariseParts(scene, parts, values.at, errors);
+  };
+  if (parts.size() < 2) return summarise();
+  const std::size_t count = std::clamp(kAllPartPoints / parts.size(), kFewestPartPoints, kPartPoints);
+  std::vector<SurfacePoint> points;
+  const auto add = [&](const ScenePart& part, std::size_t so_many, std::uint64_t with_seed) {
+    const std::vector<SurfacePoint> own = SpreadOverPart(scene, areas, part, so_many, with_seed);
+    points.insert(points.end(), own.begin(), own.end());
+  };
+  for (const ScenePart& part : parts) add(part, count, seed);
+  evaluate(points);
+  const std::vector<PartError> first = summarise();
+  points.clear();
+  for (const PartError& suspect : first)
+    if (suspect.whole.p99 > bound) add(parts[suspect.part], kSuspectPoints, seed + 1);
+  if (points.empty()) return first;
+  evaluate(points);
+  return summarise();
+}
+
+}  // namespace
+
+Rgb NoLight(const Scene& scene) {
+  constexpr double kRounding = 1e-10;
+  double strongest = 0;
+  for (const Patch& patch : scene.patches)
+    strongest = std::max(strongest, scene.materials[patch.material].emittance.maxCoeff());
+  return Rgb::Constant(kRounding * strongest);
+}
+
+std::vector<double> RelativeErrors(std::span<const Rgb> shown, std::span<const Rgb> truth, const Rgb& least) {
+  Rgb mean = Rgb::Zero();
+  for (const Rgb& e : truth) mean += e / static_cast<double>(truth.size());
+  mean = mean.max(least / kErrorFloor);
+  std::vector<double> errors;
+  errors.reserve(3 * truth.size());
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const double difference = std::abs(shown[i][c] - truth[i][c]);
+      errors.push_back(difference == 0 ? 0 : difference / std::max(truth[i][c], kErrorFloor * mean[c]));
+    }
+  return errors;
+}
+
+double Quantile(std::vector<double> values, double q) {
+  PENUMBRA_CHECK(!values.empty());
+  const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size())));
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(rank, 1, values.size()) - 1);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+std::vector<ValueError> SeenErrors(const Scene& scene, std::span<const SurfacePoint> at,
+                                   std::span<const Rgb> shown, std::span<const Rgb> truth) {
+  const std::vector<std::array<bool, 3>> seen = SeenChannels(scene);
+  const std::vector<double> all = RelativeErrors(shown, truth, NoLight(scene));
+  std::vector<ValueError> errors;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (seen[static_cast<std::size_t>(at[i / 3].patch)][i % 3]) errors.push_back({all[i], i / 3});
+  return errors;
+}
+
+double Quantile(std::span<const ValueError> values, double q) {
+  if (values.empty()) return 0;
+  std::vector<double> errors;
+  for (const ValueError& value : values) errors.push_back(value.error);
+  return Quantile(std::move(errors), q);
+}
+
+MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
+                           std::span<const IrradianceSampler> better, std::size_t points, std::uint64_t seed,
+                           double bound) {
+  MeasuredError error;
+  if (scene.patches.empty() || points == 0) return error;
+  const std::vector<double> areas = SeenAreas(scene);
+  Values values;
+  Evaluate(scene, mesh, sampler, better, SpreadPoints(scene, areas, points, seed), values);
+  // Means are those of the first points, which spread evenly; so are all figures but those of parts.
+  const auto first = [&](const std::vector<Rgb>& of) { return std::span(of).first(points); };
+  const std::span<const SurfacePoint> evenly = std::span(values.at).first(points);
+  error.interpolant =
+      Summarise(scene, evenly, SeenErrors(scene, evenly, first(values.shown), first(values.exact)));
+  if (better.empty()) return error;
+  std::vector<ValueError> sources, whole;
+  for (const std::vector<Rgb>& truth : values.truths) {
+    KeepLarger(SeenErrors(scene, evenly, first(values.exact), first(truth)), sources);
+    KeepLarger(SeenErrors(scene, evenly, first(values.shown), first(truth)), whole);
+  }
+  error.sources = Summarise(scene, evenly, sources);
+  error.whole = Summarise(scene, evenly, whole);
+  error.above = static_cast<double>(std::count_if(whole.begin(), whole.end(),
+                                                  [&](const ValueError& e) { return e.error > bound; })) /
+                static_cast<double>(std::max<std::size_t>(1, whole.size()));
+  const auto evaluate = [&](std::span<const SurfacePoint> at) {
+    Evaluate(scene, mesh, sampler, better, at, values);
+  };
+  error.by_part = MeasureParts(scene, evaluate, seed, kPartError * bound, values);
+  return error;
+}
+
+RepresentationError MeasureRepresentationError(const Scene& scene, const IrradianceMesh& mesh,
+                                               const IrradianceSampler& sampler, std::size_t points,
+                                               std::uint64_t seed) {
+  return MeasureError(scene, mesh, sampler, {}, points, seed, 0).interpolant;
+}
+
+}  // namespace penumbra

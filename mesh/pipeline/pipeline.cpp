@@ -1,0 +1,502 @@
+#include "mesh/pipeline/pipeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "mesh/interpolants/current_irradiance.h"
+#include "mesh/interpolants/mesh_locator.h"
+#include "mesh/pipeline/run_limits.h"
+#include "mesh/refinement/shown_mesh.h"
+#include "solver/base/check.h"
+#include "solver/base/stopwatch.h"
+
+namespace penumbra {
+namespace {
+
+// What samples that measure may leave out of their sources' detail, as a share of the error: it moves the
+// figures by no more.
+constexpr double kMeasuredShare = 0.02;
+// Random points that measure the sources. More do where the share of values that err by more than was asked
+// is between these: where so few cannot tell whether it is 1 %.
+constexpr std::size_t kFewSourcePoints = 400;
+constexpr double kClearlyMet = 0.0025, kClearlyMissed = 0.025;
+// Rays that measure the energy balance, and those from each patch that look for open sides.
+constexpr std::size_t kEnergyRays = std::size_t{1} << 18, kViewRays = 64;
+// Random points of a glance, which take 1 % of the time of a solve: what so few can feign is not told.
+constexpr std::size_t kGlancePoints = 200;
+
+// The part whose 99th percentile is most beyond the bound; null if none is.
+const PartError* WorstPart(std::span<const PartError> parts, double bound) {
+  const PartError* worst = nullptr;
+  for (const PartError& part : parts)
+    if (part.whole.p99 > (worst ? worst->whole.p99 : bound)) worst = &part;
+  return worst;
+}
+
+// One line that says by how much the error that was asked for is missed; `worst` may be null.
+std::string MissedError(const PipelineReport& report, const PartError* worst) {
+  const RepresentationError& whole = report.whole_error;
+  const double shown = std::max(report.interpolant_error.p99, whole.p99);
+  std::string line = fmt::format("error: the error asked for, {:g}, was missed: ", report.error_asked);
+  if (shown > report.error_asked)
+    line += fmt::format("{:.3g} is shown (99th percentile; {:.3g} by interpolating, {:.3g} by the sources); ",
+                        shown, report.interpolant_error.p99, report.solution_error_estimate);
+  if (worst)
+    line += fmt::format("{} errs by {:.3g}, more than {:g} times as much; ", worst->name, worst->whole.p99,
+                        kPartError);
+  const Vec3& at = whole.worst_point;
+  return line + fmt::format("the worst point is ({:.4g}, {:.4g}, {:.4g})", at.x(), at.y(), at.z());
+}
+
+}  // namespace
+
+struct Pipeline::Impl {
+  Impl(const Scene& the_scene, const PipelineOptions& the_options)
+      : scene(the_scene),
+        options(the_options),
+        resolved(Resolve(the_scene, the_options)),
+        irradiance([this](const ExecutionContext& context) { return MakeIrradiance(context); }),
+        shown(scene, visibility, irradiance,
+              {options.error, options.error_samples, options.seed, resolved.solver}) {}
+
+  const Scene& scene;
+  PipelineOptions options;
+  ResolvedOptions resolved;
+  PatchVisibility visibility;
+  std::unique_ptr<HierarchicalSolver> solver;         // null until the roots are linked
+  std::optional<RunLimits::Clock::time_point> begun;  // when Solve() did: its limits count from there
+  std::optional<RadiositySolution> stored;            // that another one made, until a step begins anew
+  std::optional<MeshKind> mesh_kind;                  // of a mesh of the present solution
+  bool mesh_unrefined = false;                        // for that was not asked for then
+  std::unique_ptr<MeshLocator> locator;
+  PipelineReport report;
+  CurrentIrradiance irradiance;  // from the present solution
+  ShownMesh shown;
+
+  // What is cancelled leaves no solver.
+  void SolveDenseSystem(const ExecutionContext& context) {
+    const Stopwatch stopwatch;
+    const ElementForest forest = UniformForest(scene, options.divisions);
+    const std::size_t unknowns = CountUnknowns(forest, options.dense->degree);
+    if (unknowns > kMostDenseUnknowns)
+      throw InputError(
+          fmt::format("{}: error: the dense solver would have {} unknowns and can take {}; ask for "
+                      "fewer divisions or a basis of lower degree",
+                      scene.name, unknowns, kMostDenseUnknowns));
+    const DenseSystem system = AssembleDense(forest, visibility, *options.dense, context);
+    if (context.Cancelled()) return;
+    solver = std::make_unique<HierarchicalSolver>(scene, visibility, resolved.solver,
+                                                  ToRadiositySolution(system, SolveDense(system)));
+    report.dense = {system.size(), MeasureClosure(system), system.form_factor_error};
+    AddPhase("iterate", stopwatch.Seconds());
+    Count();
+  }
+
+  // Adds to the phase of that name.
+  void AddPhase(const std::string& name, double seconds) {
+    const auto phase = std::find_if(report.phases.begin(), report.phases.end(),
+                                    [&](const Phase& p) { return p.name == name; });
+    if (phase == report.phases.end())
+      report.phases.push_back({name, seconds});
+    else
+      phase->seconds += seconds;
+  }
+
+  const RadiositySolution& Solution() const {
+    PENUMBRA_CHECK(solver != nullptr || stored);
+    return stored ? *stored : solver->solution();
+  }
+
+  // Null if it was cancelled.
+  std::unique_ptr<const PointIrradiance> MakeIrradiance(const ExecutionContext& context) {
+    const std::shared_ptr<const LeafVisibility> leaves = solver ? solver->SeenFromLeaves(context) : nullptr;
+    if (solver && !leaves) return nullptr;
+    PointIrradianceOptions how = options.point;
+    if (solver) how.part_of_tolerance = solver->PartOfTolerance();
+    return std::make_unique<PointIrradiance>(Solution(), visibility, how, leaves);
+  }
+
+  void BeginLimits() { begun = options.limits_from.value_or(RunLimits::Clock::now()); }
+  // What is left of the limits to Solve(); none without it.
+  RunLimits LimitsSinceSolve(const ExecutionContext& context) const {
+    return RunLimits(context, begun ? options.time_limit : std::nullopt,
+                     begun ? options.memory_limit : std::nullopt, begun.value_or(RunLimits::Clock::now()),
+                     options.memory_kept);
+  }
+
+  // Whether measuring was ended: what was not measured to the end is not told.
+  bool EndedMeasuring(const RunLimits& limits) {
+    if (!limits.context().Cancelled()) return false;
+    report.interpolant_error = report.whole_error = {};
+    report.part_errors.clear();
+    report.solution_error_estimate = 0;
+    report.error_met = false;
+    if (const std::optional<std::string> limit = limits.Exceeded())
+      report.unmet.push_back(fmt::format("error: not measured, ended by {}", *limit));
+    return true;
+  }
+
+  // Makes the mesh of that kind, from the solution as it is; for interpolants refines what they show, unless
+  // that is cancelled or not asked for. False if it was cancelled before there was a mesh.
+  bool MakeMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is) {
+    MeshOptions mesh_options;
+    mesh_options.discontinuities = resolved.discontinuities;
+    if (kind != MeshKind::kGouraudMesh && kind != MeshKind::kInterpolant)
+      mesh_options.discontinuities.choice = DiscontinuityChoice::kNone;
+    mesh_options.order = kind == MeshKind::kFlat          ? InterpolantOrder::kConstant
+                         : kind == MeshKind::kInterpolant ? InterpolantOrder::kQuadratic
+                                                          : InterpolantOrder::kLinear;
+    const bool refines =
+        kind == MeshKind::kInterpolant && solver && options.refine != RefineBy::kTransport && !as_it_is;
+    return refines ? shown.MakeRefined(*solver, mesh_options, RefinesLight(options), context)
+                   : shown.Make(Solution(), mesh_options, context);
+  }
+
+  // Runs one step of the solver, which says whether it was done, and counts what it left.
+  template <class Step>
+  bool Run(const ExecutionContext& context, const Step& step) {
+    const Stopwatch stopwatch;
+    const bool done = step(*solver, context);
+    if (done) Forget();
+    AddPhase("iterate", stopwatch.Seconds());
+    Count();
+    return done;
+  }
+
+  // The same for a step that says what it did, which the report keeps.
+  template <class Step>
+  std::optional<IterationReport> RunIteration(const ExecutionContext& context, const Step& step) {
+    std::optional<IterationReport> done;
+    Run(context, [&](HierarchicalSolver& of, const ExecutionContext& running) {
+      done = step(of, running);
+      return done.has_value();
+    });
+    if (done) report.iterations.push_back(*done);
+    return done;
+  }
+
+  // What was missed before is told again if it is missed again.
+  void DropUnmet(std::string_view stage) {
+    std::erase_if(report.unmet, [&](const std::string& line) { return line.starts_with(stage); });
+  }
+
+  // What was made of a solution that is no more.
+  void Forget() {
+    irradiance.Reset();
+    mesh_kind.reset();
+  }
+
+  // The solution that another one made, which a step begins with or drops; what that one told is gone.
+  RadiositySolution TakeStored() {
+    RadiositySolution solution = std::move(*stored);
+    stored.reset();
+    Forget();
+    report = {};
+    report.error_asked = options.error;
+    return solution;
+  }
+
+  void Count() {
+    const RadiositySolution& solution = Solution();
+    PipelineReport::Counts& counts = report.counts;
+    counts.patches = scene.patches.size();
+    counts.emitters = 0;
+    for (const Patch& patch : scene.patches)
+      counts.emitters += (scene.materials[patch.material].emittance > 0).any() ? 1 : 0;
+    counts.elements = solution.forest.size();
+    counts.leaves = 0;
+    for (const Element& element : solution.forest.elements()) counts.leaves += element.IsLeaf() ? 1 : 0;
+    counts.links = solution.links.links.size();
+    counts.links_visible = counts.links_partial = 0;
+    for (const penumbra::Link& link : solution.links.links)
+      ++(link.visibility == Visibility::kVisible ? counts.links_visible : counts.links_partial);
+  }
+};
+
+Pipeline::Pipeline(const Scene& scene, const PipelineOptions& options) : impl_(new Impl(scene, options)) {
+  impl_->report.error_asked = options.error;
+}
+
+Pipeline::Pipeline(const Scene& scene, const PipelineOptions& options, PipelineState state)
+    : impl_(new Impl(scene, options)) {
+  impl_->visibility = std::move(state.visibility);
+  impl_->stored = std::move(state.solution);
+  impl_->mesh_kind = state.mesh_kind;
+  impl_->shown.Take(std::move(state.mesh));
+  impl_->locator = std::make_unique<MeshLocator>(scene, impl_->shown.mesh());
+  impl_->report = std::move(state.report);
+}
+
+Pipeline::~Pipeline() = default;
+
+void Pipeline::Link(const ExecutionContext& context) {
+  if (impl_->solver && impl_->solver->Linked()) return;
+  context.Report("link", 0);
+  const Stopwatch linking;
+  if (impl_->stored) impl_->TakeStored();
+  impl_->shown.ForgetVisibility();
+  if (impl_->solver) impl_->Forget();  // of a linking that was cancelled
+  impl_->visibility = PatchVisibility(impl_->scene, context);
+  if (impl_->options.dense) {
+    impl_->AddPhase("link", linking.Seconds());
+    impl_->SolveDenseSystem(context);
+    if (impl_->solver) return;
+  }
+  impl_->solver =
+      std::make_unique<HierarchicalSolver>(impl_->scene, impl_->visibility, impl_->resolved.solver, context);
+  impl_->AddPhase("link", linking.Seconds());
+  impl_->Count();
+}
+
+std::optional<IterationReport> Pipeline::Iterate(const ExecutionContext& context) {
+  Link(context);
+  return impl_->RunIteration(context, [](HierarchicalSolver& solver, const ExecutionContext& running) {
+    return solver.Iterate(running);
+  });
+}
+
+bool Pipeline::Converged() const { return impl_->solver && impl_->solver->Converged(); }
+
+bool Pipeline::Correct(const ExecutionContext& context) {
+  Link(context);
+  const bool done = impl_->Run(context, [this](HierarchicalSolver& solver, const ExecutionContext& running) {
+    return solver.CorrectAll(running, /*but_the_last=*/RefinesLight(impl_->options));
+  });
+  if (!done) impl_->Forget();  // some passes may have been made
+  return done;
+}
+
+bool Pipeline::SubdivideLeaves(std::span<const ElementId> leaves, const ExecutionContext& context) {
+  Link(context);
+  return impl_->Run(context, [&](HierarchicalSolver& solver, const ExecutionContext& running) {
+    return solver.SubdivideLeaves(leaves, running);
+  });
+}
+
+std::optional<IterationReport> Pipeline::Relight(const ExecutionContext& context) {
+  if (impl_->stored) {
+    const Stopwatch linking;
+    impl_->solver = std::make_unique<HierarchicalSolver>(impl_->scene, impl_->visibility,
+                                                         impl_->resolved.solver, impl_->TakeStored());
+    impl_->AddPhase("link", linking.Seconds());
+  }
+  Link(context);
+  return impl_->RunIteration(context, [](HierarchicalSolver& solver, const ExecutionContext& running) {
+    return solver.Relight(running);
+  });
+}
+
+void Pipeline::SolveOverLinks(const ExecutionContext& context) {
+  impl_->BeginLimits();
+  const RunLimits limits = impl_->LimitsSinceSolve(context);
+  const ExecutionContext& running = limits.context();
+  running.Report("iterate", 0);
+  const std::optional<IterationReport> relit = Relight(running);
+  if (relit && relit->residual > impl_->resolved.solver.relative_cutoff)
+    impl_->report.unmet.push_back(fmt::format("iterate: {} sweeps over the links left a residual of {:.2g}",
+                                              relit->sweeps, relit->residual));
+  const bool corrected = relit && Correct(running);
+  if (const std::optional<std::string> limit = limits.Exceeded(); limit && !corrected)
+    impl_->report.unmet.push_back(fmt::format("iterate: ended by {}, {} and not corrected to the end", *limit,
+                                              relit ? "lit anew" : "with the light of before"));
+}
+
+void Pipeline::Solve(const ExecutionContext& context) {
+  impl_->BeginLimits();
+  const RunLimits limits = impl_->LimitsSinceSolve(context);
+  const ExecutionContext& running = limits.context();
+  Link(running);
+  if (!impl_->solver->Linked()) {
+    if (const std::optional<std::string> limit = limits.Exceeded())
+      impl_->report.unmet.push_back(
+          fmt::format("link: ended by {}: nothing is linked, and dark but for what it emits", *limit));
+    return;
+  }
+  if (impl_->options.dense) return;
+  const int most = impl_->resolved.solver.max_iterations;
+  for (int i = 0; i < most && !Converged() && !running.Cancelled(); ++i) {
+    running.Report("iterate", static_cast<double>(i) / most);
+    Iterate(running);
+    if (IsStuck(impl_->report.iterations)) break;
+  }
+  if (impl_->solver->Full())
+    impl_->report.unmet.push_back(
+        fmt::format("iterate: links are not refined to the end: they would be more than {} million",
+                    impl_->resolved.solver.max_links / 1'000'000));
+  const std::vector<IterationReport>& iterations = impl_->report.iterations;
+  const double residual = iterations.empty() ? INFINITY : iterations.back().residual;
+  if (!Converged() && !running.Cancelled())
+    impl_->report.unmet.push_back(
+        fmt::format("iterate: {} iterations left a residual of {:.2g}", iterations.size(), residual));
+  const bool corrected = Correct(running);
+  if (const std::optional<std::string> limit = limits.Exceeded(); limit && (!Converged() || !corrected))
+    impl_->report.unmet.push_back(fmt::format("iterate: ended by {} after {} iterations, {} and {}", *limit,
+                                              iterations.size(), Converged() ? "converged" : "not converged",
+                                              corrected ? "corrected" : "not corrected to the end"));
+}
+
+void Pipeline::CountLimits() { impl_->begun = RunLimits::Clock::now(); }
+
+void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is) {
+  if (impl_->mesh_kind == kind && (as_it_is || !impl_->mesh_unrefined)) return;
+  const RunLimits limits = impl_->LimitsSinceSolve(context);
+  if (!impl_->stored)
+    for (const char* stage : {"mesh: ", "discontinuities: ", "interpolants: "}) impl_->DropUnmet(stage);
+  // What needs no irradiance at points is quick, and made whatever the limits say.
+  const bool flat = kind == MeshKind::kFlat;
+  MeshKind made = kind;
+  if (!impl_->MakeMesh(kind, flat ? context : limits.context(), as_it_is) && !flat && !context.Cancelled()) {
+    made = MeshKind::kFlat;
+    impl_->MakeMesh(made, context, as_it_is);
+  }
+  if (impl_->shown.unmet()) impl_->report.unmet.push_back(*impl_->shown.unmet());
+  if (const std::optional<std::string> limit = limits.Exceeded(); limit && !flat)
+    impl_->report.unmet.push_back(
+        fmt::format("mesh: ended by {}, {}", *limit,
+                    made == kind ? "and not refined by what is shown"
+                                 : "before there were interpolants: leaves show their mean"));
+  impl_->mesh_kind = context.Cancelled() ? std::nullopt : std::optional(made);
+  impl_->mesh_unrefined = as_it_is;
+  impl_->locator = std::make_unique<MeshLocator>(impl_->scene, impl_->shown.mesh());
+
+  const MeshReport& report = impl_->shown.report();
+  if (impl_->shown.seconds_of_sources() > 0) impl_->AddPhase("iterate", impl_->shown.seconds_of_sources());
+  impl_->AddPhase("discontinuities", report.seconds.discontinuities);
+  impl_->AddPhase("triangulate", report.seconds.triangulate);
+  impl_->AddPhase("interpolate", report.seconds.interpolate);
+  PipelineReport::Counts& counts = impl_->report.counts;
+  counts.discontinuities = report.counts.discontinuities;
+  counts.dsets_active = report.counts.dsets_active;
+  counts.most_merged = report.counts.most_merged;
+  counts.triangles = report.counts.triangles;
+  counts.interpolants = report.counts.interpolants;
+  counts.point_evaluations = report.counts.point_evaluations;
+  if (report.counts.refused_contacts > 0)
+    impl_->report.unmet.push_back(
+        fmt::format("discontinuities: {} contact edges left out, since a leaf would have more "
+                    "than {} discontinuity edges",
+                    report.counts.refused_contacts, impl_->resolved.discontinuities.max_leaf_dsets));
+}
+
+void Pipeline::Diagnose(const ExecutionContext& context) {
+  PENUMBRA_CHECK(impl_->locator != nullptr);
+  PipelineReport& report = impl_->report;
+  const EnergyBalance energy = MeasureEnergy(solution(), kEnergyRays, 1, context);
+  LinkDiagnostics links = DiagnoseLinks(solution(), context);
+  ViewDiagnostics views = DiagnoseViews(impl_->scene, kViewRays, 1, context);
+  if (context.Cancelled()) return;
+  report.energy = energy;
+  report.links = std::move(links);
+  report.views = std::move(views);
+  report.quality = MeasureQuality(impl_->shown.mesh());
+  if (impl_->solver) report.bounces = impl_->solver->MeanIrradianceByBounce(impl_->options.bounces);
+  report.warnings.clear();
+  // A scene that is turned as a whole is told when it is read.
+  if (!report.views.reversed_faces.empty() && !FindLitSides(impl_->scene).TurnedInsideOut())
+    report.warnings.push_back(fmt::format(
+        "{}: warning: the fronts of {} faces see nothing but backs, the first is face {} (counted "
+        "from 0); if it is reversed, give its vertices in the other order",
+        impl_->scene.name, report.views.reversed_faces.size(), report.views.reversed_faces[0]));
+}
+
+void Pipeline::Measure(const ExecutionContext& context) {
+  PENUMBRA_CHECK(impl_->shown.triangulations().size() == impl_->scene.patches.size());
+  context.Report("measure", 0);
+  const RunLimits limits = impl_->LimitsSinceSolve(context);
+  const ExecutionContext& running = limits.context();
+  Diagnose(running);
+  impl_->DropUnmet("error: ");
+  PipelineReport& report = impl_->report;
+  report.interpolant_error = report.whole_error = {};
+  report.part_errors.clear();
+  report.solution_error_estimate = 0;
+  const auto ended = [&] { return impl_->EndedMeasuring(limits); };
+  if (ended() || (impl_->solver && !impl_->solver->SeenFromLeaves(running) && ended())) return;
+  const std::size_t points = impl_->options.error_points;
+  if (points == 0) {
+    report.error_met = false;
+    report.unmet.push_back("error: not measured, since no points were asked for");
+    return;
+  }
+  const std::uint64_t seed = impl_->options.seed;
+  const IrradianceMesh& mesh = impl_->shown.mesh();
+  const std::unique_ptr<const PointIrradiance> better =
+      impl_->shown.BetterIrradiance(impl_->Solution(), running);
+  const std::unique_ptr<const PointIrradiance> shown =
+      impl_->shown.ShownIrradiance(impl_->Solution(), running);
+  if ((!better || !shown) && ended()) return;
+  const double tolerance = kMeasuredShare * report.error_asked;
+  const IrradianceSampler sampler = WhileGoing(NearSampler(irradiance(), tolerance), running);
+  const IrradianceSampler truths[] = {WhileGoing(NearSampler(*better, tolerance), running),
+                                      WhileGoing(NearSampler(*shown, tolerance), running)};
+  const auto measure = [&](std::size_t at) {
+    return MeasureError(impl_->scene, mesh, sampler, truths, at, seed, report.error_asked);
+  };
+  MeasuredError error = measure(std::min(points, kFewSourcePoints));
+  if (points > kFewSourcePoints && error.above > kClearlyMet && error.above < kClearlyMissed)
+    error = measure(points);
+  report.interpolant_error = error.interpolant.points == points
+                                 ? error.interpolant
+                                 : MeasureRepresentationError(impl_->scene, mesh, sampler, points, seed);
+  if (ended()) return;
+  report.solution_error_estimate = error.sources.p99;
+  report.whole_error = error.whole;
+  report.part_errors = std::move(error.by_part);
+  const PartError* worst = WorstPart(report.part_errors, kPartError * report.error_asked);
+  report.error_met = !worst && std::max(report.interpolant_error.p99, error.whole.p99) <= report.error_asked;
+  if (!report.error_met) report.unmet.push_back(MissedError(report, worst));
+}
+
+void Pipeline::Glance(const ExecutionContext& context) {
+  PENUMBRA_CHECK(impl_->mesh_kind.has_value());
+  const RunLimits limits = impl_->LimitsSinceSolve(context);
+  if (*impl_->mesh_kind != MeshKind::kInterpolant || !impl_->solver || limits.context().Cancelled() ||
+      !impl_->solver->SeenFromLeaves(limits.context()))
+    return;
+  context.Report("measure", 0);
+  PipelineReport& report = impl_->report;
+  const std::unique_ptr<const PointIrradiance> better =
+      impl_->shown.BetterIrradiance(impl_->Solution(), limits.context());
+  if (!better) return;
+  const double tolerance = kMeasuredShare * report.error_asked;
+  const RepresentationError seen =
+      MeasureRepresentationError(impl_->scene, impl_->shown.mesh(), NearSampler(*better, tolerance),
+                                 std::min(impl_->options.error_points, kGlancePoints), impl_->options.seed);
+  impl_->DropUnmet("error: ");
+  if (seen.p99_at_least > report.error_asked)
+    report.unmet.push_back(fmt::format(
+        "error: the error asked for, {:g}, was missed: {:.3g} is shown (99th percentile at {} points; a "
+        "report tells more)",
+        report.error_asked, seen.p99, seen.points));
+}
+
+void Pipeline::SetErrorPoints(std::size_t points) { impl_->options.error_points = points; }
+
+const Scene& Pipeline::scene() const { return impl_->scene; }
+const PipelineOptions& Pipeline::options() const { return impl_->options; }
+const ResolvedOptions& Pipeline::resolved() const { return impl_->resolved; }
+const RadiositySolution& Pipeline::solution() const { return impl_->Solution(); }
+const PatchVisibility& Pipeline::visibility() const { return impl_->visibility; }
+const PointIrradiance& Pipeline::irradiance() const { return *impl_->irradiance.Get(); }
+const IrradianceMesh& Pipeline::mesh() const { return impl_->shown.mesh(); }
+std::optional<MeshKind> Pipeline::mesh_kind() const { return impl_->mesh_kind; }
+std::span<const TriangleError> Pipeline::triangle_errors() const { return impl_->shown.triangle_errors(); }
+const PipelineReport& Pipeline::report() const { return impl_->report; }
+
+DiscontinuityList Pipeline::Discontinuities() const {
+  const ExecutionContext context;
+  const RunLimits limits = impl_->LimitsSinceSolve(context);
+  return ListDiscontinuities(solution(), visibility(), resolved().discontinuities, limits.context());
+}
+
+std::optional<Rgb> Pipeline::Interpolated(PatchId patch, const Vec3& point, double reach) const {
+  PENUMBRA_CHECK(impl_->locator != nullptr);
+  const auto location = impl_->locator->Find(patch, point, reach);
+  if (!location) return std::nullopt;
+  return Rgb(IrradianceAt(impl_->shown.mesh(), *location).max(0.0));
+}
+
+}  // namespace penumbra

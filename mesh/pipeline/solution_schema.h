@@ -1,0 +1,123 @@
+// mesh/pipeline/solution_schema.h
+//
+// What lies where in a solution file, for writing and for reading: the archive decides which
+// (solution_archive.h). Whoever changes anything here counts kSolutionSchema (solution_file.h) up.
+
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/interpolants/irradiance_mesh.h"
+#include "mesh/pipeline/discontinuity_list.h"
+#include "mesh/pipeline/solution_archive.h"
+#include "solver/scene/scene.h"
+#include "solver/transport/links/solution.h"
+#include "solver/visibility/pair/patch_visibility.h"
+
+namespace penumbra {
+
+template <class Archive, class SceneType>
+void DescribeScene(Archive& archive, SceneType& scene) {
+  Table(archive, "scene/materials", scene.materials)
+      .Column("reflectance", &Material::reflectance)
+      .Column("emittance", &Material::emittance)
+      .Lists("name", &Material::name);
+  Table(archive, "scene/objects", scene.objects).Lists("name", &Object::name).Lists("faces", &Object::faces);
+  Table(archive, "scene/faces", scene.faces)
+      .Column("material", &Face::material)
+      .Column("object", &Face::object)
+      .Lists("vertices", &Face::vertices);
+  Table(archive, "scene/patches", scene.patches)
+      .Column("vertices", &Patch::vertex)
+      .Column("size", &Patch::size)
+      .Column("material", &Patch::material)
+      .Column("object", &Patch::object)
+      .Lists("faces", &Patch::faces);
+  Table(archive, "scene/cameras", scene.cameras)
+      .Column("eye", &Camera::eye)
+      .Column("look_at", &Camera::look_at)
+      .Column("up", &Camera::up)
+      .Column("vertical_fov", &Camera::vertical_fov)
+      .Lists("name", &Camera::name);
+  Table(archive, "scene/warnings", scene.warnings).Lists("text", std::identity());
+  archive.Text("scene/name", scene.name);
+}
+
+template <class Archive, class Rows>
+void DescribeVisibility(Archive& archive, Rows& rows) {
+  Table(archive, "visibility/receivers", rows.first).Column("first_pair", std::identity());
+  Table(archive, "visibility/pairs", rows.pairs)
+      .Column("source", &PatchPair::source)
+      .Column("visibility", &PatchPair::visibility)
+      .Column("first_blocker", &PatchPair::first_blocker)
+      .Column("blocker_count", &PatchPair::blocker_count);
+  Table(archive, "visibility/blockers", rows.blockers).Column("patch", std::identity());
+}
+
+// The elements' positions follow from their patches and corners.
+template <class Archive, class Elements>
+void DescribeElements(Archive& archive, Elements& elements) {
+  Table(archive, "elements", elements)
+      .Column("patch", &Element::patch)
+      .Column("parent", &Element::parent)
+      .Column("first_child", &Element::first_child)
+      .Column("level", &Element::level)
+      .Column("corners", &Element::corner);
+}
+
+// Everything of a solution but its elements.
+template <class Archive, class Solution>
+void DescribeLight(Archive& archive, Solution& solution) {
+  Table(archive, "elements", solution.irradiance).Column("irradiance", std::identity());
+  Table(archive, "elements", solution.radiosity).Column("radiosity", std::identity());
+  Table(archive, "elements", solution.radiosity_spread).Column("radiosity_spread", std::identity());
+  Table(archive, "elements", solution.spread_below).Column("spread_below", std::identity());
+  Table(archive, "links", solution.links.links)
+      .Column("receiver", &Link::receiver)
+      .Column("source", &Link::source)
+      .Column("form_factor", &Link::form_factor)
+      .Column("variation", &Link::variation)
+      .Column("share", &Link::share)
+      .Column("source_variation", &Link::source_variation)
+      .Column("visibility", &Link::visibility)
+      .Column("first_blocker", &Link::first_blocker)
+      .Column("blocker_count", &Link::blocker_count);
+  Table(archive, "links/blockers", solution.links.blockers).Column("patch", std::identity());
+  Table(archive, "fragments", solution.fragments)
+      .Column("leaf", &Fragment::leaf)
+      .Column("area", &Fragment::area)
+      .Column("irradiance", &Fragment::irradiance)
+      .Column("radiosity", &Fragment::radiosity)
+      .Lists("polygon", &Fragment::polygon);
+}
+
+// `kind` has one row.
+template <class Archive, class Mesh, class Kind>
+void DescribeMesh(Archive& archive, Mesh& mesh, Kind& kind) {
+  Table(archive, "mesh", kind).Column("kind", std::identity());
+  Table(archive, "mesh", mesh.positions).Column("positions", std::identity());
+  Table(archive, "mesh/triangles", mesh.triangles)
+      .Column("vertices", &IrradianceMesh::Triangle::vertex)
+      .Column("patch", &IrradianceMesh::Triangle::patch)
+      .Column("discontinuity", &IrradianceMesh::Triangle::discontinuity);
+  Table(archive, "mesh/triangles", mesh.irradiance).Column("interpolant", std::identity());
+}
+
+// For others to read: Penumbra finds them anew.
+inline void DescribeDiscontinuities(ArchiveWriter& archive, const DiscontinuityList& list) {
+  Table(archive, "discontinuities", list.ends).Column("ends", std::identity());
+  Table(archive, "discontinuities", list.all)
+      .Column("receiver", &Discontinuity::receiver)
+      .Column("source", &Discontinuity::source)
+      .Column("blocker", &Discontinuity::blocker)
+      .Column("kind", &Discontinuity::kind)
+      .Column("degree", &Discontinuity::degree)
+      .Column("source_part", &Discontinuity::source_part)
+      .Column("blocker_part", &Discontinuity::blocker_part)
+      .Column("geometric_weight", &Discontinuity::geometric_weight)
+      .Column("weight", &Discontinuity::weight);
+}
+
+}  // namespace penumbra

@@ -1,0 +1,200 @@
+#include "mesh/refinement/mesh_refinement.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "mesh/interpolants/representation_error.h"
+#include "mesh/refinement/refinement_step.h"
+#include "solver/base/check.h"
+#include "solver/base/stopwatch.h"
+#include "solver/scene/scene_parts.h"
+
+namespace penumbra {
+namespace {
+
+// Triangles whose gradients jump by less than what leads to this share of the error asked for are not
+// measured.
+constexpr double kSuspicion = 0.3;
+// Beyond this, a triangle that was found good is looked at once more, at finer points.
+constexpr double kDoubt = 1;
+
+// Measures the triangles' errors where the interpolants' gradients give reason to. Returns how many points
+// were evaluated.
+std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& options,
+                            const IrradianceSampler& sampler, SampleCache* samples, RefinedMesh* refined) {
+  const Rgb mean = MeanIrradiance(scene, refined->mesh).max(NoLight(scene) / kErrorFloor);
+  const std::vector<double> guess = GuessTriangleErrors(scene, refined->mesh, mean);
+  std::vector<std::uint32_t> suspects;
+  for (std::uint32_t t = 0; t < guess.size(); ++t)
+    if (guess[t] > kSuspicion * options.error) suspects.push_back(t);
+  MeasuredTriangles measured =
+      MeasureTriangles(scene, refined->mesh, suspects, options.samples, mean, sampler, samples);
+  refined->errors = std::move(measured.errors);
+  std::vector<std::uint32_t> doubtful;
+  for (const std::uint32_t t : suspects)
+    if (refined->errors[t].max <= options.error && guess[t] > kDoubt * options.error) doubtful.push_back(t);
+  const MeasuredTriangles finer =
+      MeasureTriangles(scene, refined->mesh, doubtful, options.samples + 1, mean, sampler, samples);
+  for (const std::uint32_t t : doubtful)
+    if (finer.errors[t].max > refined->errors[t].max) refined->errors[t] = finer.errors[t];
+  return measured.point_evaluations + finer.point_evaluations;
+}
+
+// Patches whose errors are weighed together: all but kShareAbove of their area shall keep to `error`.
+struct Population {
+  std::vector<char> has;  // by patch
+  double area = 0;        // [m^2]
+  double error = 0;
+};
+
+// What is seen, what is not (nobody's eyes vote for the irradiance of a black wall, but who probes it may
+// want it), and the parts of what is seen, lest a large one outvote a small one.
+std::vector<Population> FindPopulations(const Scene& scene, double error) {
+  const std::vector<double> seen = SeenAreas(scene);
+  const std::size_t count = scene.patches.size();
+  Population lit{std::vector<char>(count, 0), 0, error}, unseen = lit;
+  for (std::size_t p = 0; p < count; ++p) {
+    Population& of = seen[p] > 0 ? lit : unseen;
+    of.has[p] = 1;
+    of.area += scene.patches[p].area;
+  }
+  std::vector<Population> populations = {std::move(lit), std::move(unseen)};
+  const std::vector<ScenePart> parts = PartsOf(scene);
+  if (parts.size() < 2) return populations;
+  for (const ScenePart& part : parts) {
+    Population own{std::vector<char>(count, 0), 0, kPartError * error};
+    for (const PatchId p : part.patches) {
+      own.has[static_cast<std::size_t>(p)] = 1;
+      own.area += seen[static_cast<std::size_t>(p)];
+    }
+    if (own.area > 0) populations.push_back(std::move(own));
+  }
+  return populations;
+}
+
+// The area of the population that errs by more than it shall [m^2], of areas by patch.
+double AreaOf(const Population& population, std::span<const double> areas) {
+  double sum = 0;
+  for (std::size_t p = 0; p < areas.size(); ++p) sum += population.has[p] ? areas[p] : 0;
+  return sum;
+}
+
+// What can be done about errors above that. Leaves that are too small to be divided are unmet.
+std::vector<RefinementStep> FindSteps(const Scene& scene, std::span<const OmittedOfPatch> omitted,
+                                      const MeshRefinementOptions& options, double error,
+                                      const RefinedMesh& refined, std::vector<ElementId>* unmet) {
+  constexpr int kChildren = 4;
+  const double floor = kErrorFloor * MeanIrradiance(scene, refined.mesh).maxCoeff();
+  std::vector<RefinementStep> steps =
+      FindRefinementSteps(refined.mesh, refined.triangulations, refined.errors, omitted, error, floor);
+  unmet->clear();
+  std::erase_if(steps, [&](const RefinementStep& step) {
+    if (!step.Divides()) return false;
+    const Element& element = refined.plan.forest[step.leaf];
+    if (element.area >= kChildren * options.min_area && element.level < kMaxLevel) return false;
+    unmet->push_back(step.leaf);
+    return true;
+  });
+  std::sort(unmet->begin(), unmet->end());
+  return steps;
+}
+
+// Steps that bring all populations to their errors, the first that promise most for what they cost; each
+// once. Those who have the same error follow each other.
+std::vector<RefinementStep> ChooseSteps(const Scene& scene, std::span<const Population> populations,
+                                        std::span<const OmittedOfPatch> omitted,
+                                        const MeshRefinementOptions& options, RefinedMesh* refined) {
+  std::vector<RefinementStep> chosen, steps;
+  std::vector<double> above;
+  std::set<std::tuple<PatchId, ElementId, std::size_t>> known;
+  for (std::size_t k = 0; k < populations.size(); ++k) {
+    const Population& population = populations[k];
+    if (k == 0 || population.error != populations[k - 1].error) {
+      std::vector<ElementId> unmet;
+      steps = FindSteps(scene, omitted, options, population.error, *refined, &unmet);
+      above = AreaAbove(scene, refined->mesh, refined->errors, population.error);
+      if (k == 0) refined->unmet = std::move(unmet);
+    }
+    const double errs = AreaOf(population, above);
+    if (k == 0) refined->share_above = population.area > 0 ? errs / population.area : 0;
+    if (errs <= kShareAbove * population.area) continue;
+    std::vector<RefinementStep> own;
+    for (const RefinementStep& step : steps)
+      if (population.has[static_cast<std::size_t>(step.patch)]) own.push_back(step);
+    for (const std::size_t i : ChooseRefinementSteps(own, errs - kShareAbove * population.area))
+      if (known.emplace(own[i].patch, own[i].leaf, own[i].discontinuity).second)
+        chosen.push_back(std::move(own[i]));
+  }
+  return chosen;
+}
+
+// Does it: leaves are divided, discontinuities wanted from now on.
+void Take(std::span<const RefinementStep> chosen, std::span<const OmittedOfPatch> omitted, MeshPlan* plan) {
+  plan->wanted.resize(omitted.size());
+  std::vector<PatchId> divided;
+  for (const RefinementStep& step : chosen) {
+    if (step.Divides()) {
+      divided.push_back(step.patch);
+      plan->forest.Subdivide(step.leaf);
+    } else {
+      plan->wanted[step.patch].push_back(omitted[step.patch].found[step.discontinuity]);
+    }
+  }
+  std::sort(divided.begin(), divided.end());
+  divided.erase(std::unique(divided.begin(), divided.end()), divided.end());
+  for (const PatchId patch : divided) plan->forest.Balance(patch);
+}
+
+}  // namespace
+
+RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolution& solution,
+                       const IrradianceSampler& sampler, const MeshOptions& mesh_options,
+                       const MeshRefinementOptions& options, const ExecutionContext& context,
+                       LocalPassCache* local_pass, const MeshPlan* start, SampleCache* samples) {
+  PENUMBRA_CHECK(mesh_options.order != InterpolantOrder::kConstant);
+  const Scene& scene = solution.forest.scene();
+  const std::vector<Population> populations = FindPopulations(scene, options.error);
+  SampleCache own_samples;
+  if (!samples) samples = &own_samples;
+  std::optional<LocalPassCache> own;
+  if (!local_pass) local_pass = &own.emplace(scene, visibility);
+  RefinedMesh refined;
+  refined.plan = start ? *start : BeginPlan(visibility, solution, mesh_options.discontinuities);
+  MeshReport::Seconds seconds;
+  std::size_t evaluations = 0;
+  for (int round = 0;; ++round) {
+    refined.report = {};
+    std::vector<OmittedOfPatch> omitted;
+    refined.triangulations =
+        TriangulatePatches(visibility, solution, refined.plan, mesh_options.discontinuities, context,
+                           refined.report, local_pass, &omitted);
+    seconds.discontinuities += refined.report.seconds.discontinuities;
+    seconds.triangulate += refined.report.seconds.triangulate;
+    const Stopwatch interpolating;
+    if (context.Cancelled()) return {};
+    BuiltMesh built =
+        BuildIrradianceMesh(scene, refined.triangulations, mesh_options.order, sampler, context, samples);
+    if (context.Cancelled()) return {};
+    refined.mesh = std::move(built.mesh);
+    evaluations += built.point_evaluations;
+    evaluations += MeasureSuspects(scene, options, sampler, samples, &refined);
+    if (context.Cancelled()) return {};
+    seconds.interpolate += interpolating.Seconds();
+
+    const std::vector<RefinementStep> chosen = ChooseSteps(scene, populations, omitted, options, &refined);
+    const bool most = refined.mesh.triangles.size() > options.max_triangles;
+    if (round == options.max_rounds || most || chosen.empty()) break;
+    Take(chosen, omitted, &refined.plan);
+  }
+  refined.report.seconds = seconds;
+  refined.report.counts.point_evaluations = evaluations;
+  refined.report.counts.interpolants = refined.mesh.irradiance.size();
+  return refined;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,253 @@
+#include "mesh/refinement/shown_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "mesh/interpolants/representation_error.h"
+#include "mesh/refinement/source_cut.h"
+#include "solver/base/stopwatch.h"
+
+namespace penumbra {
+namespace {
+
+// The shares of the error that the interpolants and their sources may make, each at its 99th percentile:
+// seldom both at one point, nor with the most that samples may leave out.
+constexpr double kInterpolantShare = 0.65, kSourceShare = 0.25;
+// What interpolants' samples may leave out of their sources' detail, as a share of the error. Those of the
+// looks before the last keep to SolverOptions::correction_tolerance: their means correct the sources' light,
+// so that what is off in all of them grows from bounce to bounce.
+constexpr double kNearShare = 0.2;
+// Refinement that may ask for edges begins with those of this times the least weight; looks before the last,
+// which only sources are made of, with those of this times as much.
+constexpr double kWeightToBegin = 2, kFirstWeight = 2;
+// Sources are refined again while their means will change by more than this share of the error, so many
+// times: two to four in most rooms, and twenty in a narrow slot between white walls, where light goes to and
+// fro. They end sooner where two passes leave more than this of a change. The first choose how finely.
+constexpr double kSettledShare = 0.6, kStill = 0.95;
+constexpr int kMostSourcePasses = 40, kCutChoices = 2;
+// Centroids can overlook what random points see. Once the mesh is refined these look, one for so many
+// evaluations of the refinement, and while one in a hundred may err by more than this share of the error it
+// is refined on, towards as much less as they see more, within limits.
+constexpr std::size_t kEvaluationsALook = 20, kFewestLooks = 1000, kMostLooks = 3000;
+constexpr double kOverlooked = 0.9, kLeastOnward = 0.5, kMostOnward = 0.9;
+constexpr int kMostTurns = 3;
+// Cells of sources are divided while their score is above this times the error.
+constexpr double kFinestScore = 1;
+// Random points that choose the sources.
+constexpr std::size_t kCutPoints = 300;
+
+}  // namespace
+
+ShownMesh::ShownMesh(const Scene& scene, const PatchVisibility& visibility, CurrentIrradiance& irradiance,
+                     const ShownMeshOptions& options)
+    : scene_(scene), visibility_(visibility), irradiance_(irradiance), options_(options) {}
+
+void ShownMesh::Begin() {
+  report_ = {};
+  seconds_of_sources_ = 0;
+  unmet_.reset();
+}
+
+bool ShownMesh::Make(const RadiositySolution& solution, const MeshOptions& options,
+                     const ExecutionContext& context) {
+  Begin();
+  return FirstLook(solution, options, kNearShare * options_.error, context);
+}
+
+bool ShownMesh::MakeRefined(HierarchicalSolver& solver, const MeshOptions& options, bool light_too,
+                            const ExecutionContext& context) {
+  Begin();
+  const bool can_want = options.discontinuities.can_want();
+  MeshOptions last = options;
+  if (can_want) last.discontinuities.min_weight *= kWeightToBegin;
+  MeshOptions first = last;
+  first.discontinuities.min_weight *= kFirstWeight;
+  if (!can_want) first.discontinuities.min_wanted_weight = first.discontinuities.min_weight;
+  if (!FirstLook(solver.solution(), first, options_.solver.correction_tolerance, context)) return false;
+  if (mesh_.triangles.empty()) return true;
+  if (!light_too || SettleSources(solver, first, context)) RefineLeaves(solver.solution(), last, context);
+  return true;
+}
+
+void ShownMesh::Take(IrradianceMesh mesh) {
+  Begin();
+  mesh_ = std::move(mesh);
+  triangulations_.clear();
+  triangle_errors_.clear();
+}
+
+std::unique_ptr<const PointIrradiance> ShownMesh::BetterIrradiance(const RadiositySolution& solution,
+                                                                   const ExecutionContext& context) {
+  const SourceCells cells = Cells(solution, context);
+  if (context.Cancelled()) return nullptr;
+  HierarchicalSolver better(scene_, visibility_, options_.solver, solution, context);
+  if (!better.CorrectTo(cells.LeafIrradiance(), cells.Fragments(cells.Cut(0), /*whole_leaves=*/true),
+                        context))
+    return nullptr;
+  return std::make_unique<const PointIrradiance>(
+      irradiance_.Get()->WithSources(SourceSet::FromSolution(better.solution())));
+}
+
+std::unique_ptr<const PointIrradiance> ShownMesh::ShownIrradiance(const RadiositySolution& solution,
+                                                                  const ExecutionContext& context) {
+  const SourceCells cells = Cells(solution, context);
+  if (context.Cancelled()) return nullptr;
+  return std::make_unique<const PointIrradiance>(irradiance_.Get()->WithSources(
+      SourceSet::FromSolution(solution, cells.Fragments(cells.Cut(0), /*whole_leaves=*/true))));
+}
+
+SourceCells ShownMesh::Cells(const RadiositySolution& solution, const ExecutionContext& context) {
+  return SourceCells(solution, plan_.forest, triangulations_, mesh_, *irradiance_.Get(),
+                     kFinestScore * options_.error, context);
+}
+
+IrradianceSampler ShownMesh::Sampler(double tolerance, const ExecutionContext& context) {
+  return WhileGoing(NearSampler(*irradiance_.Get(), tolerance), context);
+}
+
+LocalPassCache& ShownMesh::LocalPass() {
+  if (!local_pass_) local_pass_ = std::make_unique<LocalPassCache>(scene_, visibility_);
+  return *local_pass_;
+}
+
+// What the latest mesh has replaces what was counted; work adds up.
+void ShownMesh::Add(MeshReport latest) {
+  latest.counts.point_evaluations += report_.counts.point_evaluations;
+  latest.seconds.discontinuities += report_.seconds.discontinuities;
+  latest.seconds.triangulate += report_.seconds.triangulate;
+  latest.seconds.interpolate += report_.seconds.interpolate;
+  report_ = latest;
+}
+
+// Makes a mesh of the solution's leaves. False if it was cancelled.
+bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& options, double tolerance,
+                          const ExecutionContext& context) {
+  IrradianceSampler sampler;
+  if (options.order != InterpolantOrder::kConstant) {
+    const Stopwatch stopwatch;
+    if (!irradiance_.Get(context)) return false;
+    report_.seconds.interpolate += stopwatch.Seconds();
+    sampler = Sampler(tolerance, context);
+  }
+  MeshResult result = RunLocalPass(visibility_, solution, sampler, options, context, &LocalPass());
+  if (context.Cancelled()) return false;
+  Add(result.report);
+  mesh_ = std::move(result.mesh);
+  triangulations_ = std::move(result.triangulations);
+  plan_ = std::move(result.plan);
+  triangle_errors_.clear();
+  return true;
+}
+
+// Refines the sources by what they show and shows them anew, in turns, until the light stands still: what
+// is left to change comes back by the bounces between walls that face each other. False if it was cancelled.
+bool ShownMesh::SettleSources(HierarchicalSolver& solver, const MeshOptions& options,
+                              const ExecutionContext& context) {
+  std::optional<double> score;
+  double before = 0, ratio_before = 0;  // the change of the last pass, and what it left of the one before
+  for (int pass = 1;; ++pass) {
+    if (pass <= kCutChoices) score.reset();
+    const std::optional<double> change = RefineSources(solver, score, context);
+    if (!change) return false;
+    const double ratio = before > 0 ? *change / before : 1;
+    if (pass == 2) ratio_before = ratio;
+    // Two factors take turns, since what one wall sends another sends back.
+    const double by_two = ratio * ratio_before, next = *change * std::max(ratio, ratio_before);
+    const bool still = pass > kCutChoices + 1 && by_two > kStill;
+    const bool settled = by_two < 1 && next / (1 - std::sqrt(by_two)) <= kSettledShare * options_.error;
+    if (settled || still || pass == kMostSourcePasses) return true;
+    before = *change;
+    ratio_before = ratio;
+    if (!Refine(solver.solution(), options, kInterpolantShare * options_.error,
+                options_.solver.correction_tolerance, nullptr, context))
+      return false;
+  }
+}
+
+// Gives the leaves the means of the interpolants, and cuts those whose light varies too much for where it
+// arrives: by the score, which is chosen where there is none. Returns how far the means were from the
+// leaves' (SourceCells::Change); nothing if it was cancelled.
+std::optional<double> ShownMesh::RefineSources(HierarchicalSolver& solver, std::optional<double>& score,
+                                               const ExecutionContext& context) {
+  const Stopwatch stopwatch;
+  context.Report("refine sources", 0);
+  const SourceCells cells = Cells(solver.solution(), context);
+  if (context.Cancelled()) return std::nullopt;
+  const double change = cells.Change();
+  if (!score)
+    score = ChooseSourceCut(solver.solution(), cells, *irradiance_.Get(), kFinestScore * options_.error,
+                            kSourceShare * options_.error, kCutPoints, options_.seed + 1, context)
+                .score;
+  const bool done = solver.CorrectTo(cells.LeafIrradiance(),
+                                     cells.Fragments(cells.Cut(*score), /*whole_leaves=*/false), context);
+  irradiance_.Reset();
+  seconds_of_sources_ += stopwatch.Seconds();
+  return done ? std::optional(change) : std::nullopt;
+}
+
+// Refines the leaves until they show no more than the error asked for, at their centroids and to random
+// points.
+void ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOptions& options,
+                             const ExecutionContext& context) {
+  const double error = kInterpolantShare * options_.error, tolerance = kNearShare * options_.error;
+  SampleCache samples;
+  std::optional<RefinedMesh> refined = Refine(solution, options, error, tolerance, &samples, context);
+  double onward = error;
+  for (int turn = 1; refined && turn <= kMostTurns && refined->share_above <= kShareAbove; ++turn) {
+    const std::size_t points =
+        std::clamp(refined->report.counts.point_evaluations / kEvaluationsALook, kFewestLooks, kMostLooks);
+    const double seen =
+        LookAround(points, options_.seed + 1 + static_cast<std::uint64_t>(turn), tolerance, context);
+    if (context.Cancelled()) return;
+    if (seen <= kOverlooked * options_.error) return;
+    onward *= std::clamp(kOverlooked * options_.error / seen, kLeastOnward, kMostOnward);
+    refined = Refine(solution, options, onward, tolerance, &samples, context);
+  }
+  if (!refined || onward < error) return;  // what is left is measured
+  double area = 0;
+  for (const ElementId leaf : refined->unmet) area += plan_.forest[leaf].area;
+  unmet_ = fmt::format(
+      "interpolants: triangles on {:.2g} of the area err by more than {:.3g}; {} leaves of {:.3g} m^2 "
+      "together have the smallest area",
+      refined->share_above, error, refined->unmet.size(), area);
+}
+
+// The 99th percentile of the interpolants' error as so many random points see it, at most.
+double ShownMesh::LookAround(std::size_t points, std::uint64_t seed, double tolerance,
+                             const ExecutionContext& context) {
+  const Stopwatch stopwatch;
+  const RepresentationError seen =
+      MeasureRepresentationError(scene_, mesh_, Sampler(tolerance, context), points, seed);
+  report_.counts.point_evaluations += points;
+  report_.seconds.interpolate += stopwatch.Seconds();
+  return seen.p99_at_most;
+}
+
+// Refines the leaves of the present mesh until their interpolants err by no more than `error`, and makes it
+// anew. `samples` are those of the same sources and tolerance, or null. What is returned has given its mesh
+// away; nothing if it was cancelled.
+std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, const MeshOptions& options,
+                                             double error, double tolerance, SampleCache* samples,
+                                             const ExecutionContext& context) {
+  const Stopwatch stopwatch;
+  if (!irradiance_.Get(context)) return std::nullopt;  // of the sources as they have become
+  seconds_of_sources_ += stopwatch.Seconds();
+  MeshRefinementOptions refinement;
+  refinement.error = error;
+  refinement.min_area = options_.solver.min_area;
+  refinement.samples = options_.error_samples;
+  RefinedMesh refined = RefineMesh(visibility_, solution, Sampler(tolerance, context), options, refinement,
+                                   context, &LocalPass(), &plan_, samples);
+  if (context.Cancelled()) return std::nullopt;
+  mesh_ = std::move(refined.mesh);
+  triangulations_ = std::move(refined.triangulations);
+  plan_ = std::move(refined.plan);
+  triangle_errors_ = std::move(refined.errors);
+  Add(refined.report);
+  return refined;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,223 @@
+#include "solver/transport/links/approximate_form_factor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "solver/base/parallel.h"
+#include "solver/base/random.h"
+#include "solver/scene/surface_points.h"
+#include "solver/transport/links/cubature.h"
+#include "solver/visibility/pair/tube_blockers.h"
+#include "solver/visibility/point/point_view.h"
+#include "solver/visibility/point/ray_caster.h"
+
+namespace penumbra {
+namespace {
+
+double Area(const AreaPart& part) { return VectorArea(part.polygon).norm(); }
+
+std::vector<PatchId> AllPatches(const Scene& scene) {
+  std::vector<PatchId> all(scene.patches.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+// The same flux twice, coarse and fine, as a fraction of what leaves.
+struct Pair {
+  double coarse = 0, fine = 0;
+};
+
+// Sums pair(from, to), each a fraction of what leaves `from`.
+template <class PairFactor>
+std::vector<Pair> AllPairs(std::span<const AreaPart> from, std::span<const AreaPart> to,
+                           const ExecutionContext& context, const PairFactor& factor) {
+  std::vector<Pair> pairs(from.size() * to.size());
+  ParallelFor(pairs.size(), 1, [&](std::size_t k) {
+    const AreaPart &sender = from[k / to.size()], &target = to[k % to.size()];
+    if (sender.patch != target.patch && !context.Cancelled()) pairs[k] = factor(sender, target);
+  });
+  return pairs;
+}
+
+Pair Mean(std::span<const AreaPart> from, std::size_t targets, std::span<const Pair> pairs) {
+  double area = 0;
+  Pair sum;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const double weight = Area(from[i]);
+    area += weight;
+    for (std::size_t j = 0; j < targets; ++j) {
+      sum.coarse += weight * pairs[i * targets + j].coarse;
+      sum.fine += weight * pairs[i * targets + j].fine;
+    }
+  }
+  if (area == 0) return {};
+  return {sum.coarse / area, sum.fine / area};
+}
+
+// Whether no blocker cuts the segment.
+bool Free(const Scene& scene, std::span<const PatchId> blockers, const Vec3& from, const Vec3& to) {
+  return std::none_of(blockers.begin(), blockers.end(), [&](PatchId b) {
+    const Patch& patch = scene.patches[static_cast<std::size_t>(b)];
+    const double start = patch.normal.dot(from - patch.vertex[0]),
+                 end = patch.normal.dot(to - patch.vertex[0]);
+    if ((start > 0) == (end > 0)) return false;
+    return ConvexContains(patch.Vertices(), patch.normal, from + (to - from) * (start / (start - end)), 0);
+  });
+}
+
+struct PlacedArea {
+  Vec3 centre;
+  double area;
+};
+
+double Disk(const Scene& scene, std::span<const PatchId> blockers, const PlacedArea& from,
+            const Vec3& from_normal, const PlacedArea& to, const Vec3& to_normal) {
+  const double factor = DiskFactor(from.centre, from_normal, to.centre, to_normal, to.area);
+  return factor > 0 && Free(scene, blockers, from.centre, to.centre) ? factor : 0;
+}
+
+// Four parts of a convex polygon: about its centroid, from the middle of one edge to that of another.
+std::vector<PlacedArea> Quarters(const Polygon3& polygon, const Vec3& normal) {
+  const Vec3 centre = Centroid(polygon), across = polygon[1] - polygon[0], along = normal.cross(across);
+  std::vector<PlacedArea> pieces;
+  for (const double a : {-1.0, 1.0})
+    for (const double b : {-1.0, 1.0}) {
+      const Polygon3 half = ClipToHalfSpace(polygon, a * across, centre);
+      const Polygon3 part = half.empty() ? half : ClipToHalfSpace(half, b * along, centre);
+      if (!part.empty()) pieces.push_back({Centroid(part), VectorArea(part).norm()});
+    }
+  return pieces;
+}
+
+double PointFactor(const Scene& scene, const ReceiverPoint& at, PatchId own, const AreaPart& to,
+                   std::span<const PatchId> blockers) {
+  PointView view(scene, at);
+  if (!view.FaceSource(to.patch)) return 0;
+  const DirectionPolygon seen = view.SeeSource(to.polygon);
+  std::vector<Occluder>& occluders = view.occluder_stack();
+  if (seen.empty() || !view.FindBlockers(blockers, own, seen, occluders)) return 0;
+  return view.VisibleFormFactor(seen, occluders);
+}
+
+// What may stand between the parts; nothing if they do not see each other.
+std::optional<std::vector<PatchId>> Blockers(const Scene& scene, std::span<const PatchId> all,
+                                             const AreaPart& from, const AreaPart& to) {
+  const Patch &sender = scene.patches[static_cast<std::size_t>(from.patch)],
+              &target = scene.patches[static_cast<std::size_t>(to.patch)];
+  const std::optional<TubeEnds> ends = ClipToEachOther(from.polygon, sender, to.polygon, target);
+  std::vector<PatchId> blockers;
+  if (!ends || !FindTubeBlockers(scene, *ends, from.patch, to.patch, all, blockers)) return std::nullopt;
+  return blockers;
+}
+
+}  // namespace
+
+double DiskFactor(const Vec3& at, const Vec3& at_normal, const Vec3& centre, const Vec3& normal,
+                  double area) {
+  const Vec3 way = centre - at;
+  const double square = way.squaredNorm();
+  const double cosines = std::max(0.0, at_normal.dot(way)) * std::max(0.0, -normal.dot(way));
+  return cosines == 0 ? 0 : cosines / square * area / (std::numbers::pi * square + area);
+}
+
+FormFactorEstimate DiskFormFactor(const Scene& scene, std::span<const AreaPart> from,
+                                  std::span<const AreaPart> to, const ExecutionContext& context) {
+  const std::vector<PatchId> all = AllPatches(scene);
+  const auto factor = [&](const AreaPart& sender, const AreaPart& target) -> Pair {
+    const auto blockers = Blockers(scene, all, sender, target);
+    if (!blockers) return {};
+    const Vec3 &n = scene.patches[static_cast<std::size_t>(sender.patch)].normal,
+               &m = scene.patches[static_cast<std::size_t>(target.patch)].normal;
+    Pair pair;
+    pair.coarse = Disk(scene, *blockers, {Centroid(sender.polygon), Area(sender)}, n,
+                       {Centroid(target.polygon), Area(target)}, m);
+    const std::vector<PlacedArea> targets = Quarters(target.polygon, m);
+    for (const PlacedArea& a : Quarters(sender.polygon, n))
+      for (const PlacedArea& b : targets)
+        pair.fine += a.area / Area(sender) * Disk(scene, *blockers, a, n, b, m);
+    return pair;
+  };
+  const Pair mean = Mean(from, to.size(), AllPairs(from, to, context, factor));
+  return {mean.coarse, std::abs(mean.fine - mean.coarse)};
+}
+
+FormFactorEstimate CubatureFormFactor(const Scene& scene, std::span<const AreaPart> from,
+                                      std::span<const AreaPart> to, const ExecutionContext& context) {
+  const std::vector<PatchId> all = AllPatches(scene);
+  const auto factor = [&](const AreaPart& sender, const AreaPart& target) -> Pair {
+    const auto blockers = Blockers(scene, all, sender, target);
+    if (!blockers) return {};
+    const auto mean = [&](int refinement) {
+      double sum = 0;
+      for (const CubaturePoint& point : Cubature(sender.polygon, refinement)) {
+        ReceiverPoint at;
+        at.position = point.position;
+        at.normal = scene.patches[static_cast<std::size_t>(sender.patch)].normal;
+        sum += point.weight * PointFactor(scene, at, sender.patch, target, *blockers);
+      }
+      return sum;
+    };
+    return {mean(1), mean(2)};
+  };
+  const Pair mean = Mean(from, to.size(), AllPairs(from, to, context, factor));
+  return {mean.fine, std::abs(mean.fine - mean.coarse)};
+}
+
+FormFactorEstimate MonteCarloFormFactor(const Scene& scene, std::span<const AreaPart> from,
+                                        std::span<const AreaPart> to, std::size_t rays, std::uint64_t seed,
+                                        const ExecutionContext& context) {
+  constexpr std::size_t kGrain = 4096;
+  std::vector<Polygon3> triangles;
+  std::vector<PatchId> patch_of;
+  std::vector<double> cumulative;
+  double area = 0;
+  for (const AreaPart& part : from)
+    for (std::size_t i = 2; i < part.polygon.size(); ++i) {
+      triangles.push_back({part.polygon[0], part.polygon[i - 1], part.polygon[i]});
+      patch_of.push_back(part.patch);
+      cumulative.push_back(area += VectorArea(triangles.back()).norm());
+    }
+  if (area == 0 || rays == 0) return {};
+  std::vector<std::vector<const AreaPart*>> targets(scene.patches.size());
+  for (const AreaPart& part : to) targets[static_cast<std::size_t>(part.patch)].push_back(&part);
+  const RayCaster caster(scene);
+  const double lift = 1e-9 * scene.Diagonal();  // off the plane, which is exact to roundings only
+  std::vector<std::size_t> hits((rays + kGrain - 1) / kGrain, 0);
+  ParallelFor(hits.size(), 1, [&](std::size_t chunk) {
+    Random random(seed, chunk);
+    if (context.Cancelled()) return;
+    for (std::size_t i = chunk * kGrain; i < std::min(rays, (chunk + 1) * kGrain); ++i) {
+      const double at = random.Uniform(0, area), s = random.Uniform(), t = random.Uniform(),
+                   square = random.Uniform(), angle = random.Uniform(0, 2 * std::numbers::pi);
+      const auto k =
+          std::min(triangles.size() - 1,
+                   static_cast<std::size_t>(std::upper_bound(cumulative.begin(), cumulative.end(), at) -
+                                            cumulative.begin()));
+      const Patch& patch = scene.patches[static_cast<std::size_t>(patch_of[k])];
+      const Frame frame = MakeFrame(Vec3::Zero(), patch.normal);
+      const double radius = std::sqrt(square);
+      const Vec3 direction = radius * (std::cos(angle) * frame.u + std::sin(angle) * frame.v) +
+                             std::sqrt(1 - square) * patch.normal;
+      const Vec3 origin = PointOn(triangles[k], s, t) + lift * patch.normal;
+      const RayCaster::Hit hit = caster.Cast(origin, direction, patch_of[k]);
+      if (hit.patch == kNoPatch || !hit.front) continue;
+      const Vec3 met = origin + hit.distance * direction;
+      const Vec3& normal = scene.patches[static_cast<std::size_t>(hit.patch)].normal;
+      for (const AreaPart* part : targets[static_cast<std::size_t>(hit.patch)])
+        if (ConvexContains(part->polygon, normal, met, lift)) {
+          ++hits[chunk];
+          break;
+        }
+    }
+  });
+  const auto n = static_cast<double>(rays);
+  const auto met = static_cast<double>(std::accumulate(hits.begin(), hits.end(), std::size_t{0}));
+  const double likely = (met + 1) / (n + 2);
+  return {met / n, std::sqrt(likely * (1 - likely) / n)};
+}
+
+}  // namespace penumbra

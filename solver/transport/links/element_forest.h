@@ -1,0 +1,116 @@
+// solver/transport/links/element_forest.h
+//
+// The quadtrees of elements, one a patch (the thesis's Tree, 4.1). This is their geometry and topology only;
+// what light falls on them lies beside it, in arrays indexed by ElementId.
+//
+// Every corner of an element lies on its patch's integer lattice: (0,0), (N,0), (N,N), (0,N) are the corners
+// of a quadrilateral, (0,0), (N,0), (0,N) those of a triangle, N = kLatticeSize. Equal lattice points are
+// equal positions, to the bit, so that neighbours, shared corners and hanging vertices are found by integers
+// and not by distances.
+
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "solver/geometry/vec.h"
+#include "solver/scene/scene.h"
+
+namespace penumbra {
+
+// Index of an element in ElementForest::elements.
+using ElementId = std::int32_t;
+inline constexpr ElementId kNoElement = -1;
+
+inline constexpr int kMaxLevel = 20;
+inline constexpr std::int32_t kLatticeSize = 1 << kMaxLevel;
+
+struct LatticePoint {
+  std::int32_t x = 0, y = 0;
+  auto operator<=>(const LatticePoint&) const = default;
+};
+
+// The point halfway between two lattice points. REQUIRES: it is on the lattice.
+inline LatticePoint Midpoint(const LatticePoint& a, const LatticePoint& b) {
+  return {(a.x + b.x) / 2, (a.y + b.y) / 2};
+}
+
+struct LatticePointHash {
+  std::size_t operator()(const LatticePoint& p) const {
+    const std::uint64_t key =
+        (static_cast<std::uint64_t>(static_cast<std::uint32_t>(p.x)) << 32) | static_cast<std::uint32_t>(p.y);
+    return static_cast<std::size_t>(key * 0x9E3779B97F4A7C15ULL >> 7);
+  }
+};
+
+// The position of a lattice point on a patch [m]: bilinear over a quadrilateral, affine over a triangle. The
+// corners come back with the bits of the patch's vertices.
+Vec3 LatticePosition(const Patch& patch, const LatticePoint& p);
+
+struct Element {
+  PatchId patch = kNoPatch;
+  ElementId parent = kNoElement;
+  ElementId first_child = kNoElement;  // the four children follow one another; kNoElement: a leaf
+  std::int32_t level = 0;              // 0 is the root
+  std::int32_t size = 0;               // corners: 3 or 4
+  std::array<LatticePoint, 4> corner;  // counter-clockwise; the fourth is unused in a triangle
+  std::array<Vec3, 4> vertex;          // their positions [m]
+  double area = 0;                     // [m^2]
+
+  bool IsLeaf() const { return first_child == kNoElement; }
+  std::span<const Vec3> Vertices() const { return {vertex.data(), static_cast<std::size_t>(size)}; }
+  std::span<const LatticePoint> Corners() const { return {corner.data(), static_cast<std::size_t>(size)}; }
+};
+
+// The corners of the four children that the element has or would have [m].
+std::array<std::array<Vec3, 4>, 4> Quarters(const Element& element);
+
+// All quadtrees of a scene. Ids stay valid while trees grow; references to elements do not.
+class ElementForest {
+ public:
+  ElementForest() = default;
+  // One root a patch: the root of patch p is element p. The scene must outlive the forest.
+  explicit ElementForest(const Scene& scene);
+
+  const Scene& scene() const { return *scene_; }
+  std::span<const Element> elements() const { return elements_; }
+  const Element& operator[](ElementId id) const { return elements_[static_cast<std::size_t>(id)]; }
+  std::size_t size() const { return elements_.size(); }
+  static ElementId Root(PatchId patch) { return patch; }
+
+  // Splits a leaf into four: a triangle at its edge midpoints, a quadrilateral at those and its centre.
+  // Returns the first child. REQUIRES: a leaf above kMaxLevel.
+  ElementId Subdivide(ElementId leaf);
+
+  // Takes back the newest subdivisions until `count` elements are left. REQUIRES: size() was `count` once.
+  void Truncate(std::size_t count);
+
+  // Subdivides leaves until no two that share an edge differ by more than one level. Returns how many were
+  // split.
+  std::size_t Balance(PatchId patch);
+
+  // The leaves of a patch, in depth-first order.
+  std::vector<ElementId> Leaves(PatchId patch) const;
+  // The leaves of all patches, patch by patch.
+  std::vector<ElementId> AllLeaves() const;
+
+  // The leaf of the patch that contains the point, which is taken to lie in the patch's plane; on a border,
+  // or outside by rounding, one of those it is nearest to.
+  ElementId LeafAt(PatchId patch, const Vec3& point) const;
+
+  // Calls visit(id) for the element and all below it, parents first.
+  void ForEachBelow(ElementId top, const std::function<void(ElementId)>& visit) const;
+
+  // Checks that children tile their parents, areas add up, and links between parents and children agree.
+  void Validate() const;
+
+ private:
+  const Scene* scene_ = nullptr;
+  std::vector<Element> elements_;
+};
+
+}  // namespace penumbra

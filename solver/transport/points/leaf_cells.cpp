@@ -1,0 +1,261 @@
+#include "solver/transport/points/leaf_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "solver/geometry/polygon_distance.h"
+#include "solver/transport/links/cubature.h"
+
+namespace penumbra {
+namespace {
+
+// What a linear function's deviation costs where it arrives: its second moment over the piece, 1/12, times
+// the share of the view, 1/2.
+constexpr double kMoment = 1.0 / 24;
+// A piece that reaches to a patch fills half the view of points there, with the value of its near side. Along
+// the patch that is so only for points nearer than the piece is long.
+constexpr double kMostNear = 6, kMostBeside = 1;
+// Pieces each way that the linear function of a part is worth.
+constexpr int kMostPieces = 4;
+// How often a part is halved at most: a corner where three patches meet has light that depends on the angle
+// at any distance.
+constexpr int kMostHalved = 40;
+
+struct Near {
+  double distance;  // of the leaf's centre [m]
+  PatchId patch;
+};
+
+// A convex part of the leaf, with a linear function of the place for its irradiance.
+struct Part {
+  Polygon3 polygon;
+  Vec3 centre = Vec3::Zero();
+  Rgb mean = Rgb::Zero();
+  Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  // a row per channel [W/m^3]
+  int halved = 0;
+};
+
+// A way to cut a part: across a direction, in the middle of its extent.
+struct Direction {
+  Vec3 normal = Vec3::Zero();  // unit, in the leaf's plane
+  double low = 0, high = 0;    // of normal . p [m]
+  int pieces = 1;              // that it takes
+  double error = 0;            // with the most pieces
+};
+
+class Divider {
+ public:
+  Divider(const RadiositySolution& solution, const PointIrradiance& exact, ElementId leaf,
+          const LeafCellOptions& options)
+      : scene_(solution.forest.scene()),
+        exact_(exact),
+        leaf_(leaf),
+        element_(solution.forest[leaf]),
+        normal_(scene_.patches[static_cast<std::size_t>(element_.patch)].normal),
+        material_(scene_.MaterialOf(element_.patch)),
+        options_(options) {
+    FindNear();
+  }
+
+  LeafCells Divide(std::vector<Polygon3> start) {
+    for (Polygon3& polygon : start) Divide(Sampled(std::move(polygon), 0));
+    return std::move(cells_);
+  }
+
+ private:
+  // The patches that may be the nearest to a part of the leaf.
+  void FindNear() {
+    const Vec3 centre = Centroid(element_.Vertices());
+    const double size = Diameter(element_.Vertices());
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const PatchPair& pair : exact_.SeenFrom(leaf_)) {
+      near_.push_back({Distance(pair.source, centre), pair.source});
+      nearest = std::min(nearest, near_.back().distance);
+    }
+    std::erase_if(near_, [&](const Near& n) { return n.distance > nearest + 2 * size; });
+  }
+
+  double Distance(PatchId patch, const Vec3& x) const {
+    const Patch& other = scene_.patches[static_cast<std::size_t>(patch)];
+    return DistanceToPolygon(other.Vertices(), other.normal, x);
+  }
+  double Nearest(const Vec3& x) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Near& n : near_) nearest = std::min(nearest, Distance(n.patch, x));
+    return nearest;
+  }
+
+  Part Sampled(Polygon3 polygon, int halved) const {
+    Part part;
+    part.halved = halved;
+    const std::vector<CubaturePoint> rule = Cubature(polygon);
+    part.polygon = std::move(polygon);
+    part.centre = Centroid(part.polygon);
+    ReceiverPoint at;
+    at.normal = normal_;
+    Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d moment = normal_ * normal_.transpose();
+    double size = 0;
+    for (const CubaturePoint& point : rule) size = std::max(size, (point.position - part.centre).norm());
+    for (const CubaturePoint& point : rule) {
+      at.position = point.position;
+      const Rgb value = exact_.OnPatch(element_.patch, at).irradiance;
+      const Vec3 off = (point.position - part.centre) / size;
+      part.mean += point.weight * value;
+      slope += point.weight * value.matrix() * off.transpose();
+      moment += point.weight * off * off.transpose();
+    }
+    // The rules' points are about the centroid, so that mean and slope do not mix.
+    part.gradient = moment.ldlt().solve(slope.transpose()).transpose() / size;
+    return part;
+  }
+
+  void Divide(const Part& part) {
+    std::vector<Direction> directions = Directions(part);
+    std::sort(directions.begin(), directions.end(),
+              [](const Direction& a, const Direction& b) { return a.error > b.error; });
+    const double snap = 1e-9 * Diameter(part.polygon);  // vertices as near to a cut as that are on it
+    if (!directions.empty() && directions[0].error > options_.error && part.halved < kMostHalved &&
+        VectorArea(part.polygon).norm() > options_.min_area) {
+      std::vector<Polygon3> halves = {part.polygon};
+      Cut(directions[0], 2, snap, halves);
+      if (halves.size() == 2) {
+        for (Polygon3& half : halves) Divide(Sampled(std::move(half), part.halved + 1));
+        return;
+      }
+    }
+    std::vector<Polygon3> pieces = {part.polygon};
+    std::vector<Vec3> across;
+    for (const Direction& direction : directions) {
+      const bool other = across.empty() || std::abs(across[0].dot(direction.normal)) < 0.5;
+      if (across.size() == 2 || !other) continue;
+      Cut(direction, direction.pieces, snap, pieces);
+      across.push_back(direction.normal);
+    }
+    for (Polygon3& piece : pieces) Add(part, std::move(piece));
+    cells_.parts.push_back(part.polygon);
+  }
+
+  std::vector<Direction> Directions(const Part& part) const {
+    std::vector<Direction> directions;
+    if ((material_.reflectance == 0).all() || near_.empty()) return directions;
+    const Rgb around = (material_.emittance + material_.reflectance * part.mean).max(options_.dark);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Vec3& v : part.polygon) nearest = std::min(nearest, Nearest(v));
+    const std::size_t n = part.polygon.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec3 edge = part.polygon[(i + 1) % n] - part.polygon[i];
+      const double length = edge.norm();
+      if (length == 0) continue;
+      Direction direction;
+      direction.normal = normal_.cross(edge / length);
+      const bool known = std::any_of(directions.begin(), directions.end(), [&](const Direction& d) {
+        return std::abs(d.normal.dot(direction.normal)) > 1 - 1e-9;
+      });
+      if (known) continue;
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (const Vec3& v : part.polygon) {
+        low = std::min(low, direction.normal.dot(v));
+        high = std::max(high, direction.normal.dot(v));
+      }
+      const double width = high - low, at = direction.normal.dot(part.centre);
+      direction.low = low;
+      direction.high = high;
+      double change = 0;  // of radiosity, relative
+      for (int c = 0; c < 3; ++c)
+        if (material_.reflectance[c] > 0 && around[c] > 0)
+          change = std::max(change, material_.reflectance[c] / around[c] *
+                                        std::abs(part.gradient.row(c).dot(direction.normal)) * width);
+      // How much of the width leads away from what is near.
+      const double below = Nearest(part.centre + (low - at) * direction.normal),
+                   above = Nearest(part.centre + (high - at) * direction.normal);
+      const double away = width > 0 ? std::min(1.0, std::abs(above - below) / width) : 0;
+      const double distance = std::min({nearest, below, above}),
+                   most = kMostBeside + (kMostNear - kMostBeside) * away;
+      const auto error = [&](double parts) {
+        const double piece = width / parts;
+        return kMoment * change / parts * (most * distance > piece ? piece / distance : most);
+      };
+      while (direction.pieces < kMostPieces && error(direction.pieces) > options_.error)
+        direction.pieces *= 2;
+      direction.error = error(kMostPieces);
+      directions.push_back(direction);
+    }
+    return directions;
+  }
+
+  // Cuts the polygons into strips across the direction, as many as the whole extent has pieces.
+  static void Cut(const Direction& direction, int pieces, double snap, std::vector<Polygon3>& polygons) {
+    for (int k = 1; k < pieces; ++k) {
+      const double at = direction.low + (direction.high - direction.low) * k / pieces;
+      std::vector<Polygon3> cut;
+      for (Polygon3& polygon : polygons) {
+        const Vec3 on = polygon[0] + (at - direction.normal.dot(polygon[0])) * direction.normal;
+        Polygon3 above = ClipToHalfSpace(polygon, direction.normal, on, snap);
+        Polygon3 below = ClipToHalfSpace(polygon, -direction.normal, on, snap);
+        if (above.empty() || below.empty()) {
+          cut.push_back(std::move(polygon));
+          continue;
+        }
+        cut.push_back(std::move(below));
+        cut.push_back(std::move(above));
+      }
+      polygons = std::move(cut);
+    }
+  }
+
+  void Add(const Part& part, Polygon3 polygon) {
+    Fragment fragment;
+    fragment.leaf = leaf_;
+    fragment.area = VectorArea(polygon).norm();
+    const Rgb off = (part.gradient * (Centroid(polygon) - part.centre)).array();
+    fragment.irradiance = (part.mean + off).max(0.0);
+    fragment.radiosity = material_.emittance + material_.reflectance * fragment.irradiance;
+    fragment.polygon = std::move(polygon);
+    cells_.pieces.push_back(std::move(fragment));
+  }
+
+  const Scene& scene_;
+  const PointIrradiance& exact_;
+  ElementId leaf_;
+  const Element& element_;
+  const Vec3& normal_;
+  const Material& material_;
+  LeafCellOptions options_;
+  std::vector<Near> near_;
+  LeafCells cells_;
+};
+
+}  // namespace
+
+Rgb MeanReflected(const RadiositySolution& solution) {
+  const Scene& scene = solution.forest.scene();
+  Rgb sum = Rgb::Zero();
+  double area = 0;
+  for (std::size_t p = 0; p < scene.patches.size(); ++p) {
+    const auto patch = static_cast<PatchId>(p);
+    sum += scene.patches[p].area * scene.MaterialOf(patch).reflectance *
+           solution.irradiance[ElementForest::Root(patch)];
+    area += scene.patches[p].area;
+  }
+  return area > 0 ? Rgb(sum / area) : sum;
+}
+
+Rgb LeafCells::Mean() const {
+  Rgb mean = Rgb::Zero();
+  double area = 0;
+  for (const Fragment& piece : pieces) {
+    mean += piece.area * piece.irradiance;
+    area += piece.area;
+  }
+  return area > 0 ? Rgb(mean / area) : mean;
+}
+
+LeafCells CutLeaf(const RadiositySolution& solution, const PointIrradiance& exact, ElementId leaf,
+                  std::vector<Polygon3> start, const LeafCellOptions& options) {
+  return Divider(solution, exact, leaf, options).Divide(std::move(start));
+}
+
+}  // namespace penumbra

@@ -1,0 +1,201 @@
+#include "solver/transport/points/point_irradiance.h"
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "solver/base/check.h"
+#include "solver/transport/links/solution.h"
+#include "solver/transport/points/gathering.h"
+#include "solver/visibility/exact/backprojection.h"
+#include "solver/visibility/point/form_factor.h"
+#include "solver/visibility/point/point_view.h"
+
+namespace penumbra {
+
+namespace {
+
+// With fewer sources than this a search for what hides them costs more than it saves.
+constexpr std::size_t kManySources = 16;
+
+// What may hide many sources at once: the largest patches in view, if they are larger than this [sr].
+constexpr std::size_t kMostScreens = 16;
+constexpr double kLeastScreen = 0.02;
+
+// Where sources would send this many times the light that arrives, were it not for what hides them, errors
+// beside what they would send are too large: a bright source of which a dark corner is seen.
+constexpr double kMostlyHidden = 4;
+
+}  // namespace
+
+PointIrradiance::PointIrradiance(const RadiositySolution& solution, const PatchVisibility& visibility,
+                                 const PointIrradianceOptions& options,
+                                 std::shared_ptr<const LeafVisibility> leaves)
+    : scene_(solution.forest.scene()),
+      visibility_(visibility),
+      forest_(&solution.forest),
+      sources_(SourceSet::FromSolution(solution)),
+      leaves_(leaves ? std::move(leaves) : std::make_shared<LeafVisibility>(solution.forest, visibility)),
+      options_(options) {
+  ChooseMethod();
+  BuildHierarchies();
+}
+
+PointIrradiance::PointIrradiance(const Scene& scene, const PatchVisibility& visibility, SourceSet sources,
+                                 const PointIrradianceOptions& options)
+    : scene_(scene), visibility_(visibility), sources_(std::move(sources)), options_(options) {
+  ChooseMethod();
+  BuildHierarchies();
+}
+
+void PointIrradiance::ChooseMethod() {
+  if (options_.method || options_.min_backprojection_segment <= 0) return;
+  method_ = std::make_shared<const Backprojection>(options_.min_backprojection_segment);
+  options_.method = method_.get();
+}
+
+void PointIrradiance::BuildHierarchies() {
+  std::vector<PatchId> all(scene_.patches.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<PatchId> bright;
+  for (const PatchId p : all)
+    if (!sources_.Tree(p).empty()) bright.push_back(p);
+  patches_ = PatchHierarchy(scene_, std::move(all));
+  screens_ = ScreenFinder(scene_);
+  source_patches_ = PatchHierarchy(scene_, std::move(bright));
+}
+
+ReceiverPoint PointIrradiance::Nudged(const ReceiverPoint& at) const {
+  ReceiverPoint moved = at;
+  if (options_.nudge > 0 && !at.approach.isZero(0)) {
+    moved.position += options_.nudge * at.approach.normalized();
+    moved.approach.setZero();
+  }
+  return moved;
+}
+
+PointIrradiance PointIrradiance::WithSources(SourceSet sources) const {
+  PointIrradiance other(scene_, visibility_, std::move(sources), options_);
+  other.forest_ = forest_;
+  other.leaves_ = leaves_;
+  other.method_ = method_;
+  return other;
+}
+
+// The same as GatherOnPatch(), the sources in the order of about the light that they would give unhindered.
+// The last are left out where all of them together cannot matter.
+void PointIrradiance::GatherBrightestFirst(PatchId patch, const ReceiverPoint& at,
+                                           Gathering& gathering) const {
+  struct Ranked {
+    double light;  // in the brightest channel
+    Rgb rest;      // at most, of this source and of those after it
+    const PatchPair* pair;
+  };
+  thread_local std::vector<Ranked> ranked;
+  ranked.clear();
+  for (const PatchPair& pair : leaves_->SourcesOf(forest_->LeafAt(patch, at.position))) {
+    const std::span<const SourceSet::Node> tree = sources_.Tree(pair.source);
+    if (tree.empty()) continue;
+    const UnhinderedFactor factor = FactorUnhindered(tree[0], pair.source, at);
+    const Rgb& radiosity = tree[0].radiosity;
+    ranked.push_back({radiosity.maxCoeff() * factor.about, radiosity * factor.most, &pair});
+  }
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const Ranked& a, const Ranked& b) { return a.light > b.light; });
+  for (std::size_t i = ranked.size(); i-- > 1;) ranked[i - 1].rest += ranked[i].rest;
+  for (const auto& [light, rest, pair] : ranked) {
+    if (gathering.IsNegligible(rest)) return;
+    gathering.AddSource(pair->source, leaves_->Blockers(*pair), patch);
+  }
+}
+
+PointIrradiance::UnhinderedFactor PointIrradiance::FactorUnhindered(const SourceSet::Node& source,
+                                                                    PatchId patch,
+                                                                    const ReceiverPoint& at) const {
+  const Vec3 to = source.centre - at.position;
+  const double high = std::max(0.0, at.normal.dot(to) + source.radius);
+  const Vec3& normal = scene_.patches[static_cast<std::size_t>(patch)].normal;
+  const double deep = std::max(0.0, source.radius - normal.dot(to));
+  const auto at_distance = [&](double d) {
+    if (d <= 0) return 1.0;
+    return std::min(
+        1.0, source.area * std::min(1.0, high / d) * std::min(1.0, deep / d) / (std::numbers::pi * d * d));
+  };
+  const double distance = to.norm();
+  return {at_distance(std::max(distance, source.radius)), at_distance(distance - source.radius)};
+}
+
+void PointIrradiance::GatherOnPatch(PatchId patch, const ReceiverPoint& at, Gathering& gathering) const {
+  if (forest_ != nullptr) {
+    for (const PatchPair& pair : leaves_->SourcesOf(forest_->LeafAt(patch, at.position)))
+      gathering.AddSource(pair.source, leaves_->Blockers(pair), patch);
+  } else {
+    for (const PatchPair& pair : visibility_.SourcesOf(patch))
+      gathering.AddSource(pair.source, visibility_.Blockers(pair), patch);
+  }
+}
+
+PointIrradianceResult PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given,
+                                               IrradianceParts* parts) const {
+  const ReceiverPoint at = Nudged(given);
+  Gathering gathering(scene_, sources_, at, options_, parts);
+  GatherOnPatch(patch, at, gathering);
+  return {gathering.irradiance(), gathering.one_sided()};
+}
+
+PointIrradianceResult PointIrradiance::NearlyOnPatch(PatchId patch, const ReceiverPoint& given,
+                                                     double tolerance) const {
+  tolerance *= options_.part_of_tolerance;
+  const ReceiverPoint at = Nudged(given);
+  Gathering gathering(scene_, sources_, at, options_, nullptr);
+  if (options_.method != nullptr || forest_ == nullptr) {
+    GatherOnPatch(patch, at, gathering);
+    return {gathering.irradiance(), gathering.one_sided()};
+  }
+  gathering.SeeAsOne(tolerance);
+  GatherBrightestFirst(patch, at, gathering);
+  const Rgb light = gathering.irradiance();
+  if ((gathering.unhindered() <= kMostlyHidden * light).all()) return {light, gathering.one_sided()};
+  Gathering closer(scene_, sources_, at, options_, nullptr);
+  closer.SeeAsOne(tolerance, light);
+  GatherBrightestFirst(patch, at, closer);
+  return {closer.irradiance(), closer.one_sided()};
+}
+
+Rgb PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given, std::span<double> factors) const {
+  PENUMBRA_CHECK(factors.size() == sources_.LeafRadiosities().size());
+  std::fill(factors.begin(), factors.end(), 0.0);
+  const ReceiverPoint at = Nudged(given);
+  Gathering gathering(scene_, sources_, at, options_, nullptr);
+  gathering.RecordFactors(factors);
+  GatherOnPatch(patch, at, gathering);
+  return gathering.irradiance();
+}
+
+double PointIrradiance::Reverberation(PatchId patch, const ReceiverPoint& at) const {
+  PointView view(scene_, at);
+  double returned = 0;
+  for (const PatchPair& pair : visibility_.SourcesOf(patch)) {
+    if (!view.FaceSource(pair.source)) continue;
+    const Patch& wall = scene_.patches[static_cast<std::size_t>(pair.source)];
+    const double factor = FormFactor(view.SeeSource(wall.Vertices()), at.normal);
+    returned = std::max(returned, SentBack(scene_, patch, pair.source, factor));
+  }
+  return 1 / (1 - returned);
+}
+
+PointIrradianceResult PointIrradiance::Anywhere(const ReceiverPoint& given, IrradianceParts* parts) const {
+  const ReceiverPoint at = Nudged(given);
+  Gathering gathering(scene_, sources_, at, options_, parts);
+  thread_local std::vector<PatchId> found;
+  thread_local std::vector<Screen> screens;
+  screens.clear();
+  if (source_patches_.size() > kManySources) screens_.Find({&at, 1}, kLeastScreen, kMostScreens, screens);
+  source_patches_.Find({{at.normal, at.normal.dot(at.position)}}, screens, found);
+  for (const PatchId source : found) gathering.AddSource(source, patches_, screens);
+  return {gathering.irradiance(), gathering.one_sided()};
+}
+
+}  // namespace penumbra

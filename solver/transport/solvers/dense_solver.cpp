@@ -1,0 +1,113 @@
+#include "solver/transport/solvers/dense_solver.h"
+
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "solver/base/check.h"
+
+namespace penumbra {
+namespace {
+
+// A parent's light is the area-weighted mean of its children's; spreads are those of the leaves below.
+void Average(RadiositySolution& solution) {
+  const ElementForest& forest = solution.forest;
+  const std::size_t count = forest.size();
+  solution.radiosity_spread.assign(count, 0);
+  solution.spread_below.assign(count, 0);
+  // Children follow their parents.
+  for (std::size_t e = count; e-- > 0;) {
+    const auto id = static_cast<ElementId>(e);
+    const Element& element = forest[id];
+    if (element.IsLeaf()) continue;
+    Rgb irradiance = Rgb::Zero(), radiosity = Rgb::Zero();
+    double area = 0;
+    for (ElementId child = element.first_child; child < element.first_child + 4; ++child) {
+      irradiance += forest[child].area * solution.irradiance[child];
+      radiosity += forest[child].area * solution.radiosity[child];
+      area += forest[child].area;
+    }
+    solution.irradiance[e] = irradiance / area;
+    solution.radiosity[e] = radiosity / area;
+    double spread = 0, below = 0;
+    for (ElementId child = element.first_child; child < element.first_child + 4; ++child) {
+      const double off = (solution.radiosity[child] - solution.radiosity[e]).abs().maxCoeff();
+      const double own = solution.radiosity_spread[child] * solution.radiosity_spread[child];
+      spread += forest[child].area * (own + off * off);
+      below += forest[child].area * own;
+    }
+    solution.radiosity_spread[e] = std::sqrt(spread / area);
+    solution.spread_below[e] = std::sqrt(below / area);
+  }
+}
+
+}  // namespace
+
+DenseLight SolveDense(const DenseSystem& system) {
+  std::vector<Rgb> emittance, reflectance;
+  for (std::size_t i = 0; i < system.size(); ++i) {
+    const Material& material = system.forest.scene().MaterialOf(system.PatchOf(i));
+    emittance.push_back(material.emittance);
+    reflectance.push_back(material.reflectance);
+  }
+  return SolveDense(system, emittance, reflectance);
+}
+
+DenseLight SolveDense(const DenseSystem& system, std::span<const Rgb> emittance,
+                      std::span<const Rgb> reflectance) {
+  PENUMBRA_CHECK(emittance.size() == system.size() && reflectance.size() == system.size());
+  const auto n = static_cast<Eigen::Index>(system.size());
+  DenseLight light;
+  light.irradiance.assign(system.size(), Rgb::Zero());
+  light.radiosity.assign(system.size(), Rgb::Zero());
+  const auto column = [&](std::span<const Rgb> values, int channel) {
+    Eigen::VectorXd of(n);
+    for (Eigen::Index i = 0; i < n; ++i) of[i] = values[static_cast<std::size_t>(i)][channel];
+    return of;
+  };
+  // Channels of equal reflectances share the factors.
+  Eigen::VectorXd factored;
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors;
+  for (int channel = 0; channel < 3 && n > 0; ++channel) {
+    const Eigen::VectorXd rho = column(reflectance, channel);
+    if (channel == 0 || rho != factored) {
+      Eigen::MatrixXd matrix = -(rho.asDiagonal() * system.transport);
+      matrix.diagonal().array() += 1;
+      factors.compute(std::move(matrix));
+      factored = rho;
+    }
+    const Eigen::VectorXd radiosity = factors.solve(column(emittance, channel));
+    const Eigen::VectorXd irradiance = system.transport * radiosity;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      light.radiosity[static_cast<std::size_t>(i)][channel] = radiosity[i];
+      light.irradiance[static_cast<std::size_t>(i)][channel] = irradiance[i];
+    }
+  }
+  return light;
+}
+
+Rgb DenseIrradiance(const DenseSystem& system, const DenseLight& light, const PatchVisibility& visibility,
+                    PatchId patch, const ReceiverPoint& at) {
+  std::vector<double> row(system.size());
+  AddTransport(system, visibility, patch, at, row);
+  Rgb irradiance = Rgb::Zero();
+  for (std::size_t i = 0; i < row.size(); ++i) irradiance += row[i] * light.radiosity[i];
+  return irradiance;
+}
+
+RadiositySolution ToRadiositySolution(const DenseSystem& system, const DenseLight& light) {
+  RadiositySolution solution;
+  solution.forest = system.forest;
+  solution.irradiance.assign(system.forest.size(), Rgb::Zero());
+  solution.radiosity.assign(system.forest.size(), Rgb::Zero());
+  for (std::size_t i = 0; i < system.size(); ++i) {
+    const ElementId leaf = system.elements[system.element_of_unknown[i]].leaf;
+    const double share = system.Weight(i) / system.forest[leaf].area;
+    solution.irradiance[leaf] += share * light.irradiance[i];
+    solution.radiosity[leaf] += share * light.radiosity[i];
+  }
+  Average(solution);
+  return solution;
+}
+
+}  // namespace penumbra

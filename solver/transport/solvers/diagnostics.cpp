@@ -1,0 +1,198 @@
+#include "solver/transport/solvers/diagnostics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "solver/base/parallel.h"
+#include "solver/scene/tolerances.h"
+#include "solver/transport/points/free_area.h"
+#include "solver/transport/solvers/diffuse_rays.h"
+#include "solver/visibility/point/ray_caster.h"
+
+namespace penumbra {
+namespace {
+
+const Link* FindLink(const std::vector<Link>& links, ElementId receiver, ElementId source) {
+  const auto found = std::lower_bound(links.begin(), links.end(), std::pair(receiver, source),
+                                      [](const Link& link, const std::pair<ElementId, ElementId>& key) {
+                                        return std::pair(link.receiver, link.source) < key;
+                                      });
+  return found != links.end() && found->receiver == receiver && found->source == source ? &*found : nullptr;
+}
+
+}  // namespace
+
+LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution, const ExecutionContext& context) {
+  const Scene& scene = solution.forest.scene();
+  LinkDiagnostics diagnostics;
+  diagnostics.closure.assign(scene.patches.size(), 0);
+  // What a unit of radiosity sends between two patches, the lower number first: one way, and less the other.
+  struct Exchange {
+    PatchId first, second;
+    double difference;
+  };
+  std::vector<Exchange> exchanges;
+  for (const Link& link : solution.links.links) {
+    if (context.Cancelled()) return diagnostics;
+    const Element& receiver = solution.forest[link.receiver];
+    const Element& source = solution.forest[link.source];
+    const double flux = receiver.area * link.form_factor;
+    diagnostics.closure[static_cast<std::size_t>(receiver.patch)] += flux;
+    const bool forth = receiver.patch < source.patch;
+    exchanges.push_back({std::min(receiver.patch, source.patch), std::max(receiver.patch, source.patch),
+                         forth ? flux : -flux});
+    if (!forth) continue;
+    const Link* back = FindLink(solution.links.links, link.source, link.receiver);
+    if (!back) continue;
+    ++diagnostics.link_pairs;
+    diagnostics.link_reciprocity =
+        std::max(diagnostics.link_reciprocity,
+                 std::abs(flux - source.area * back->form_factor) / std::min(receiver.area, source.area));
+  }
+  std::stable_sort(exchanges.begin(), exchanges.end(), [](const Exchange& a, const Exchange& b) {
+    return std::pair(a.first, a.second) < std::pair(b.first, b.second);
+  });
+  for (std::size_t begin = 0, end = 0; begin < exchanges.size(); begin = end) {
+    const Exchange& pair = exchanges[begin];
+    double difference = 0;
+    for (;
+         end < exchanges.size() && exchanges[end].first == pair.first && exchanges[end].second == pair.second;
+         ++end)
+      difference += exchanges[end].difference;
+    ++diagnostics.patch_pairs;
+    diagnostics.patch_reciprocity = std::max(
+        diagnostics.patch_reciprocity,
+        std::abs(difference) / std::min(scene.patches[pair.first].area, scene.patches[pair.second].area));
+  }
+  const std::vector<double> free_area = FreeAreas(scene, context);
+  double flux = 0, area = 0;
+  for (std::size_t p = 0; p < scene.patches.size(); ++p) {
+    diagnostics.covered_area += scene.patches[p].area - free_area[p];
+    if (free_area[p] == 0) continue;
+    flux += diagnostics.closure[p];
+    double& closure = diagnostics.closure[p];
+    closure /= free_area[p];
+    diagnostics.closure_min = area == 0 ? closure : std::min(diagnostics.closure_min, closure);
+    diagnostics.closure_max = std::max(diagnostics.closure_max, closure);
+    area += free_area[p];
+  }
+  if (area > 0) diagnostics.closure_mean = flux / area;
+  return diagnostics;
+}
+
+ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch, std::uint64_t seed,
+                              const ExecutionContext& context) {
+  ViewDiagnostics diagnostics;
+  if (scene.patches.empty() || rays_per_patch == 0 || context.Cancelled()) return diagnostics;
+  const RayCaster caster(scene);
+  const double lift = ContactGap(scene);
+  // Rays that meet nothing, those that meet backs, and those that begin where something lies on the patch.
+  std::vector<std::size_t> away(scene.patches.size()), back(scene.patches.size()),
+      covered(scene.patches.size());
+  ParallelFor(scene.patches.size(), 8, [&](std::size_t p) {
+    const auto id = static_cast<PatchId>(p);
+    const Patch& patch = scene.patches[p];
+    if (context.Cancelled()) return;
+    for (std::size_t i = 0; i < rays_per_patch; ++i) {
+      const DiffuseRay ray =
+          MakeDiffuseRay(patch.Vertices(), patch.normal, lift, p * rays_per_patch + i, seed);
+      const RayCaster::Hit hit = caster.Cast(ray.origin, ray.direction, id);
+      if (hit.patch == kNoPatch) ++away[p];
+      if (hit.patch == kNoPatch || hit.front) continue;
+      const RayCaster::Hit lid = caster.Cast(ray.origin - 3 * lift * patch.normal, patch.normal, id);
+      ++(lid.patch != kNoPatch && lid.distance <= 4 * lift ? covered : back)[p];
+    }
+  });
+  double area = 0;
+  std::map<std::int32_t, bool> blind;  // by face, of those that are free anywhere
+  for (std::size_t p = 0; p < scene.patches.size(); ++p) {
+    area += scene.patches[p].area;
+    diagnostics.escaping += scene.patches[p].area * static_cast<double>(away[p]);
+    // What something lies on sees nothing; a face is reversed as a whole.
+    if (covered[p] == rays_per_patch) continue;
+    for (const std::int32_t face : scene.patches[p].faces) {
+      const auto [at, is_new] = blind.emplace(face, true);
+      at->second = at->second && back[p] + covered[p] == rays_per_patch;
+    }
+  }
+  diagnostics.rays = scene.patches.size() * rays_per_patch;
+  diagnostics.escaping /= area * static_cast<double>(rays_per_patch);
+  for (const auto& [face, sees_backs] : blind)
+    if (sees_backs) diagnostics.reversed_faces.push_back(face);
+  return diagnostics;
+}
+
+std::vector<std::int32_t> DarkEmitters(const Scene& scene, std::size_t rays_per_patch, std::uint64_t seed) {
+  const auto emits = [&](std::size_t p) {
+    return (scene.MaterialOf(static_cast<PatchId>(p)).emittance > 0).any();
+  };
+  std::vector<char> lights(scene.patches.size(), 0);
+  if (scene.patches.empty()) return {};
+  const RayCaster caster(scene);
+  ParallelFor(scene.patches.size(), 8, [&](std::size_t p) {
+    const Patch& patch = scene.patches[p];
+    for (std::size_t i = 0; emits(p) && i < rays_per_patch && !lights[p]; ++i) {
+      // Not lifted: what is next to nothing before it may be what hides it.
+      const DiffuseRay ray = MakeDiffuseRay(patch.Vertices(), patch.normal, 0, p * rays_per_patch + i, seed);
+      const RayCaster::Hit hit = caster.Cast(ray.origin, ray.direction, static_cast<PatchId>(p));
+      lights[p] = hit.patch != kNoPatch && hit.front;
+    }
+  });
+  // A face lights something if any of its patches does.
+  std::vector<char> dark(scene.faces.size(), 0);
+  for (const bool light : {false, true})
+    for (std::size_t p = 0; p < scene.patches.size(); ++p)
+      if (emits(p) && (lights[p] != 0) == light)
+        for (const std::int32_t face : scene.patches[p].faces) dark[static_cast<std::size_t>(face)] = !light;
+  std::vector<std::int32_t> faces;
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(dark.size()); ++f)
+    if (dark[static_cast<std::size_t>(f)]) faces.push_back(f);
+  return faces;
+}
+
+LitSides FindLitSides(const Scene& scene, std::size_t rays_per_patch, std::uint64_t seed) {
+  // Lamps that are small are found from what they light by luck alone, and skies from their own side.
+  constexpr std::size_t kRaysOfEmitter = 1024;
+  const RayCaster caster(scene);
+  const double lift = ContactGap(scene);
+  const auto emits = [&](PatchId p) { return (scene.MaterialOf(p).emittance > 0).any(); };
+  struct Seen {
+    bool front = false, back = false;  // whether an emitter sees it
+    std::vector<RayCaster::Hit> lit;   // by it
+  };
+  std::vector<Seen> seen(scene.patches.size());
+  ParallelFor(seen.size(), 8, [&](std::size_t p) {
+    const auto id = static_cast<PatchId>(p);
+    const Patch& patch = scene.patches[p];
+    const auto cast = [&](const Vec3& normal, std::size_t i) {
+      const DiffuseRay ray = MakeDiffuseRay(patch.Vertices(), normal, lift, i, seed);
+      return caster.Cast(ray.origin, ray.direction, id);
+    };
+    for (std::size_t i = 0; i < rays_per_patch; ++i)
+      for (const bool front : {true, false}) {
+        const RayCaster::Hit hit = cast(front ? patch.normal : Vec3(-patch.normal), p * rays_per_patch + i);
+        if (hit.patch != kNoPatch && hit.front && emits(hit.patch))
+          (front ? seen[p].front : seen[p].back) = true;
+      }
+    for (std::size_t i = 0; i < kRaysOfEmitter && emits(id); ++i)
+      if (const RayCaster::Hit hit = cast(patch.normal, i); hit.patch != kNoPatch) seen[p].lit.push_back(hit);
+  });
+  for (std::size_t p = 0; p < seen.size(); ++p)
+    for (const RayCaster::Hit& hit : seen[p].lit) {
+      Seen& at = seen[static_cast<std::size_t>(hit.patch)];
+      (hit.front ? at.front : at.back) = true;
+    }
+  LitSides sides;
+  for (std::size_t p = 0; p < seen.size(); ++p) {
+    if ((scene.MaterialOf(static_cast<PatchId>(p)).reflectance <= 0).all()) continue;
+    if (seen[p].front)
+      sides.front += scene.patches[p].area;
+    else if (seen[p].back)
+      sides.back += scene.patches[p].area;
+  }
+  return sides;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,73 @@
+#include "solver/transport/sources/leaf_fragments.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "solver/base/parallel.h"
+#include "solver/geometry/segment_clip.h"
+#include "solver/scene/contacts.h"
+#include "solver/scene/tolerances.h"
+
+namespace penumbra {
+namespace {
+
+// A cut that leaves less than this share of the leaf on one side is not made: it brings nothing but slivers.
+constexpr double kLeastShare = 1e-6;
+
+// Cuts those pieces that the contact itself crosses along its line.
+void CutAll(const Contact& contact, const Vec3& normal, double snap, double least_area,
+            std::vector<Polygon3>& pieces) {
+  const Vec3 side = normal.cross(contact.b - contact.a).normalized();
+  const std::size_t count = pieces.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto inside = ClipToPolygon(contact.a, contact.b, pieces[i], normal, 0);
+    if (!inside || ((*inside)[1] - (*inside)[0]).norm() <= snap) continue;
+    Polygon3 left = ClipToHalfSpace(pieces[i], side, contact.a, snap);
+    Polygon3 right = ClipToHalfSpace(pieces[i], -side, contact.a, snap);
+    if (VectorArea(left).norm() < least_area || VectorArea(right).norm() < least_area) continue;
+    pieces[i] = std::move(left);
+    pieces.push_back(std::move(right));
+  }
+}
+
+std::vector<Fragment> CutLeavesOf(const ElementForest& forest, const ContactSearch& search, PatchId id) {
+  std::vector<Fragment> fragments;
+  const Patch& patch = forest.scene().patches[id];
+  const std::vector<Contact> contacts = search.Find(id);
+  if (contacts.empty()) return fragments;
+  const double snap = SnapDistance(patch);
+  for (const ElementId leaf : forest.Leaves(id)) {
+    const Element& element = forest[leaf];
+    std::vector<Polygon3> pieces = {Polygon3(element.Vertices().begin(), element.Vertices().end())};
+    for (const Contact& contact : contacts)
+      CutAll(contact, patch.normal, snap, kLeastShare * element.area, pieces);
+    if (pieces.size() == 1) continue;
+    for (Polygon3& piece : pieces) {
+      Fragment fragment;
+      fragment.leaf = leaf;
+      fragment.area = VectorArea(piece).norm();
+      fragment.polygon = std::move(piece);
+      fragments.push_back(std::move(fragment));
+    }
+  }
+  return fragments;
+}
+
+}  // namespace
+
+std::vector<Fragment> CutLeavesAtContacts(const ElementForest& forest, const ExecutionContext& context) {
+  std::vector<std::vector<Fragment>> by_patch(forest.scene().patches.size());
+  if (context.Cancelled()) return {};
+  const ContactSearch search(forest.scene());
+  ParallelFor(by_patch.size(), 1, [&](std::size_t p) {
+    if (!context.Cancelled()) by_patch[p] = CutLeavesOf(forest, search, static_cast<PatchId>(p));
+  });
+  std::vector<Fragment> fragments;
+  for (std::vector<Fragment>& own : by_patch)
+    std::move(own.begin(), own.end(), std::back_inserter(fragments));
+  std::stable_sort(fragments.begin(), fragments.end(),
+                   [](const Fragment& a, const Fragment& b) { return a.leaf < b.leaf; });
+  return fragments;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,46 @@
+// solver/visibility/area/kronrod_rule.h
+//
+// Gauss's rules for integrals and Kronrod's extensions of them (Kronrod 1965; the numbers are QUADPACK's,
+// Piessens et al. 1983): the two values that they give from the same points differ by more than what the
+// better one is off, where the integrand is smooth.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace penumbra {
+
+// Nodes and weights on [0, 1]. Gauss's nodes are those of odd index; elsewhere his weights are 0.
+template <std::size_t N>
+struct KronrodRule {
+  std::array<double, N> node, kronrod, gauss;
+};
+
+// From the nodes in [0, 1) of the interval [-1, 1], the largest first, with the weights; 0 in the middle.
+template <std::size_t N>
+constexpr KronrodRule<N> MakeKronrodRule(const std::array<double, (N + 1) / 2>& node,
+                                         const std::array<double, (N + 1) / 2>& kronrod,
+                                         const std::array<double, (N + 1) / 2>& gauss) {
+  KronrodRule<N> rule{};
+  for (std::size_t i = 0; i < (N + 1) / 2; ++i) {
+    rule.node[i] = 0.5 - 0.5 * node[i];
+    rule.node[N - 1 - i] = 0.5 + 0.5 * node[i];
+    rule.kronrod[i] = rule.kronrod[N - 1 - i] = 0.5 * kronrod[i];
+    rule.gauss[i] = rule.gauss[N - 1 - i] = 0.5 * gauss[i];
+  }
+  return rule;
+}
+
+inline constexpr KronrodRule<7> kSeven =
+    MakeKronrodRule<7>({0.96049126870802028, 0.77459666924148338, 0.43424374934680256, 0},
+                       {0.10465622602646727, 0.26848808986833344, 0.40139741477596222, 0.45091653865847414},
+                       {0, 0.55555555555555556, 0, 0.88888888888888889});
+inline constexpr KronrodRule<15> kFifteen = MakeKronrodRule<15>(
+    {0.99145537112081264, 0.94910791234275852, 0.86486442335976907, 0.74153118559939444, 0.58608723546769113,
+     0.40584515137739717, 0.20778495500789847, 0},
+    {0.022935322010529225, 0.063092092629978553, 0.10479001032225018, 0.14065325971552592,
+     0.16900472663926790, 0.19035057806478541, 0.20443294007529889, 0.20948214108472783},
+    {0, 0.12948496616886969, 0, 0.27970539148927667, 0, 0.38183005050511894, 0, 0.41795918367346939});
+
+}  // namespace penumbra

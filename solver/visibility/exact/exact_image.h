@@ -1,0 +1,605 @@
+// solver/visibility/exact/exact_image.h
+//
+// What a point sees of a source and its occluders as a plane figure in exact numbers: the common ground of
+// backprojection and vertex tracing. Every coincidence of the doubles that come in (shared corners and
+// edges, three edges through a point) is an exact equality here, and what nearly coincides is an exact
+// sliver. There is no tolerance.
+//
+// A template over CGAL's kernel, so that only sources include CGAL.
+
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "solver/base/check.h"
+#include "solver/visibility/point/direction_polygon.h"
+
+namespace penumbra {
+
+// The image point of direction d is (d_i / (axis . d) - origin.x, d_j / (axis . d) - origin.y). The map keeps
+// orientation: what runs counter-clockwise about its inside as a DirectionPolygon does so in the image.
+struct ImagePlane {
+  Vec3 axis = Vec3::UnitZ();
+  int i = 0, j = 1, k = 2;
+  Vec2 origin = Vec2::Zero();
+
+  // The plane axis . p = 1, with the two coordinates most perpendicular to the axis.
+  explicit ImagePlane(const Vec3& along) : axis(along) {
+    axis.cwiseAbs().maxCoeff(&k);
+    i = (k + 1) % 3;
+    j = (k + 2) % 3;
+    if (axis[k] < 0) std::swap(i, j);
+  }
+
+  Vec3 Base() const {
+    Vec3 base;
+    base[i] = origin.x();
+    base[j] = origin.y();
+    base[k] = (1 - axis[i] * origin.x() - axis[j] * origin.y()) / axis[k];
+    return base;
+  }
+  // An image vector as a vector of the plane. Base() + Lift(p) is the direction of image point p.
+  Vec3 Lift(const Vec2& vector) const {
+    Vec3 lifted;
+    lifted[i] = vector.x();
+    lifted[j] = vector.y();
+    lifted[k] = -(axis[i] * vector.x() + axis[j] * vector.y()) / axis[k];
+    return lifted;
+  }
+};
+
+// A box of doubles that holds an exact point or figure.
+struct ImageBox {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
+  Vec2 high = Vec2::Constant(-std::numeric_limits<double>::infinity());
+
+  bool Meets(const ImageBox& other) const {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
+};
+
+// What an edge belongs to, if not to the occluder with that number.
+inline constexpr std::int32_t kSourceOutline = -1;
+inline constexpr std::int32_t kDiagonal = -2;  // between two parts of one occluder
+
+template <class Kernel>
+class ExactImage {
+ public:
+  using Number = typename Kernel::FT;
+  using Point = typename Kernel::Point_2;
+  using Line = typename Kernel::Line_2;
+
+  // A direction as image point (x / w, y / w); behind the image plane w is negative.
+  struct Homogeneous {
+    Number x, y, w;
+    bool diagonal = false;  // of a corner: the edge that begins here is not the outline's own
+  };
+
+  // An edge of the source's or of an occluder's outline.
+  struct Edge {
+    Line line;                              // what the outline bounds lies on its positive side
+    std::int32_t outline = kSourceOutline;  // or kDiagonal or the occluder's number
+    bool seen = false;                      // a part of it lies in the source
+    std::size_t from = 0, to = 0;           // that part, as points of this image
+  };
+
+  // A convex region bounded by the lines of edges[first ... last - 1].
+  struct Outline {
+    std::int32_t first = 0, last = 0;
+    ImageBox box;
+  };
+
+  // Where corners and edges are in one place.
+  struct Place {
+    Point point;
+    ImageBox box;
+    Vec2 offset = Vec2::Zero();  // the point in doubles
+  };
+
+  // Of the part of the source with these vertices, all of which lie before the plane's axis. Segments of the
+  // occluders' outlines shorter than min_segment times the diameter of the source are collapsed.
+  ExactImage(const ImagePlane& plane, std::span<const std::array<Number, 3>> source,
+             std::span<const Occluder> occluders, double min_segment)
+      : plane_(plane) {
+    if (!ImageSource(source)) return;
+    for (std::size_t o = 0; o < occluders.size(); ++o)
+      ImageOccluder(*occluders[o].cone, static_cast<std::int32_t>(o), min_segment);
+    FindPlaces();
+  }
+
+  // Calls body(image) for images of parts of the source that together show all of it. A hemisphere may need
+  // four.
+  template <class Body>
+  static void ForEachPart(const DirectionPolygon& source, std::span<const Occluder> occluders,
+                          const Vec3& normal, double min_segment, const Body& body);
+
+  static constexpr double kNormalError = 5e-16;
+
+  bool empty() const { return source_.last == 0; }
+  const ImagePlane& plane() const { return plane_; }
+  // Source first, then the occluders that the source's edges do not part from it.
+  const Outline& source() const { return source_; }
+  const std::vector<Outline>& occluders() const { return occluders_; }
+  const std::vector<Edge>& edges() const { return edges_; }
+  // The normal of the plane through the viewpoint that is seen as the line; it points to the positive side.
+  // Each coordinate is off by kNormalError at most, relative to the sum of those of the line.
+  Vec3 NormalOf(const Line& line) const {
+    const Number a = line.a(), b = line.b(), c = line.c() - a * plane_.origin.x() - b * plane_.origin.y();
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    const double accuracy = kNormalError * (std::abs(ToDouble(a, kAny)) + std::abs(ToDouble(b, kAny)) +
+                                            std::abs(ToDouble(c, kAny)));
+    Vec3 normal = ToDouble(c, accuracy) * plane_.axis;
+    normal[plane_.i] = ToDouble(a + c * plane_.axis[plane_.i], accuracy);
+    normal[plane_.j] = ToDouble(b + c * plane_.axis[plane_.j], accuracy);
+    return normal;
+  }
+  // Corners of the source, corners of occluders inside it and crossings of edges; lexicographically
+  // ascending, so that their numbers ascend or descend along any line.
+  const std::vector<Place>& places() const { return places_; }
+  // The places on what is seen of an edge, ascending.
+  const std::vector<std::int32_t>& PlacesOn(std::int32_t edge) const {
+    return on_edge_[static_cast<std::size_t>(edge)];
+  }
+
+  // How far the offset of a place may be off, in each coordinate.
+  double offset_error() const { return kOffsetAccuracy * diameter_; }
+
+  // On which side of an edge's line a place lies: 1 on that of its outline, 0 on it.
+  int SideOf(std::int32_t edge, std::int32_t place) const {
+    const std::vector<std::int32_t>& on = PlacesOn(edge);
+    if (std::binary_search(on.begin(), on.end(), place)) return 0;
+    return edges_[static_cast<std::size_t>(edge)].line.oriented_side(
+        places_[static_cast<std::size_t>(place)].point);
+  }
+
+  // A number in doubles: off by less than `accuracy` or than its last digits.
+  static double ToDouble(const Number& number, double accuracy) {
+    auto [low, high] = to_interval(number);
+    if (high - low > std::max(2 * accuracy, kLastDigits * std::abs(low + high))) {
+      number.exact();
+      std::tie(low, high) = to_interval(number);
+    }
+    return 0.5 * (low + high);
+  }
+
+ private:
+  static constexpr double kLastDigits = 2 * std::numeric_limits<double>::epsilon();
+
+  static constexpr std::size_t kNoPoint = std::numeric_limits<std::size_t>::max();
+
+  // Offsets of places are off by less than this, relative to the diameter of the source. Their intervals
+  // usually are as narrow; where not, exact numbers are called for.
+  static constexpr double kOffsetAccuracy = 2e-15;
+
+  // Below this diameter of the source, in the image, intervals about the lines are narrowed first: crossings
+  // computed from them then keep their digits without exact numbers.
+  static constexpr double kSmallSource = 0.03;
+
+  static Homogeneous Cross(const Homogeneous& a, const Homogeneous& b) {
+    return {a.y * b.w - a.w * b.y, a.w * b.x - a.x * b.w, a.x * b.y - a.y * b.x};
+  }
+  static Number Dot(const Homogeneous& a, const Homogeneous& b) { return a.x * b.x + a.y * b.y + a.w * b.w; }
+
+  Line LineThrough(const Homogeneous& a, const Homogeneous& b) const {
+    const Homogeneous c = Cross(a, b);
+    if (diameter_ < kSmallSource) c.x.exact(), c.y.exact(), c.w.exact();
+    return Line(c.x, c.y, c.w);
+  }
+  static Number Height(const Line& line, const Homogeneous& h) {
+    return line.a() * h.x + line.b() * h.y + line.c() * h.w;
+  }
+
+  Homogeneous ToImage(const Number& di, const Number& dj, const Number& dk) const {
+    Number w = dk * plane_.axis[plane_.k];
+    if (plane_.axis[plane_.i] != 0) w += di * plane_.axis[plane_.i];
+    if (plane_.axis[plane_.j] != 0) w += dj * plane_.axis[plane_.j];
+    return {di - w * plane_.origin.x(), dj - w * plane_.origin.y(), w};
+  }
+  Homogeneous ToImage(const Vec3& d) const { return ToImage(d[plane_.i], d[plane_.j], d[plane_.k]); }
+
+  static ImageBox BoxOf(const Point& point) {
+    const auto box = point.bbox();
+    return {{box.xmin(), box.ymin()}, {box.xmax(), box.ymax()}};
+  }
+  static ImageBox Join(const ImageBox& a, const ImageBox& b) {
+    return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
+  }
+
+  std::size_t AddPoint(const Point& point) {
+    if (diameter_ < kSmallSource) point.exact();
+    point_.push_back(point);
+    return point_.size() - 1;
+  }
+
+  static Point Crossing(const Line& a, const Line& b) {
+    const auto meeting = intersection(a, b);
+    PENUMBRA_CHECK(meeting);
+    const Point* point = get<Point>(&*meeting);
+    PENUMBRA_CHECK(point);
+    return *point;
+  }
+
+  // The convex hull, which differs from the polygon by the roundings of its vertices only: false if it has no
+  // inside.
+  bool ImageSource(std::span<const std::array<Number, 3>> source);
+  void ImageOccluder(const Cone& cone, std::int32_t number, double min_segment);
+  void AddOccluder(std::span<const Homogeneous> outline, std::int32_t number);
+  void CollapseShort(double length, std::vector<Homogeneous>& outline) const;
+  void ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge, std::size_t& point_a,
+                    std::size_t& point_b);
+
+  // That a point lies on an edge.
+  struct Incidence {
+    std::size_t point;
+    std::int32_t edge;
+  };
+  void Meet(std::int32_t a, std::int32_t b);
+  void FindPlaces();
+
+  ImagePlane plane_;
+  double diameter_ = 0;
+  std::vector<Point> point_;  // ends and crossings of edges, some in the same place
+  std::vector<Incidence> incidence_;
+  Outline source_;
+  std::vector<Outline> occluders_;
+  std::vector<Edge> edges_;
+  std::vector<Place> places_;
+  std::vector<std::vector<std::int32_t>> on_edge_;
+};
+
+template <class Kernel>
+bool ExactImage<Kernel>::ImageSource(std::span<const std::array<Number, 3>> source) {
+  const auto coordinate = [&](const std::array<Number, 3>& d, int i) {
+    return d[static_cast<std::size_t>(i)];
+  };
+  const auto image = [&](const std::array<Number, 3>& d) {
+    return ToImage(coordinate(d, plane_.i), coordinate(d, plane_.j), coordinate(d, plane_.k));
+  };
+  // The origin is the first vertex, nearly, so that a tiny far source keeps its digits.
+  const Homogeneous first = image(source[0]);
+  plane_.origin = {ToDouble(first.x / first.w, 1), ToDouble(first.y / first.w, 1)};
+
+  std::vector<Point> points;
+  for (const std::array<Number, 3>& d : source) {
+    const Homogeneous h = image(d);
+    points.emplace_back(h.x / h.w, h.y / h.w);
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  for (const Point& p : points)
+    diameter_ = std::max({diameter_, std::abs(p.bbox().xmax()), std::abs(p.bbox().xmin()),
+                          std::abs(p.bbox().ymax()), std::abs(p.bbox().ymin())});
+  if (points.size() < 3) return false;
+
+  // Lower hull, then upper hull.
+  std::vector<Point> hull;
+  const auto extend = [&](const Point& p, std::size_t least) {
+    while (hull.size() > least && !left_turn(hull[hull.size() - 2], hull.back(), p)) hull.pop_back();
+    hull.push_back(p);
+  };
+  for (const Point& p : points) extend(p, 1);
+  const std::size_t lower = hull.size();
+  for (std::size_t k = points.size() - 1; k-- > 0;) extend(points[k], lower);
+  hull.pop_back();
+  if (hull.size() < 3) return false;
+
+  for (const Point& p : hull) AddPoint(p);
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    Edge& edge = edges_.emplace_back();
+    edge.from = k;
+    edge.to = k + 1 == hull.size() ? 0 : k + 1;
+    edge.line = Line(hull[edge.from], hull[edge.to]);
+    if (diameter_ < kSmallSource) edge.line.exact();
+    edge.seen = true;
+    source_.box = Join(source_.box, BoxOf(hull[k]));
+  }
+  source_.last = static_cast<std::int32_t>(edges_.size());
+  return true;
+}
+
+// Both ends of a short edge become its middle: the outline stays convex.
+template <class Kernel>
+void ExactImage<Kernel>::CollapseShort(double length, std::vector<Homogeneous>& outline) const {
+  const auto at = [&](const Homogeneous& h) {
+    return Vec2(ToDouble(h.x / h.w, 1e-16), ToDouble(h.y / h.w, 1e-16));
+  };
+  for (std::size_t k = 0; k < outline.size() && outline.size() >= 3;) {
+    const std::size_t next = k + 1 == outline.size() ? 0 : k + 1;
+    const Homogeneous &a = outline[k], &b = outline[next];
+    if (a.w > 0 && b.w > 0 && plane_.Lift(at(a) - at(b)).norm() < length) {
+      outline[k] = {a.x * b.w + b.x * a.w, a.y * b.w + b.y * a.w, 2 * a.w * b.w};
+      outline.erase(outline.begin() + static_cast<std::ptrdiff_t>(next));
+      if (next < k) --k;
+    } else {
+      ++k;
+    }
+  }
+}
+
+template <class Kernel>
+void ExactImage<Kernel>::ImageOccluder(const Cone& cone, std::int32_t number, double min_segment) {
+  std::vector<Homogeneous> outline;
+  std::vector<Vec3> direction(cone.direction.begin(), cone.direction.begin() + cone.size);
+  for (const Vec3& d : direction) outline.push_back(ToImage(d));
+
+  // A corner that roundings turned inwards goes, or the plane of a short edge could cut the cone in two. Of
+  // long edges the planes are safe.
+  for (std::size_t k = 0; k < outline.size() && outline.size() >= 3;) {
+    const std::size_t n = outline.size(), before = (k + n - 1) % n, after = (k + 1) % n;
+    if (direction[before].dot(direction[after]) > 0 &&
+        Dot(Cross(outline[before], outline[k]), outline[after]) < 0) {
+      outline.erase(outline.begin() + static_cast<std::ptrdiff_t>(k));
+      direction.erase(direction.begin() + static_cast<std::ptrdiff_t>(k));
+      k = k >= 2 ? k - 2 : 0;
+    } else {
+      ++k;
+    }
+  }
+  if (min_segment > 0) {
+    double longest = 0;
+    for (const Point& p : point_)
+      for (const Point& q : point_)
+        longest = std::max(
+            longest, plane_.Lift({ToDouble(p.x() - q.x(), 1e-16), ToDouble(p.y() - q.y(), 1e-16)}).norm());
+    CollapseShort(min_segment * longest, outline);
+  }
+  AddOccluder(outline, number);
+}
+
+template <class Kernel>
+void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::int32_t number) {
+  const std::size_t n = outline.size();
+  if (n < 3 || (n == 3 && Dot(Cross(outline[0], outline[1]), outline[2]) <= 0)) return;
+  // Three directions of nearly a half circle, one of them turned inwards by roundings: two convex halves.
+  for (std::size_t k = 0; k < n && n > 3; ++k) {
+    const std::size_t before = (k + n - 1) % n, after = (k + 1) % n;
+    if (Dot(Cross(outline[before], outline[k]), outline[after]) >= 0) continue;
+    std::vector<Homogeneous> half;
+    const std::size_t across = n / 2;
+    for (std::size_t m = 0; m <= across; ++m) half.push_back(outline[(k + m) % n]);
+    half.back().diagonal = true;
+    AddOccluder(half, number);
+    half.clear();
+    for (std::size_t m = across; m <= n; ++m) half.push_back(outline[(k + m) % n]);
+    half.back().diagonal = true;
+    AddOccluder(half, number);
+    return;
+  }
+
+  // Whether an edge of the source parts it from the occluder.
+  for (std::int32_t s = source_.first; s < source_.last; ++s) {
+    const Line& line = edges_[static_cast<std::size_t>(s)].line;
+    if (std::none_of(outline.begin(), outline.end(),
+                     [&](const Homogeneous& h) { return Height(line, h) > 0; }))
+      return;
+  }
+
+  Outline& region = occluders_.emplace_back();
+  region.first = static_cast<std::int32_t>(edges_.size());
+  std::vector<std::size_t> corner_point(n, kNoPoint);
+  bool before = true;
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Homogeneous &a = outline[k], &b = outline[k + 1 == outline.size() ? 0 : k + 1];
+    Edge edge;
+    edge.outline = a.diagonal ? kDiagonal : number;
+    edge.line = LineThrough(a, b);
+    if (!edge.line.is_degenerate()) {
+      edges_.push_back(edge);
+      ClipToSource(a, b, edges_.back(), corner_point[k], corner_point[k + 1 == n ? 0 : k + 1]);
+    }
+    before = before && a.w > 0;
+    if (before) region.box = Join(region.box, BoxOf(Point(a.x / a.w, a.y / a.w)));
+  }
+  region.last = static_cast<std::int32_t>(edges_.size());
+  if (!before) region.box = source_.box;
+}
+
+// The part of the last edge, which runs from a to b, that lies in the source. The corners' points, once
+// found, are shared by neighbouring edges.
+template <class Kernel>
+void ExactImage<Kernel>::ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge,
+                                      std::size_t& point_a, std::size_t& point_b) {
+  struct End {
+    Homogeneous at;
+    std::int32_t cut = -1;         // by this edge of the source
+    std::vector<std::int32_t> on;  // lies on these edges of the source
+  };
+  End from, to;
+  from.at = a;
+  to.at = b;
+  std::int32_t along = -1;
+  for (std::int32_t s = source_.first; s < source_.last; ++s) {
+    const Line& line = edges_[static_cast<std::size_t>(s)].line;
+    const Number hf = Height(line, from.at), ht = Height(line, to.at);
+    if (hf <= 0 && ht <= 0) {
+      if (hf < 0 || ht < 0) return;
+      along = s;
+      continue;
+    }
+    if (hf == 0) from.on.push_back(s);
+    if (ht == 0) to.on.push_back(s);
+    if (hf >= 0 && ht >= 0) continue;
+    const Number wf = hf < 0 ? ht : -ht, wt = hf < 0 ? -hf : hf;
+    End& cut = hf < 0 ? from : to;
+    cut.at = {wf * from.at.x + wt * to.at.x, wf * from.at.y + wt * to.at.y, wf * from.at.w + wt * to.at.w};
+    cut.cut = s;
+    cut.on.assign(1, s);
+  }
+  const auto number = static_cast<std::int32_t>(edges_.size()) - 1;
+  const auto add = [&](const End& end, std::size_t& corner) {
+    if (end.cut < 0 && corner != kNoPoint) return corner;
+    const std::size_t point =
+        AddPoint(end.cut < 0 ? Point(end.at.x / end.at.w, end.at.y / end.at.w)
+                             : Crossing(edge.line, edges_[static_cast<std::size_t>(end.cut)].line));
+    if (end.cut < 0) corner = point;
+    for (const std::int32_t s : end.on) incidence_.push_back({point, s});
+    return point;
+  };
+  edge.from = add(from, point_a);
+  edge.to = add(to, point_b);
+  // Only a corner of the source may be touched at both ends.
+  edge.seen = from.on.empty() || to.on.empty() || point_[edge.from] != point_[edge.to];
+  if (along >= 0) Meet(number, along);
+}
+
+// Finds the points that what is seen of two edges has in common, but for ends of both.
+template <class Kernel>
+void ExactImage<Kernel>::Meet(std::int32_t ia, std::int32_t ib) {
+  const Edge &a = edges_[static_cast<std::size_t>(ia)], &b = edges_[static_cast<std::size_t>(ib)];
+  const auto side = [&](const Edge& e, std::size_t p) { return e.line.oriented_side(point_[p]); };
+  const auto sa = side(a, b.from), ta = side(a, b.to);
+  if (sa == ta && sa != 0) return;
+  const auto sb = side(b, a.from), tb = side(b, a.to);
+  if (sb == tb && sb != 0) return;
+  const auto add_between = [&](std::size_t p, const Edge& e, std::int32_t edge) {
+    const Point &at = point_[p], &from = point_[e.from], &to = point_[e.to];
+    if ((from < at && at < to) || (to < at && at < from)) incidence_.push_back({p, edge});
+  };
+  if (sa == 0) add_between(b.from, a, ia);
+  if (ta == 0) add_between(b.to, a, ia);
+  if (sb == 0) add_between(a.from, b, ib);
+  if (tb == 0) add_between(a.to, b, ib);
+  if (sa == 0 || ta == 0 || sb == 0 || tb == 0) return;
+  point_.push_back(Crossing(a.line, b.line));
+  incidence_.push_back({point_.size() - 1, ia});
+  incidence_.push_back({point_.size() - 1, ib});
+}
+
+template <class Kernel>
+void ExactImage<Kernel>::FindPlaces() {
+  struct Box {
+    ImageBox box;
+    std::int32_t edge, outline;
+  };
+  std::vector<Box> boxes;
+  for (std::int32_t e = 0; e < source_.last; ++e) {
+    incidence_.push_back({edges_[static_cast<std::size_t>(e)].from, e});
+    incidence_.push_back({edges_[static_cast<std::size_t>(e)].to, e});
+  }
+  for (std::size_t o = 0; o < occluders_.size(); ++o)
+    for (std::int32_t e = occluders_[o].first; e < occluders_[o].last; ++e) {
+      const Edge& edge = edges_[static_cast<std::size_t>(e)];
+      if (!edge.seen) continue;
+      incidence_.push_back({edge.from, e});
+      incidence_.push_back({edge.to, e});
+      boxes.push_back(
+          {Join(BoxOf(point_[edge.from]), BoxOf(point_[edge.to])), e, static_cast<std::int32_t>(o)});
+    }
+  // Candidates by a sweep over the boxes, which are rounded outwards. An outline does not cross itself, and
+  // where it meets the source is known.
+  std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) {
+    return a.box.low.x() != b.box.low.x() ? a.box.low.x() < b.box.low.x() : a.edge < b.edge;
+  });
+  for (std::size_t k = 0; k < boxes.size(); ++k)
+    for (std::size_t m = k + 1; m < boxes.size() && boxes[m].box.low.x() <= boxes[k].box.high.x(); ++m)
+      if (boxes[k].outline != boxes[m].outline && boxes[k].box.Meets(boxes[m].box))
+        Meet(boxes[k].edge, boxes[m].edge);
+
+  std::vector<std::size_t> order;
+  std::vector<bool> used(point_.size(), false);
+  for (const Incidence& i : incidence_) {
+    if (!used[i.point]) order.push_back(i.point);
+    used[i.point] = true;
+  }
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return a != b && point_[a] < point_[b]; });
+  std::vector<std::int32_t> place_of(point_.size(), -1);
+  for (const std::size_t k : order) {
+    const Point& point = point_[k];
+    if (places_.empty() || places_.back().point != point) {
+      Place& place = places_.emplace_back();
+      place.point = point;
+      place.offset = {ToDouble(point.x(), offset_error()), ToDouble(point.y(), offset_error())};
+      place.box = BoxOf(point);
+    }
+    place_of[k] = static_cast<std::int32_t>(places_.size()) - 1;
+  }
+  on_edge_.resize(edges_.size());
+  for (const Incidence& i : incidence_)
+    on_edge_[static_cast<std::size_t>(i.edge)].push_back(place_of[i.point]);
+  for (std::vector<std::int32_t>& on : on_edge_) {
+    std::sort(on.begin(), on.end());
+    on.erase(std::unique(on.begin(), on.end()), on.end());
+  }
+}
+
+template <class Kernel>
+template <class Body>
+void ExactImage<Kernel>::ForEachPart(const DirectionPolygon& source, std::span<const Occluder> occluders,
+                                     const Vec3& normal, double min_segment, const Body& body) {
+  if (source.size() < 3) return;
+  using Polygon = std::vector<std::array<Number, 3>>;
+  Polygon whole;
+  for (int v = 0; v < source.size(); ++v)
+    whole.push_back({Number(source[v].x()), Number(source[v].y()), Number(source[v].z())});
+
+  // The least cosine to the axis that a direction may have, to keep the image within reason.
+  constexpr double kLeastCosine = 0.2;
+  Vec3 best = Vec3::Zero();
+  double best_cosine = kLeastCosine;
+  for (int k = 0; k < 6; ++k) {
+    const Vec3 axis = k < 3 ? Vec3::Unit(k) : Vec3(-Vec3::Unit(k - 3));
+    double least = 1;
+    for (int v = 0; v < source.size(); ++v) least = std::min(least, axis.dot(source[v]) / source[v].norm());
+    if (least > best_cosine) {
+      best_cosine = least;
+      best = axis;
+    }
+  }
+  if (best_cosine > kLeastCosine) {
+    body(ExactImage(ImagePlane(best), whole, occluders, min_segment));
+    return;
+  }
+
+  // Four parts by two planes through the normal. A quarter of the hemisphere lies within 55 degrees of the
+  // sum of the three vectors.
+  int across = 0;
+  normal.cwiseAbs().minCoeff(&across);
+  const Vec3 t = normal.cross(Vec3::Unit(across)).normalized(), u = normal.cross(t);
+  // Where the cut runs over the zenith it may be half a great circle, and must have a vertex there.
+  const std::array<Number, 3> zenith = {Number(normal.x()), Number(normal.y()), Number(normal.z())};
+  const auto keep = [&](const Polygon& polygon, const Vec3& plane) {
+    std::vector<Number> height;
+    for (const auto& d : polygon) height.push_back(d[0] * plane.x() + d[1] * plane.y() + d[2] * plane.z());
+    Polygon kept;
+    if (std::none_of(height.begin(), height.end(), [](const Number& h) { return h > 0; })) return kept;
+    std::vector<bool> in_plane;
+    const auto add = [&](const std::array<Number, 3>& d, bool cut) {
+      kept.push_back(d);
+      in_plane.push_back(cut);
+    };
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const std::size_t next = k + 1 == polygon.size() ? 0 : k + 1;
+      const auto &a = polygon[k], &b = polygon[next];
+      const Number &ha = height[k], &hb = height[next];
+      if (ha >= 0) add(a, ha == 0);
+      if (!((ha > 0 && hb < 0) || (ha < 0 && hb > 0))) continue;
+      const Number wa = abs(hb), wb = abs(ha);
+      add({wa * a[0] + wb * b[0], wa * a[1] + wb * b[1], wa * a[2] + wb * b[2]}, true);
+    }
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      const std::size_t next = k + 1 == kept.size() ? 0 : k + 1;
+      const auto &a = kept[k], &b = kept[next];
+      if (!in_plane[k] || !in_plane[next] || a[0] * b[0] + a[1] * b[1] + a[2] * b[2] >= 0) continue;
+      kept.insert(kept.begin() + static_cast<std::ptrdiff_t>(k) + 1, zenith);
+      break;
+    }
+    return kept;
+  };
+  for (const double st : {1.0, -1.0})
+    for (const double su : {1.0, -1.0}) {
+      const Polygon part = keep(keep(whole, st * t), su * u);
+      if (part.size() >= 3)
+        body(ExactImage(ImagePlane(normal + st * t + su * u), part, occluders, min_segment));
+    }
+}
+
+}  // namespace penumbra

@@ -1,0 +1,99 @@
+#include "solver/visibility/pair/patch_visibility.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include "solver/base/parallel.h"
+#include "solver/visibility/pair/patch_hierarchy.h"
+#include "solver/visibility/pair/tube_blockers.h"
+
+namespace penumbra {
+namespace {
+
+struct Found {
+  PatchId other;
+  std::vector<PatchId> blockers;
+};
+
+// Of the patches that fill most of the view from a patch, so many serve as screens, if they are at least this
+// large [sr].
+constexpr std::size_t kMostScreens = 16;
+constexpr double kLeastScreen = 0.02;
+
+// Finds for one patch after the other what it sees.
+class PairFinder {
+ public:
+  explicit PairFinder(const Scene& scene) : scene_(scene), screens_(scene) {
+    std::vector<PatchId> all(scene.patches.size());
+    std::iota(all.begin(), all.end(), 0);
+    patches_ = PatchHierarchy(scene, std::move(all));
+  }
+
+  // The patches above i that see it, ascending, with their blockers. Some of them, if it was cancelled.
+  std::vector<Found> Find(PatchId i, const ExecutionContext& context) const {
+    const Patch& patch = scene_.patches[i];
+    std::vector<ReceiverPoint> corners;
+    for (const Vec3& v : patch.Vertices()) corners.push_back({v, patch.normal, Vec3::Zero(), 0});
+    std::vector<Screen> screens;
+    screens_.Find(corners, kLeastScreen, kMostScreens, screens);
+    std::vector<PatchId> in_sight;
+    patches_.Find({{patch.normal, patch.normal.dot(patch.vertex[0])}}, screens, in_sight);
+    std::vector<Found> found;
+    for (const PatchId j : in_sight) {
+      if (j <= i) continue;
+      if (context.Cancelled()) break;
+      const Patch& other = scene_.patches[j];
+      const std::optional<TubeEnds> ends = ClipToEachOther(patch.Vertices(), patch, other.Vertices(), other);
+      Found pair{j, {}};
+      if (ends && FindTubeBlockers(scene_, *ends, i, j, patches_, pair.blockers))
+        found.push_back(std::move(pair));
+    }
+    return found;
+  }
+
+ private:
+  const Scene& scene_;
+  ScreenFinder screens_;
+  PatchHierarchy patches_;
+};
+
+}  // namespace
+
+PatchVisibility::PatchVisibility(const Scene& scene, const ExecutionContext& context) {
+  const std::size_t count = scene.patches.size();
+  const PairFinder finder(scene);
+  std::vector<std::vector<Found>> found(count);  // pairs (i, j) with i < j, at i
+  ParallelFor(count, 1, [&](std::size_t i) {
+    if (!context.Cancelled()) found[i] = finder.Find(static_cast<PatchId>(i), context);
+  });
+  std::vector<std::vector<PatchPair>> by_receiver(count);
+  for (std::size_t i = 0; i < count && !context.Cancelled(); ++i) {
+    for (const Found& pair : found[i]) {
+      PatchPair entry;
+      entry.visibility = pair.blockers.empty() ? Visibility::kVisible : Visibility::kPartial;
+      entry.first_blocker = static_cast<std::uint32_t>(rows_.blockers.size());
+      entry.blocker_count = static_cast<std::uint32_t>(pair.blockers.size());
+      rows_.blockers.insert(rows_.blockers.end(), pair.blockers.begin(), pair.blockers.end());
+      entry.source = static_cast<PatchId>(i);
+      by_receiver[pair.other].push_back(entry);
+      entry.source = pair.other;
+      by_receiver[i].push_back(entry);
+    }
+    found[i] = {};  // memory for what comes
+  }
+  rows_.first.assign(1, 0);
+  for (std::vector<PatchPair>& pairs : by_receiver) {
+    if (context.Cancelled()) break;
+    std::sort(pairs.begin(), pairs.end(),
+              [](const PatchPair& a, const PatchPair& b) { return a.source < b.source; });
+    rows_.pairs.insert(rows_.pairs.end(), pairs.begin(), pairs.end());
+    rows_.first.push_back(rows_.pairs.size());
+    pairs = {};
+  }
+  if (!context.Cancelled()) return;
+  rows_ = {};
+  rows_.first.assign(count + 1, 0);
+}
+
+}  // namespace penumbra

@@ -1,0 +1,52 @@
+// solver/visibility/point/image_edges.h
+//
+// The outlines of many pieces of one image, and Lambert's sum over all their edges at once, vectorised.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solver/visibility/point/image_frame.h"
+
+namespace penumbra {
+
+class ImageEdges {
+ public:
+  struct Sum {
+    double value = 0;   // 2 pi times the form factor
+    double angles = 0;  // of all edges
+  };
+
+  void Clear();
+  // Appends the edges of a convex polygon with the given image coordinates and the labels of its edges.
+  // `owner` says what it is a piece of.
+  void AddPiece(const double* x, const double* y, const std::int32_t* label, int size, std::int32_t owner);
+
+  std::size_t Pieces() const { return start_.size(); }
+  std::int32_t Owner(std::size_t piece) const { return owner_[piece]; }
+  // The edges of a piece: [Begin(p), Begin(p + 1)).
+  std::size_t Begin(std::size_t piece) const { return piece < start_.size() ? start_[piece] : label_.size(); }
+  Vec2 Start(std::size_t edge) const { return {edge_[0][edge], edge_[1][edge]}; }
+  Vec2 Difference(std::size_t edge) const { return {edge_[2][edge], edge_[3][edge]}; }
+  // The centroid of a piece's image; the first vertex of one without area.
+  Vec2 Centroid(std::size_t piece) const;
+  std::int32_t Label(std::size_t edge) const { return label_[edge]; }
+
+  // Over all edges, for a point with unit normal `normal`. The same for any vector width.
+  Sum FormFactorSum(const ImageFrame& frame, const Vec3& normal);
+  // 2 pi times the form factor of a piece, as it went into the last FormFactorSum().
+  double PieceSum(std::size_t piece) const;
+  // The form factor of a piece, without cancellation.
+  double PieceByQuadrature(const ImageFrame& frame, const Vec3& normal, std::size_t piece) const;
+
+ private:
+  std::array<std::vector<double>, 4> edge_;  // start x, y; difference x, y
+  std::vector<std::int32_t> label_;
+  std::vector<std::size_t> start_;  // of each piece
+  std::vector<std::int32_t> owner_;
+  std::vector<double> term_, angle_;
+};
+
+}  // namespace penumbra

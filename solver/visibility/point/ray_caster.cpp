@@ -1,0 +1,180 @@
+#include "solver/visibility/point/ray_caster.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <limits>
+#include <new>
+#include <optional>
+#include <vector>
+
+#include "solver/base/check.h"
+
+namespace penumbra {
+namespace {
+
+// Two faces that lie on each other, one looking either way, are one sheet: a ray meets the front. Hits nearer
+// to each other than this, relative to the scene's diagonal, are at the same place (floats keep 7 digits).
+constexpr double kSamePlace = 1e-6;
+
+// The ray's own patch travels with the intersection context, since Embree hands that to the filter.
+struct FilterContext {
+  RTCIntersectContext base;
+  unsigned int ignore;
+  const std::vector<Vec3>* backs;  // the patches' normals, if hits on backs are to be passed over; else null
+  Vec3 direction;
+};
+
+void FilterHits(const RTCFilterFunctionNArguments* args) {
+  const auto* context = reinterpret_cast<const FilterContext*>(args->context);
+  for (unsigned int i = 0; i < args->N; ++i) {
+    if (args->valid[i] != -1) continue;
+    const unsigned int patch = RTCHitN_primID(args->hit, args->N, i);
+    const bool back = context->backs && (*context->backs)[patch].dot(context->direction) >= 0;
+    if (patch == context->ignore || back) args->valid[i] = 0;
+  }
+}
+
+// Throws unless it is so and the library has no error to tell of; std::bad_alloc where memory ended, which it
+// tells as an unknown error where its tasks or threads found out. What the library holds is then left to the
+// end of the program, since it aborts over taking down what is half made.
+void Demand(RTCDevice device, bool is_so) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (is_so && error == RTC_ERROR_NONE) return;
+  if (error == RTC_ERROR_UNSUPPORTED_CPU)
+    throw InputError("penumbra: error: rays cannot be cast, since Embree does not know this processor");
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+struct RayCaster::Impl {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  std::vector<Vec3> normals;   // unit, a patch
+  double diagonal = 0;         // of the scene [m]
+  Vec3 origin = Vec3::Zero();  // Embree's: the middle of the scene, since its floats keep 7 digits only
+
+  RTCRayHit Intersect(const Vec3& from, const Vec3& direction, double near, double far,
+                      FilterContext& context) const;
+  // Where the ray from `origin` is traced from, as Embree counts, in `from`; returns what was skipped on the
+  // way there, in lengths of the direction, or nothing if the ray misses the scene.
+  std::optional<double> Approach(const Vec3& origin, const Vec3& direction, Vec3* from) const;
+};
+
+RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
+  impl_->device = rtcNewDevice(nullptr);
+  Demand(nullptr, impl_->device != nullptr);
+  impl_->scene = rtcNewScene(impl_->device);
+  Demand(impl_->device, impl_->scene != nullptr);
+  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+  const auto [low, high] = scene.Bounds();
+  impl_->origin = 0.5 * (low + high);
+  impl_->diagonal = (high - low).norm();
+  if (!scene.patches.empty()) {
+    // Triangles are quads whose last two vertices coincide, as Embree documents.
+    const RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_QUAD);
+    Demand(impl_->device, geometry != nullptr);
+    const std::size_t count = scene.patches.size();
+    auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 4 * count));
+    auto* index = static_cast<unsigned int*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(unsigned int), count));
+    Demand(impl_->device, vertex != nullptr && index != nullptr);
+    for (std::size_t p = 0; p < count; ++p) {
+      impl_->normals.push_back(scene.patches[p].normal);
+      for (std::size_t k = 0; k < 4; ++k) {
+        const Vec3 v = scene.patches[p].vertex[k] - impl_->origin;
+        for (int axis = 0; axis < 3; ++axis)
+          vertex[3 * (4 * p + k) + static_cast<std::size_t>(axis)] = static_cast<float>(v[axis]);
+        index[4 * p + k] = static_cast<unsigned int>(4 * p + k);
+      }
+    }
+    rtcSetGeometryIntersectFilterFunction(geometry, &FilterHits);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(impl_->scene, geometry);
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(impl_->scene);
+  Demand(impl_->device, true);
+}
+
+RayCaster::~RayCaster() {
+  rtcReleaseScene(impl_->scene);
+  rtcReleaseDevice(impl_->device);
+}
+
+RTCRayHit RayCaster::Impl::Intersect(const Vec3& from, const Vec3& direction, double near, double far,
+                                     FilterContext& context) const {
+  RTCRayHit ray{};
+  ray.ray.org_x = static_cast<float>(from.x());
+  ray.ray.org_y = static_cast<float>(from.y());
+  ray.ray.org_z = static_cast<float>(from.z());
+  ray.ray.dir_x = static_cast<float>(direction.x());
+  ray.ray.dir_y = static_cast<float>(direction.y());
+  ray.ray.dir_z = static_cast<float>(direction.z());
+  ray.ray.tnear = static_cast<float>(near);
+  ray.ray.tfar = static_cast<float>(far);
+  ray.ray.mask = 0xFFFFFFFFU;
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene, &context.base, &ray);
+  return ray;
+}
+
+std::optional<double> RayCaster::Impl::Approach(const Vec3& start, const Vec3& direction, Vec3* from) const {
+  // From far away the ray starts where it nears the ball around the scene: floats overflow, and lose digits.
+  *from = start - origin;
+  const double distance = from->stableNorm(), reach = diagonal;
+  if (distance <= 2 * reach) return 0;
+  const double along =
+      -(*from / distance).dot(direction) / direction.norm() * distance;  // to the nearest point
+  if (!(along > 0)) return std::nullopt;
+  const double skipped = (along - reach) / direction.norm();
+  *from += skipped * direction;
+  if (!(from->stableNorm() <= 2 * reach)) return std::nullopt;
+  return skipped;
+}
+
+RayCaster::Hit RayCaster::Cast(const Vec3& origin, const Vec3& direction, PatchId ignore) const {
+  FilterContext context;
+  rtcInitIntersectContext(&context.base);
+  context.ignore = ignore == kNoPatch ? RTC_INVALID_GEOMETRY_ID : static_cast<unsigned int>(ignore);
+  context.backs = nullptr;
+  Vec3 from;
+  const std::optional<double> approach = impl_->Approach(origin, direction, &from);
+  if (!approach) return {};
+  const double skipped = *approach;
+
+  const double infinity = std::numeric_limits<double>::infinity();
+  const RTCRayHit first = impl_->Intersect(from, direction, 0, infinity, context);
+  if (first.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  const Vec3& normal = impl_->normals[first.hit.primID];
+  const double at = static_cast<double>(first.ray.tfar);
+  if (normal.dot(direction) >= 0) {
+    const double margin = kSamePlace * impl_->diagonal / direction.norm();
+    context.backs = &impl_->normals;
+    context.direction = direction;
+    const RTCRayHit front =
+        impl_->Intersect(from, direction, std::max(0.0, at - margin), at + margin, context);
+    if (front.hit.geomID != RTC_INVALID_GEOMETRY_ID)
+      return {static_cast<PatchId>(front.hit.primID), skipped + static_cast<double>(front.ray.tfar), true};
+  }
+  return {static_cast<PatchId>(first.hit.primID), skipped + at, normal.dot(direction) < 0};
+}
+
+RayCaster::Hit RayCaster::CastToFront(const Vec3& origin, const Vec3& direction) const {
+  FilterContext context;
+  rtcInitIntersectContext(&context.base);
+  context.ignore = RTC_INVALID_GEOMETRY_ID;
+  context.backs = &impl_->normals;
+  context.direction = direction;
+  Vec3 from;
+  const std::optional<double> skipped = impl_->Approach(origin, direction, &from);
+  if (!skipped) return {};
+  const RTCRayHit hit =
+      impl_->Intersect(from, direction, 0, std::numeric_limits<double>::infinity(), context);
+  if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  return {static_cast<PatchId>(hit.hit.primID), *skipped + static_cast<double>(hit.ray.tfar), true};
+}
+
+}  // namespace penumbra
