@@ -17,6 +17,7 @@
 #include "solver/base/check.h"
 #include "solver/transport/links/approximate_form_factor.h"
 #include "solver/visibility/area/area_form_factor.h"
+#include "solver/visibility/exact/occlusion_methods.h"
 #include "solver/visibility/point/occlusion_method.h"
 
 namespace penumbra {
@@ -41,7 +42,7 @@ struct FormFactorArguments {
 
 // Exact ways to find occlusion at a point.
 std::vector<std::string> PointMethods() {
-  std::vector<std::string> names = OcclusionMethodNames();
+  std::vector<std::string> names = OcclusionMethods().Names();
   std::erase(names, kSampled);
   return names;
 }
@@ -149,7 +150,7 @@ void PrintFormFactor(const FormFactorArguments& arguments) {
       estimate = MonteCarloFormFactor(scene, from, to, arguments.rays, arguments.scene.solving.seed, context);
     } else {
       const std::unique_ptr<const OcclusionMethod> method =
-          IsAtPoints(arguments.method) ? MakeOcclusionMethod(arguments.method) : nullptr;
+          IsAtPoints(arguments.method) ? OcclusionMethods().Make(arguments.method, {}) : nullptr;
       AreaFormFactorOptions options;
       options.method = method.get();
       options.tolerance = arguments.tolerance.value_or(options.tolerance);

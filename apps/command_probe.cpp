@@ -18,6 +18,7 @@
 #include "apps/scene_arguments.h"
 #include "apps/solve_run.h"
 #include "solver/transport/sources/source_set.h"
+#include "solver/visibility/exact/occlusion_methods.h"
 #include "solver/visibility/pair/patch_visibility.h"
 #include "solver/visibility/point/occlusion_method.h"
 
@@ -80,8 +81,9 @@ void Probe(ProbeArguments arguments) {
 
   PointIrradianceOptions how = loaded.stored ? loaded.stored->solving.point : arguments.scene.solving.point;
   const std::unique_ptr<const OcclusionMethod> method =
-      arguments.method == kFastest ? nullptr
-                                   : MakeOcclusionMethod(arguments.method, {how.min_backprojection_segment});
+      arguments.method == kFastest
+          ? nullptr
+          : OcclusionMethods().Make(arguments.method, {how.min_backprojection_segment});
   how.method = method.get();
 
   std::vector<Measurement> measurements;
@@ -124,7 +126,7 @@ Command AddProbeCommand(CLI::App& program) {
       "--parts", arguments->parts,
       "Add the share of direct light and the gradient of the irradiance by the point's position, its "
       "normal fixed [W/m^3]");
-  std::vector<std::string> methods = OcclusionMethodNames();
+  std::vector<std::string> methods = OcclusionMethods().Names();
   methods.insert(methods.begin(), kFastest);
   app->add_option(
          "--method", arguments->method,

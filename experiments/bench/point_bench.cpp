@@ -18,6 +18,7 @@
 #include "solver/transport/points/point_irradiance.h"
 #include "solver/transport/sources/source_set.h"
 #include "solver/visibility/exact/backprojection.h"
+#include "solver/visibility/exact/occlusion_methods.h"
 #include "solver/visibility/point/form_factor.h"
 #include "solver/visibility/point/form_factor_batch.h"
 #include "solver/visibility/point/occlusion_method.h"
@@ -94,7 +95,7 @@ void PointBlockers(benchmark::State& state, const std::string& name) {
   for (int i = 1; i <= n; ++i) boards.push_back(i);
   std::vector<ReceiverPoint> points;
   for (int i = 0; i < kPoints; ++i) points.push_back(OnFloor(0.02 * i, 0.013 * i));
-  const std::unique_ptr<const OcclusionMethod> method = MakeOcclusionMethod(name);
+  const std::unique_ptr<const OcclusionMethod> method = OcclusionMethods().Make(name, {});
   for (auto _ : state) {
     double sum = 0;
     for (const ReceiverPoint& at : points) sum += VisibleFactor(scene, boards, at, *method);
@@ -135,7 +136,8 @@ void PointSources(benchmark::State& state, const std::string& name) {
     AddBox(scene, low, low + Vec3(random.Uniform(0.1, 1), random.Uniform(0.1, 1), random.Uniform(0.1, 1)),
            false);
   }
-  const std::unique_ptr<const OcclusionMethod> method = name == "auto" ? nullptr : MakeOcclusionMethod(name);
+  const std::unique_ptr<const OcclusionMethod> method =
+      name == "auto" ? nullptr : OcclusionMethods().Make(name, {});
   const PatchVisibility unused;
   PointIrradianceOptions options;
   options.method = method.get();

@@ -8,6 +8,7 @@
 #include "experiments/bench/bench_scenes.h"
 #include "experiments/studies/study.h"
 #include "solver/visibility/exact/backprojection.h"
+#include "solver/visibility/exact/occlusion_methods.h"
 #include "solver/visibility/point/sampled_visibility.h"
 
 namespace penumbra {
@@ -62,7 +63,7 @@ void StudyPointIrradiance(StudyLog& log) {
   for (const int n : log.quick() ? std::vector<int>{5} : std::vector<int>{1, 5, 20, 100}) {
     const Boards b = MakeBoards(n);
     for (const std::string name : {"clipping", "vertex-tracing", "backprojection"}) {
-      StudyRow row = Measure(b, name, *MakeOcclusionMethod(name), seconds);
+      StudyRow row = Measure(b, name, *OcclusionMethods().Make(name, {}), seconds);
       if (name == "clipping") clipping = row.seconds;
       if (name == "backprojection") backprojection = row.seconds;
       row.setting = "exact";

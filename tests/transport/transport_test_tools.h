@@ -13,6 +13,7 @@
 #include "solver/transport/points/point_irradiance.h"
 #include "solver/transport/solvers/hierarchical_solver.h"
 #include "solver/transport/sources/source_set.h"
+#include "solver/visibility/exact/occlusion_methods.h"
 #include "tests/visibility/test_scenes.h"
 
 namespace penumbra::scene_test {
@@ -42,8 +43,8 @@ struct NamedMethod {
 inline std::vector<NamedMethod> ExactMethods() {
   std::vector<NamedMethod> methods;
   methods.push_back({"auto", nullptr});
-  for (const std::string& name : OcclusionMethodNames())
-    if (name != "sampled") methods.push_back({name, MakeOcclusionMethod(name)});
+  for (const std::string& name : OcclusionMethods().Names())
+    if (name != "sampled") methods.push_back({name, OcclusionMethods().Make(name, {})});
   return methods;
 }
 

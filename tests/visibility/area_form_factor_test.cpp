@@ -362,7 +362,9 @@ TEST(AreaFormFactor, ALooserToleranceCostsLess) {
   std::printf("seed 4121: %zu points to 1e-2, %zu to 1e-6\n", loose_points, tight_points);
   // Single pairs cost from 1 to 50 times less: a handful of them says nothing of the mean.
   constexpr int kPairsOfAMean = 20;
-  if (Count(20) >= kPairsOfAMean) EXPECT_LE(2 * loose_points, tight_points);
+  if (Count(20) >= kPairsOfAMean) {
+    EXPECT_LE(2 * loose_points, tight_points);
+  }
 }
 
 // What is small beside 1 already is not followed to any end.

@@ -12,6 +12,7 @@
 
 #include "solver/base/parallel.h"
 #include "solver/visibility/exact/backprojection.h"
+#include "solver/visibility/exact/occlusion_methods.h"
 #include "solver/visibility/exact/vertex_tracing.h"
 #include "solver/visibility/point/clipping.h"
 #include "solver/visibility/point/form_factor.h"
@@ -306,16 +307,17 @@ struct Named {
 std::vector<Named> ExactMethods() {
   std::vector<Named> methods;
   for (const char* name : {"clipping", "backprojection", "vertex-tracing"})
-    methods.push_back({name, MakeOcclusionMethod(name)});
+    methods.push_back({name, OcclusionMethods().Make(name, {})});
   return methods;
 }
 
 std::vector<Occluder> Whole(const std::vector<Cone>& cones) { return {cones.begin(), cones.end()}; }
 
 TEST(OcclusionMethod, NamesAreKnown) {
-  for (const std::string& name : OcclusionMethodNames()) EXPECT_NE(MakeOcclusionMethod(name), nullptr);
-  EXPECT_NE(MakeOcclusionMethod("sampled"), nullptr);
-  EXPECT_THROW(MakeOcclusionMethod("guess"), InputError);
+  for (const std::string& name : OcclusionMethods().Names())
+    EXPECT_NE(OcclusionMethods().Make(name, {}), nullptr);
+  EXPECT_NE(OcclusionMethods().Make("sampled", {}), nullptr);
+  EXPECT_THROW(OcclusionMethods().Make("guess", {}), InputError);
 }
 
 // A blocker over one half of a source overhead leaves half of it, however small the source.

@@ -123,4 +123,13 @@ BackprojectedSource Backprojection::Project(const DirectionPolygon& source,
   return result;
 }
 
+OcclusionRegistry::Method BackprojectionMethod() {
+  return {"backprojection",
+          "triangulates the source along the outlines of its blockers (thesis 6.2); exact",
+          {"min-backprojection-segment"},
+          [](const OcclusionOptions& options) {
+            return std::make_unique<const Backprojection>(options.min_backprojection_segment);
+          }};
+}
+
 }  // namespace penumbra

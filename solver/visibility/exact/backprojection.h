@@ -50,4 +50,6 @@ class Backprojection final : public OcclusionMethod {
   double min_segment_;
 };
 
+OcclusionRegistry::Method BackprojectionMethod();
+
 }  // namespace penumbra

@@ -256,4 +256,11 @@ TracedFormFactor VertexTracing::Trace(const DirectionPolygon& source, std::span<
   return result;
 }
 
+OcclusionRegistry::Method VertexTracingMethod() {
+  return {"vertex-tracing",
+          "adds up the visible corners of the source (Stark and Riesenfeld 1999); exact",
+          {},
+          [](const OcclusionOptions&) { return std::make_unique<const VertexTracing>(); }};
+}
+
 }  // namespace penumbra

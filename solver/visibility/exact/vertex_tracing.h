@@ -29,4 +29,6 @@ class VertexTracing final : public OcclusionMethod {
                          const Vec3& normal) const;
 };
 
+OcclusionRegistry::Method VertexTracingMethod();
+
 }  // namespace penumbra

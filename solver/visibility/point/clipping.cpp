@@ -497,4 +497,16 @@ double Clipping::VisibleFormFactor(const DirectionPolygon& source, std::span<con
   return std::max(0.0, factor);
 }
 
+const OcclusionMethod& FastestExactMethod() {
+  static const Clipping method;
+  return method;
+}
+
+OcclusionRegistry::Method ClippingMethod() {
+  return {"clipping",
+          "cuts the shadow of each blocker out of the source; exact, and the fastest",
+          {},
+          [](const OcclusionOptions&) { return std::make_unique<const Clipping>(); }};
+}
+
 }  // namespace penumbra

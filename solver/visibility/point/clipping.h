@@ -76,4 +76,6 @@ class Clipping final : public OcclusionMethod {
                            const Vec3& normal) const override;
 };
 
+OcclusionRegistry::Method ClippingMethod();
+
 }  // namespace penumbra

@@ -5,12 +5,9 @@
 
 #pragma once
 
-#include <memory>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
+#include "solver/base/registry.h"
 #include "solver/visibility/point/direction_polygon.h"
 
 namespace penumbra {
@@ -31,18 +28,14 @@ class OcclusionMethod {
                                    const Vec3& normal) const = 0;
 };
 
-// The names of all methods.
-std::vector<std::string> OcclusionMethodNames();
-
 struct OcclusionOptions {
   // Backprojection: edges of blockers' outlines shorter than this, relative to the source's diameter, are
   // left out (thesis, Appendix A, 6). 0: none.
   double min_backprojection_segment = 0;
 };
 
-// The method of that name. Throws InputError if there is none.
-std::unique_ptr<const OcclusionMethod> MakeOcclusionMethod(std::string_view name,
-                                                           const OcclusionOptions& options = {});
+// OcclusionMethods() holds all methods.
+using OcclusionRegistry = Registry<const OcclusionMethod, OcclusionOptions>;
 
 // Clipping.
 const OcclusionMethod& FastestExactMethod();

@@ -42,4 +42,11 @@ double SampledVisibility::VisibleFormFactor(const DirectionPolygon& source,
   return sum;
 }
 
+OcclusionRegistry::Method SampledVisibilityMethod() {
+  return {"sampled",
+          "counts the parts of the source whose middle is visible, which the thesis gave up (chapter 6)",
+          {},
+          [](const OcclusionOptions&) { return std::make_unique<const SampledVisibility>(); }};
+}
+
 }  // namespace penumbra

@@ -21,4 +21,6 @@ class SampledVisibility final : public OcclusionMethod {
   int divisions_;
 };
 
+OcclusionRegistry::Method SampledVisibilityMethod();
+
 }  // namespace penumbra

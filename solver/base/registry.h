@@ -1,0 +1,73 @@
+// solver/base/registry.h
+//
+// Methods that do the same work in different ways, by name: command line, help, reports and the window list
+// what a registry holds, and nothing else does.
+
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "solver/base/check.h"
+
+namespace penumbra {
+
+// The methods that make a `Product` from `Options`. A method's file describes the method by a function that
+// returns a Method; the file that defines the registry lists these functions; a program may add its own
+// methods before it solves anything.
+template <class Product, class... Options>
+class Registry {
+ public:
+  struct Method {
+    std::string name;                     // as users give it
+    std::string help;                     // one line, without a full stop
+    std::vector<std::string> parameters;  // the names of the options that this method alone obeys
+    std::function<std::unique_ptr<Product>(const Options&...)> make;
+  };
+
+  // `kind` is the noun in messages, as in "no KIND is called 'x'". The first method is the default.
+  Registry(std::string kind, std::vector<Method> methods) : kind_(std::move(kind)) {
+    for (Method& method : methods) Add(std::move(method));
+  }
+
+  // Adds a method behind all others. REQUIRES: no other method has its name, and no thread reads the
+  // registry.
+  void Add(Method method) {
+    for (const Method& other : methods_) PENUMBRA_CHECK(other.name != method.name);
+    methods_.push_back(std::move(method));
+  }
+
+  const std::vector<Method>& methods() const { return methods_; }
+  const std::string& kind() const { return kind_; }
+
+  std::vector<std::string> Names() const {
+    std::vector<std::string> names;
+    for (const Method& method : methods_) names.push_back(method.name);
+    return names;
+  }
+
+  // The method of that name. Throws InputError, which lists the names there are, if there is none.
+  const Method& Find(std::string_view name) const {
+    std::string names;
+    for (const Method& method : methods_) {
+      if (method.name == name) return method;
+      names += (names.empty() ? "" : ", ") + method.name;
+    }
+    throw InputError("no " + kind_ + " is called '" + std::string(name) + "'; give one of: " + names);
+  }
+
+  // What the method of that name makes. Throws InputError if there is none.
+  std::unique_ptr<Product> Make(std::string_view name, const Options&... options) const {
+    return Find(name).make(options...);
+  }
+
+ private:
+  std::string kind_;
+  std::vector<Method> methods_;
+};
+
+}  // namespace penumbra
