@@ -30,7 +30,7 @@ LoadedScene LoadRestart(SceneArguments& arguments, const std::string& from) {
   arguments.outputs.RefuseInput(from);
   LoadedScene solved = LoadSolution(from);
   StoredRun run = std::move(*solved.stored);
-  if (run.solving.dense)
+  if (run.solving.solver == "dense")
     throw InputError(
         fmt::format("{}: error: the dense solver made it, which keeps no links; solve the scene anew", from));
   if (run.state.report.iterations.empty())

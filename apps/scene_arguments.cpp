@@ -27,6 +27,7 @@
 #include "solver/scene/file_format.h"
 #include "solver/scene/named_scene.h"
 #include "solver/scene/text_reader.h"
+#include "solver/transport/solvers/light_solvers.h"
 
 namespace penumbra {
 namespace {
@@ -304,26 +305,23 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
       "centre, to compare (disk, Hanrahan et al. 1991)")
       ->group(group);
   app.add_option_function<std::string>(
-         "--solver",
-         [solving](const std::string& name) {
-           if (name == "dense" && !solving->dense) solving->dense.emplace();
-         },
+         "--solver", [solving](const std::string& name) { solving->solver = name; },
          "How to solve: `hierarchical`, or `dense`, which solves the linear system of a uniform mesh "
          "directly "
          "with exact form factors: a reference for small scenes")
-      ->check(CLI::IsMember(std::vector<std::string>{"hierarchical", "dense"}))
+      ->check(CLI::IsMember(LightSolvers().Names()))
       ->default_str("hierarchical")
       ->group(group);
   // --solver, which comes before, has been read.
   const auto need_dense = [solving](const char* option) {
-    if (!solving->dense)
+    if (solving->solver != "dense")
       throw CLI::ValidationError(option, "it is of the dense solver; give --solver dense, or leave it out");
   };
   app.add_option_function<std::string>(
          "--basis",
          [solving, need_dense](const std::string& name) {
            need_dense("--basis");
-           solving->dense->degree = ChoiceValue(kBases, name);
+           solving->dense.degree = ChoiceValue(kBases, name);
          },
          "Of the dense solver's elements: `constant` (Galerkin), `linear` or `quadratic` (collocation; their "
          "means are shown)")
@@ -334,12 +332,12 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
          "--divisions",
          [solving, need_dense](const int& divisions) {
            need_dense("--divisions");
-           solving->divisions = divisions;
+           solving->dense.divisions = divisions;
          },
          "The dense solver cuts every patch into N x N elements, N a power of two")
       ->type_name("N")
       ->check(CLI::IsMember(std::vector<int>{1, 2, 4, 8, 16, 32, 64}))
-      ->default_str(std::to_string(solving->divisions))
+      ->default_str(std::to_string(solving->dense.divisions))
       ->group(group);
   AddInteger(app, "--error-points", &solving->error_points, std::uint64_t{0}, kMaxErrorPoints,
              "Random points at which a report measures the error of the interpolants; 0 leaves that out")
@@ -425,14 +423,14 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["source_push_off"] = arguments.solving.point.source_push_off;
     options["min_backprojection_segment"] = arguments.solving.point.min_backprojection_segment;
     options["form_factors"] = ChoiceName(kLinkFormFactors, arguments.solving.form_factors);
-    options["solver"] = arguments.solving.dense ? "dense" : "hierarchical";
-    if (arguments.solving.dense) {
-      options["basis"] = ChoiceName(kBases, arguments.solving.dense->degree);
-      options["divisions"] = arguments.solving.divisions;
+    options["solver"] = arguments.solving.solver;
+    if (arguments.solving.solver == "dense") {
+      options["basis"] = ChoiceName(kBases, arguments.solving.dense.degree);
+      options["divisions"] = arguments.solving.dense.divisions;
     }
     options["error_points"] = arguments.solving.error_points;
     if (arguments.restart) options["restart"] = *arguments.restart;
-    if (arguments.solving.dense) DropHierarchical(&options);
+    if (arguments.solving.solver == "dense") DropHierarchical(&options);
   }
   return options;
 }
@@ -531,9 +529,9 @@ PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   if (options.contains("time_limit")) solving.time_limit = options["time_limit"].get<double>();
   if (options.contains("memory_limit")) solving.memory_limit = options["memory_limit"].get<double>();
   if (options.at("solver") == "dense") {
-    solving.dense.emplace();
-    solving.dense->degree = ChoiceValue(kBases, options.at("basis").get<std::string>());
-    options.at("divisions").get_to(solving.divisions);
+    solving.solver = "dense";
+    solving.dense.degree = ChoiceValue(kBases, options.at("basis").get<std::string>());
+    options.at("divisions").get_to(solving.dense.divisions);
   } else {
     TakeHierarchical(options, &solving);
   }

@@ -141,7 +141,6 @@ class Viewer {
 
   ViewerOptions options_;
   std::optional<PipelineOptions> own_links_;  // while links are given: as one's own would be made
-  DenseOptions dense_;                        // of the dense solver, whether it is chosen or not
   SolverSession session_;
   std::shared_ptr<const Snapshot> snapshot_;
   std::shared_ptr<const MeshState> tools_;

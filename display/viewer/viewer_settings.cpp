@@ -7,6 +7,7 @@
 #include "display/viewer/viewer.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
+#include "solver/transport/solvers/light_solvers.h"
 
 namespace penumbra::viewer {
 namespace {
@@ -192,33 +193,26 @@ void Viewer::AddSolveSettings() {
   s.Add(Optional("time-limit", "Time limit [s]", &o.time_limit, 1e-9, {}, changed));
   s.Add(Optional("memory-limit", "Memory limit [bytes]", &o.memory_limit, 1, {}, changed));
   also(s.Integer("bounces", "Solving", "Bounces that are reported", &o.bounces, 0, 1000));
-  Setting solver{"solver", "Solving", "Solver", SettingKind::kChoice,      0,
-                 1,        false,     false,    {"hierarchical", "dense"}, {},
+  Setting solver{"solver", "Solving", "Solver", SettingKind::kChoice,   0,
+                 1,        false,     false,    LightSolvers().Names(), {},
                  {}};
-  solver.get = [&o] { return o.dense ? "dense" : "hierarchical"; };
-  solver.set = [&o, dense = &dense_, changed](const std::string& text) {
-    if (text != "hierarchical" && text != "dense")
-      throw InputError(fmt::format("'{}' is neither hierarchical nor dense", text));
-    o.dense = text == "dense" ? std::optional(*dense) : std::nullopt;
+  solver.get = [&o] { return o.solver; };
+  solver.set = [&o, changed](const std::string& text) {
+    o.solver = LightSolvers().Find(text).name;
     changed();
   };
   s.Add(solver);
-  Setting& basis = s.Choice("basis", "Solving", "Dense: basis", &dense_.degree,
-                            {{"constant", BasisDegree::kConstant},
-                             {"linear", BasisDegree::kLinear},
-                             {"quadratic", BasisDegree::kQuadratic}});
-  basis.set = [&o, dense = &dense_, set = basis.set, changed](const std::string& text) {
-    set(text);
-    if (o.dense) o.dense = *dense;
-    changed();
-  };
+  also(s.Choice("basis", "Solving", "Dense: basis", &o.dense.degree,
+                {{"constant", BasisDegree::kConstant},
+                 {"linear", BasisDegree::kLinear},
+                 {"quadratic", BasisDegree::kQuadratic}}));
   Setting& divisions =
-      s.Integer("divisions", "Solving", "Dense: divisions of a patch's side", &o.divisions, 1, 64);
+      s.Integer("divisions", "Solving", "Dense: divisions of a patch's side", &o.dense.divisions, 1, 64);
   divisions.set = [set = divisions.set, &o, changed](const std::string& text) {
-    const int before = o.divisions;
+    const int before = o.dense.divisions;
     set(text);
-    if ((o.divisions & (o.divisions - 1)) != 0) {
-      o.divisions = before;
+    if ((o.dense.divisions & (o.dense.divisions - 1)) != 0) {
+      o.dense.divisions = before;
       throw InputError(fmt::format("'{}' is not a power of two", text));
     }
     changed();

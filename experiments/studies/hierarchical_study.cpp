@@ -89,8 +89,8 @@ Curve RunDense(StudyLog& log, const ReferenceCase& test, BasisDegree degree, con
   Curve curve;
   for (const int divisions : log.quick() ? std::vector<int>{1, 2} : std::vector<int>{1, 2, 4, 8}) {
     PipelineOptions options;
-    options.dense = DenseOptions{.degree = degree};
-    options.divisions = divisions;
+    options.solver = "dense";
+    options.dense = {.degree = degree, .divisions = divisions};
     options.refine = RefineBy::kTransport;
     StudyRow row = SolveLinks(test, options, 1);
     row.links.reset();

@@ -8,8 +8,8 @@ void TakeLinkOptions(const PipelineOptions& from, PipelineOptions* to) {
   to->oracle = from.oracle;
   to->multigrid = from.multigrid;
   to->form_factors = from.form_factors;
+  to->solver = from.solver;
   to->dense = from.dense;
-  to->divisions = from.divisions;
 }
 
 }  // namespace penumbra

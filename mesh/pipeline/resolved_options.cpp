@@ -47,10 +47,6 @@ SceneTotals Total(const Scene& scene) {
 
 }  // namespace
 
-bool RefinesLight(const PipelineOptions& options) {
-  return options.refine != RefineBy::kTransport && !options.dense && !options.source_error;
-}
-
 ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   const SceneTotals totals = Total(scene);
   // What the walls would receive if all light stayed in and spread evenly.
@@ -69,6 +65,8 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   resolved.solver.acceleration = options.acceleration;
   resolved.solver.oracle = options.oracle;
   resolved.solver.multigrid = options.multigrid;
+  resolved.refine_light = options.refine != RefineBy::kTransport && !options.source_error;
+  resolved.solver.last_correction_elsewhere = resolved.refine_light;
   DiscontinuityOptions& mesh = resolved.discontinuities;
   mesh.choice = options.discontinuities;
   mesh.weight = options.weight.value_or(options.min_discontinuity_weight ? DiscontinuityWeight::kThesis

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "mesh/pipeline/pipeline.h"
+#include "solver/transport/solvers/hierarchical_solver.h"
 #include "tests/visibility/test_scenes.h"
 
 namespace penumbra {
@@ -98,14 +99,15 @@ TEST(RunLimits, CancelledLinking) {
   for (std::size_t p = 0; p < scene.patches.size(); ++p)
     EXPECT_TRUE(none.SourcesOf(static_cast<PatchId>(p)).empty());
   HierarchicalSolver solver(scene, all, {}, cancelled);
-  EXPECT_FALSE(solver.Linked());
+  EXPECT_FALSE(solver.Ready());
+  EXPECT_FALSE(solver.Next());
   EXPECT_TRUE(solver.solution().links.links.empty());
   EXPECT_EQ(solver.SeenFromLeaves(cancelled), nullptr);
   EXPECT_NE(solver.SeenFromLeaves(), nullptr);
   for (const bool dense : {false, true}) {
     PipelineOptions options;
-    options.divisions = 1;
-    if (dense) options.dense = DenseOptions{.tolerance = 0.01, .max_points = 100};
+    if (dense) options.solver = "dense";
+    options.dense = {.divisions = 1, .tolerance = 0.01, .max_points = 100};
     Pipeline pipeline(scene, options);
     pipeline.Solve(cancelled);
     EXPECT_TRUE(pipeline.solution().links.links.empty());

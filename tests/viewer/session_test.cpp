@@ -282,7 +282,7 @@ TEST(SolverSession, ShowsWhatAnotherSolved) {
 TEST(SolverSession, SolvesDenseSystemsAndKeepsLimits) {
   const auto scene = viewer_test::ShadowScene();
   PipelineOptions options = Loose();
-  options.dense.emplace();
+  options.solver = "dense";
   options.refine = RefineBy::kBoth;
   SolverSession dense(scene, options);
   dense.Converge();

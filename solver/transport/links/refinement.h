@@ -27,9 +27,4 @@ struct RefinementPlan {
 RefinementPlan PlanRefinement(RadiositySolution& solution, const PushPull& push_pull,
                               const RefinementOracle& oracle);
 
-// Splits the leaves; their links move down to their children. Leaves on the last level stay, and so does what
-// is no leaf.
-RefinementPlan PlanSubdivision(RadiositySolution& solution, const PushPull& push_pull,
-                               std::span<const ElementId> leaves);
-
 }  // namespace penumbra
