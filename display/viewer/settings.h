@@ -64,7 +64,7 @@ class Settings {
     return AddChoice(name, group, help, std::move(names), place,
                      [value, choices](std::size_t i) { *value = choices[i].second; });
   }
-  // The same, with `auto` for nothing.
+  // Choice() with `auto` for nothing.
   template <class Value>
   Setting& OptionalChoice(const std::string& name, const std::string& group, const std::string& help,
                           std::optional<Value>* value, const Named<std::type_identity_t<Value>>& choices) {
@@ -72,6 +72,9 @@ class Settings {
     for (const auto& [choice, meaning] : choices) all.emplace_back(choice, meaning);
     return Choice(name, group, help, value, all);
   }
+  // The value is one of the names itself.
+  Setting& NameChoice(const std::string& name, const std::string& group, const std::string& help,
+                      std::string* value, const std::vector<std::string>& names);
   Setting& Vector(const std::string& name, const std::string& group, const std::string& help,
                   std::function<Vec3()> get, std::function<void(const Vec3&)> set);
   Setting& Add(Setting setting);

@@ -5,8 +5,11 @@
 #include <charconv>
 
 #include "display/viewer/viewer.h"
+#include "mesh/discontinuities/discontinuity_choices.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
+#include "solver/transport/links/link_form_factor_methods.h"
+#include "solver/transport/links/refinement_oracles.h"
 
 namespace penumbra::viewer {
 namespace {
@@ -152,12 +155,8 @@ void Viewer::AddSolveSettings() {
                 {{"transport", RefineBy::kTransport},
                  {"representation", RefineBy::kRepresentation},
                  {"both", RefineBy::kBoth}}));
-  also(s.Choice("mesh-discontinuities", "Solving", "Discontinuities in the mesh", &o.discontinuities,
-                {{"ranked", DiscontinuityChoice::kRanked},
-                 {"adaptive", DiscontinuityChoice::kAdaptive},
-                 {"none", DiscontinuityChoice::kNone},
-                 {"random", DiscontinuityChoice::kRandom},
-                 {"all", DiscontinuityChoice::kAll}}));
+  also(s.NameChoice("mesh-discontinuities", "Solving", "Discontinuities in the mesh", &o.discontinuities,
+                    DiscontinuityChoices().Names()));
   also(s.OptionalChoice(
       "weight", "Solving", "Weight of discontinuities", &o.weight,
       {{"thesis", DiscontinuityWeight::kThesis}, {"irradiance", DiscontinuityWeight::kIrradiance}}));
@@ -179,16 +178,10 @@ void Viewer::AddSolveSettings() {
                 {{"jacobi", IterationScheme::kJacobi}, {"gauss-seidel", IterationScheme::kGaussSeidel}}));
   also(s.Choice("acceleration", "Solving", "Guess ahead between sweeps", &o.acceleration,
                 {{"none", Acceleration::kNone}, {"anderson", Acceleration::kAnderson}}));
-  also(s.Choice("oracle", "Solving", "Refinement of links", &o.oracle,
-                {{"transport", OracleKind::kTransport},
-                 {"visibility", OracleKind::kVisibility},
-                 {"gradient", OracleKind::kGradient},
-                 {"thesis", OracleKind::kThesis}}));
+  also(s.NameChoice("oracle", "Solving", "Refinement of links", &o.oracle, RefinementOracles().Names()));
   also(s.Toggle("multigrid", "Solving", "Coarse links first", &o.multigrid));
-  also(s.Choice("form-factors", "Solving", "Form factors of links", &o.form_factors,
-                {{"cubature", LinkFormFactors::kCubature},
-                 {"exact", LinkFormFactors::kExact},
-                 {"disk", LinkFormFactors::kDisk}}));
+  also(s.NameChoice("form-factors", "Solving", "Form factors of links", &o.form_factors,
+                    LinkFormFactorMethods().Names()));
   s.Add(Optional("time-limit", "Time limit [s]", &o.time_limit, 1e-9, {}, changed));
   s.Add(Optional("memory-limit", "Memory limit [bytes]", &o.memory_limit, 1, {}, changed));
   also(s.Integer("bounces", "Solving", "Bounces that are reported", &o.bounces, 0, 1000));

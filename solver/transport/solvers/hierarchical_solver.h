@@ -14,11 +14,11 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "solver/base/progress.h"
 #include "solver/transport/links/link_former.h"
-#include "solver/transport/links/oracle.h"
 #include "solver/transport/links/push_pull.h"
 #include "solver/transport/links/refinement.h"
 #include "solver/transport/links/solution.h"
@@ -38,11 +38,11 @@ struct SolverOptions {
   std::size_t max_links = 8'000'000;
   IterationScheme scheme = IterationScheme::kJacobi;
   Acceleration acceleration = Acceleration::kAnderson;
-  OracleKind oracle = OracleKind::kTransport;
+  std::string oracle = "transport";  // of RefinementOracles()
   // Refine by a larger eps first, lowered from one iteration to the next (Hanrahan, Salzman and Aupperle
   // 1991).
   bool multigrid = false;
-  LinkFormFactors form_factors = LinkFormFactors::kCubature;
+  std::string form_factors = "cubature";  // of LinkFormFactorMethods()
   int max_corrections = 2;  // passes of exact irradiance over the leaves; 0: links alone, as in the thesis
   // What the points of corrections may leave out of their sources' detail (PointIrradiance::NearlyOnPatch);
   // 0: nothing.
@@ -69,10 +69,11 @@ bool IsStuck(std::span<const IterationReport> reports);
 class HierarchicalSolver {
  public:
   // Links the roots. Cancelled, it leaves a solution without links. The scene and the visibility must outlive
-  // the solver.
+  // the solver. Throws InputError if the options name an oracle or form factors that do not exist.
   HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
                      const ExecutionContext& context = ExecutionContext());
-  // Goes on from a solution of the same scene: its links and its light, corrections included.
+  // Goes on from a solution of the same scene: its links and its light, corrections included. Throws
+  // InputError as above.
   HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
                      RadiositySolution solution, const ExecutionContext& context = ExecutionContext());
   ~HierarchicalSolver();
