@@ -27,6 +27,7 @@
 #include "solver/base/stopwatch.h"
 #include "solver/scene/file_format.h"
 #include "solver/scene/named_scene.h"
+#include "solver/scene/scene_readers.h"
 #include "solver/scene/text_reader.h"
 #include "solver/transport/links/link_form_factor_methods.h"
 #include "solver/transport/links/refinement_oracles.h"
@@ -67,7 +68,7 @@ bool IsSolution(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
   try {
     const std::string beginning = ReadFileStart(path, std::max(kSolutionHeaderSize, kFormatBytes));
-    if (beginning.empty()) return std::filesystem::path(path).extension() != ".obj";
+    if (beginning.empty()) return !HasSceneEnding(path);
     const std::optional<ForeignFormat> format = FindForeignFormat(beginning);
     if (format) return format->kind == FormatKind::kSolution || format->kind == FormatKind::kHdf5;
     return LooksLikeSolution(beginning);

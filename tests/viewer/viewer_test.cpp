@@ -14,7 +14,7 @@
 #include <set>
 #include <thread>
 
-#include "display/image_io.h"
+#include "display/exr_image.h"
 #include "display/opengl_passes.h"
 #include "display/viewer/analyses.h"
 #include "display/viewer/script.h"
