@@ -42,6 +42,8 @@ struct Setting {
 class Settings {
  public:
   Setting& Toggle(const std::string& name, const std::string& group, const std::string& help, bool* value);
+  Setting& Toggle(const std::string& name, const std::string& group, const std::string& help,
+                  std::function<bool()> get, std::function<void(bool)> set);
   Setting& Number(const std::string& name, const std::string& group, const std::string& help, double* value,
                   double low, double high, bool logarithmic);
   Setting& Integer(const std::string& name, const std::string& group, const std::string& help, int* value,

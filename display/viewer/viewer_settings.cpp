@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "display/viewer/overlays.h"
 #include "display/viewer/viewer.h"
 #include "mesh/discontinuities/discontinuity_choices.h"
 #include "solver/base/check.h"
@@ -73,26 +74,13 @@ void Viewer::AddViewSettings() {
            &view_.false_colour_max, 0, 1e12, false);
 
   OverlaySettings& o = view_.overlays;
-  s.Toggle("element-mesh", "Visualisations", "Element mesh", &o.element_mesh);
-  s.Integer("mesh-depth", "Visualisations", "Mesh depth", &o.mesh_depth, 0, kMaxLevel);
-  s.Toggle("discontinuities", "Visualisations", "All discontinuities", &o.discontinuities);
-  s.Toggle("triangles", "Visualisations", "Triangulation", &o.triangles);
-  s.Toggle("sample-points", "Visualisations", "Sample points", &o.sample_points);
+  AddOverlaySettings("Visualisations", &o, &s);
   s.Toggle("hidden-lines", "Visualisations", "Show hidden lines", &o.hidden_lines);
   s.Toggle("isolate", "Visualisations", "Draw only what is selected", &view_.isolate);
-  s.Toggle("visible-links", "Links", "Visible links", &o.visible_links);
-  s.Toggle("split-links", "Links", "Links split by a plane", &o.split_links);
-  s.Toggle("partial-links", "Links", "Partial links", &o.partial_links);
-  s.Number("link-min-irradiance", "Links", "At least [W/m^2]", &o.link_min_irradiance, 0, 1e12, false);
-  s.Integer("link-limit", "Links", "The strongest", &o.link_limit, 0, 1'000'000);
+  AddOverlaySettings("Links", &o, &s);
   s.Toggle("error-map", "Graphs", "Representation error as a map", &view_.error_map);
   s.Number("error-map-max", "Graphs", "Top of the map, relative", &view_.error_map_max, 1e-9, 1e9, true);
-  s.Toggle("analytic-graph", "Graphs", "Analytic irradiance", &o.analytic_graph);
-  s.Toggle("interpolated-graph", "Graphs", "Interpolated irradiance", &o.interpolated_graph);
-  s.Toggle("error-graph", "Graphs", "Error surface", &o.error_graph);
-  s.Number("graph-scale", "Graphs", "Graph height scale [m per W/m^2]", &o.graph_scale, 1e-9, 1e6, true);
-  s.Integer("grid-density", "Graphs", "Grid density", &o.grid_density, 1, 200);
-  s.Toggle("dynamic-grid", "Graphs", "Dynamic grid density", &o.dynamic_grid);
+  AddOverlaySettings("Graphs", &o, &s);
 
   s.Choice("navigation", "Viewing", "Viewing mode", &view_.navigation,
            {{"arcball", Navigation::kArcball}, {"walk", Navigation::kWalk}});
