@@ -4,11 +4,15 @@
 
 #include <charconv>
 
+#include "display/image_writers.h"
+#include "display/mesh_writers.h"
 #include "display/viewer/overlays.h"
 #include "display/viewer/viewer.h"
 #include "mesh/discontinuities/discontinuity_choices.h"
 #include "solver/base/check.h"
+#include "solver/base/file_endings.h"
 #include "solver/base/parallel.h"
+#include "solver/scene/scene_writers.h"
 #include "solver/transport/links/link_form_factor_methods.h"
 #include "solver/transport/links/refinement_oracles.h"
 
@@ -31,6 +35,21 @@ Setting Optional(const std::string& name, const std::string& help, std::optional
     changed();
   };
   return setting;
+}
+
+std::string ExportHelp() {
+  std::vector<std::string> endings = Dotted(MeshWriters().Names());
+  for (const std::string& ending : Dotted(SceneWriters().Names())) endings.push_back(ending);
+  const std::string last = endings.back();
+  endings.pop_back();
+  return fmt::format("Export as {} or {}", fmt::join(endings, ", "), last);
+}
+
+std::string PictureHelp() {
+  std::vector<std::string> formats;
+  for (const ImageWriterRegistry::Method& format : ImageWriters().methods())
+    formats.push_back(fmt::format(".{}{}", format.name, format.make()->IsLinear() ? " in W/m^2" : ""));
+  return fmt::format("Save the picture as {}", fmt::join(formats, ", or "));
 }
 
 std::uint64_t WholeNumber(const std::string& text) {
@@ -263,10 +282,8 @@ void Viewer::AddFileSettings() {
          [this](const std::string& v) { SaveSolved(v, options_.files.save_solution); });
   action("save-report", "Save the report, as JSON",
          [this](const std::string& v) { SaveSolved(v, options_.files.save_report); });
-  action("export", "Export as .vtu, .ply, .glb, .obj, .pbrt or .mgf",
-         [this](const std::string& v) { Export(v); });
-  action("save-picture", "Save the picture as .png, or .exr in W/m^2",
-         [this](const std::string& v) { SavePicture(v); });
+  action("export", ExportHelp(), [this](const std::string& v) { Export(v); });
+  action("save-picture", PictureHelp(), [this](const std::string& v) { SavePicture(v); });
   action("save-camera", "Name this camera", [this](const std::string& v) { SaveCamera(v); });
   action("camera", "Go to a camera", [this](const std::string& v) {
     for (const Camera& camera : cameras_)
