@@ -17,7 +17,7 @@
 #include "apps/restart.h"
 #include "apps/solve_run.h"
 #include "display/false_colour.h"
-#include "display/image_io.h"
+#include "display/image_writers.h"
 #include "display/ray_display.h"
 #include "display/split_view.h"
 #include "solver/base/check.h"
@@ -56,7 +56,7 @@ void PaintFalseColoursOf(const RenderArguments& arguments, const RgbImage& linea
 // colours; for a PNG each is exposed by itself, so that the edges of lights are smooth.
 void WriteImage(const RenderArguments& arguments, const RgbImage& linear, std::span<const PixelKind> kinds,
                 int across, int down, const ToneMapping& tone) {
-  if (IsExr(*arguments.output)) {
+  if (IsLinearImage(*arguments.output)) {
     const RgbImage means = Downsample(linear, across, down);
     for (const auto& plane : means.channel)
       if (!std::all_of(plane.begin(), plane.end(), [](float value) { return std::isfinite(value); }))
@@ -64,7 +64,7 @@ void WriteImage(const RenderArguments& arguments, const RgbImage& linear, std::s
             fmt::format("{}: error: a pixel is no number that 32 bits hold, up to 3.4e38; give the "
                         "scene less light",
                         *arguments.output));
-    WriteExr(*arguments.output, means);
+    WriteImageFile(*arguments.output, means);
     return;
   }
   Srgb8Image screen;
@@ -73,7 +73,7 @@ void WriteImage(const RenderArguments& arguments, const RgbImage& linear, std::s
   } else {
     EncodeSrgb(Expose(linear, kinds, tone.exposure, across, down), tone.dither, &screen);
   }
-  WritePng(*arguments.output, screen);
+  WriteImageFile(*arguments.output, screen);
 }
 
 BenchmarkSettings BenchmarkOf(const RenderArguments& arguments, const Camera& camera,
@@ -100,7 +100,7 @@ void WriteSplit(const RenderArguments& arguments, const Camera& camera, const Ir
   else
     picture = display.ToneMap(tone).screen;
   PaintSplit(frame, MakePixelRays(camera, w, h), mesh, picture, width, height, &whole);
-  WritePng(*arguments.output, whole);
+  WriteImageFile(*arguments.output, whole);
 }
 
 // A PNG is drawn larger by the supersampling; an EXR has one sample a pixel, at its centre.
@@ -114,7 +114,7 @@ void RenderTwoPass(const RenderArguments& arguments, const Camera& camera, Solve
   if (arguments.split) {
     WriteSplit(arguments, camera, mesh, display, tone);
   } else if (arguments.output) {
-    const int k = IsExr(*arguments.output) || arguments.false_colour ? 1 : arguments.supersampling;
+    const int k = IsLinearImage(*arguments.output) || arguments.false_colour ? 1 : arguments.supersampling;
     if (k > 1) display.Render(camera, k * width, k * height, shading);
     WriteImage(arguments, frame.linear, frame.kind, k, k, tone);
   }

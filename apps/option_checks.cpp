@@ -58,7 +58,7 @@ void CheckDistances(const SceneArguments& arguments, const Scene& scene) {
 }
 
 std::string CostNote(const SceneArguments& arguments, const ResolvedOptions& resolved) {
-  if (arguments.solving.solver == "dense" || arguments.restart || resolved.solver.oracle != OracleKind::kThesis ||
+  if (arguments.solving.solver == "dense" || arguments.restart || resolved.solver.oracle != "thesis" ||
       arguments.solving.eps)
     return "";
   // Measured at --error 0.02: 99,000 elements for 1,500 in the office, 44,000 for 700 in the Cornell box;

@@ -63,9 +63,6 @@ struct RenderArguments {
   bool ByRays() const { return mode.method != RenderMethod::kTwoPass; }
 };
 
-bool IsExr(const std::string& path);
-bool IsPng(const std::string& path);
-
 // Whether a picture has a sample a pixel, or rays.
 bool HasOneSample(const RenderArguments& arguments);
 

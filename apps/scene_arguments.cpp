@@ -18,6 +18,7 @@
 #include "apps/option_values.h"
 #include "apps/report.h"
 #include "apps/scene_warnings.h"
+#include "mesh/discontinuities/discontinuity_choices.h"
 #include "mesh/pipeline/link_options.h"
 #include "mesh/pipeline/solution_file.h"
 #include "solver/base/check.h"
@@ -26,7 +27,10 @@
 #include "solver/base/stopwatch.h"
 #include "solver/scene/file_format.h"
 #include "solver/scene/named_scene.h"
+#include "solver/scene/scene_readers.h"
 #include "solver/scene/text_reader.h"
+#include "solver/transport/links/link_form_factor_methods.h"
+#include "solver/transport/links/refinement_oracles.h"
 #include "solver/transport/solvers/light_solvers.h"
 
 namespace penumbra {
@@ -47,14 +51,6 @@ constexpr NumberRule kSeconds{[](double x) { return x >= 1e-9 && x <= 1e9; }, "a
 constexpr NumberRule kBytes{[](double x) { return x >= 1 && x <= 1e18; }, "a number from 1 to 1e18"};
 constexpr Choice<IterationScheme> kSchemes[] = {{"jacobi", IterationScheme::kJacobi},
                                                 {"gauss-seidel", IterationScheme::kGaussSeidel}};
-constexpr Choice<OracleKind> kOracles[] = {{"transport", OracleKind::kTransport},
-                                           {"visibility", OracleKind::kVisibility},
-                                           {"gradient", OracleKind::kGradient},
-                                           {"thesis", OracleKind::kThesis}};
-
-constexpr Choice<LinkFormFactors> kLinkFormFactors[] = {{"cubature", LinkFormFactors::kCubature},
-                                                        {"exact", LinkFormFactors::kExact},
-                                                        {"disk", LinkFormFactors::kDisk}};
 constexpr Choice<BasisDegree> kBases[] = {{"constant", BasisDegree::kConstant},
                                           {"linear", BasisDegree::kLinear},
                                           {"quadratic", BasisDegree::kQuadratic}};
@@ -62,11 +58,6 @@ constexpr Choice<RefineBy> kRefinements[] = {{"transport", RefineBy::kTransport}
                                              {"representation", RefineBy::kRepresentation},
                                              {"both", RefineBy::kBoth}};
 
-constexpr Choice<DiscontinuityChoice> kDiscontinuityChoices[] = {{"ranked", DiscontinuityChoice::kRanked},
-                                                                 {"adaptive", DiscontinuityChoice::kAdaptive},
-                                                                 {"none", DiscontinuityChoice::kNone},
-                                                                 {"random", DiscontinuityChoice::kRandom},
-                                                                 {"all", DiscontinuityChoice::kAll}};
 constexpr Choice<DiscontinuityWeight> kDiscontinuityWeights[] = {
     {"thesis", DiscontinuityWeight::kThesis}, {"irradiance", DiscontinuityWeight::kIrradiance}};
 
@@ -78,7 +69,7 @@ bool IsSolution(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
   try {
     const std::string beginning = ReadFileStart(path, std::max(kSolutionHeaderSize, kFormatBytes));
-    if (beginning.empty()) return std::filesystem::path(path).extension() != ".obj";
+    if (beginning.empty()) return !HasSceneEnding(path);
     const std::optional<ForeignFormat> format = FindForeignFormat(beginning);
     if (format) return format->kind == FormatKind::kSolution || format->kind == FormatKind::kHdf5;
     return LooksLikeSolution(beginning);
@@ -202,7 +193,7 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
             "Smallest weight of a discontinuity in the mesh [W/m^2] (default: follows from --error)")
       ->group(group);
   AddChoice(
-      app, "--discontinuities", &solving->discontinuities, kDiscontinuityChoices,
+      app, "--discontinuities", &solving->discontinuities, DiscontinuityChoices().Names(),
       "Which become edges of the mesh, as many as a leaf may have: the heaviest (default), those where a "
       "shadow boundary is seen to cross a leaf (Stuerzlinger 1994), none, any in random order; or all of "
       "them")
@@ -262,7 +253,7 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
       "Order of a sweep: all elements from the light before it (the thesis), or patch after patch, each "
       "from the light as it is then")
       ->group(group);
-  AddChoice(app, "--oracle", &solving->oracle, kOracles,
+  AddChoice(app, "--oracle", &solving->oracle, RefinementOracles().Names(),
             "What splits links: their transport error, by its deviation over the receiver; the same, partial "
             "links counting twice; by the gradient of the form factor; or as printed in the thesis, without "
             "regard to area")
@@ -298,7 +289,7 @@ void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
             "relative to the source's diameter as seen, as the thesis does; 0: the fastest exact way")
       ->group(group);
   AddChoice(
-      app, "--form-factors", &solving->form_factors, kLinkFormFactors,
+      app, "--form-factors", &solving->form_factors, LinkFormFactorMethods().Names(),
       "Of links: the mean of exact point factors over a few points of the receiver (cubature); between areas "
       "to "
       "1e-7, slower, and closed rooms then close (exact); or the source as a disk seen from the receiver's "
@@ -398,7 +389,7 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["eps"] = resolved->solver.eps;
     options["min_area"] = resolved->solver.min_area;
     const DiscontinuityOptions& mesh = resolved->discontinuities;
-    options["discontinuities"] = ChoiceName(kDiscontinuityChoices, mesh.choice);
+    options["discontinuities"] = mesh.choice;
     options["weight"] = ChoiceName(kDiscontinuityWeights, mesh.weight);
     options["min_discontinuity_weight"] = mesh.min_weight;
     options["min_wanted_weight"] = mesh.min_wanted_weight;
@@ -412,7 +403,7 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     if (arguments.solving.source_error) options["source_error"] = *arguments.solving.source_error;
     options[kAcceleration] = resolved->solver.acceleration == Acceleration::kAnderson;
     options["scheme"] = ChoiceName(kSchemes, resolved->solver.scheme);
-    options["oracle"] = ChoiceName(kOracles, resolved->solver.oracle);
+    options["oracle"] = resolved->solver.oracle;
     options["multigrid"] = resolved->solver.multigrid;
     options["relative_cutoff"] = resolved->solver.relative_cutoff;
     options["iterations"] = resolved->solver.max_iterations;
@@ -422,7 +413,7 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
     options["nudge"] = arguments.solving.point.nudge;
     options["source_push_off"] = arguments.solving.point.source_push_off;
     options["min_backprojection_segment"] = arguments.solving.point.min_backprojection_segment;
-    options["form_factors"] = ChoiceName(kLinkFormFactors, arguments.solving.form_factors);
+    options["form_factors"] = arguments.solving.form_factors;
     options["solver"] = arguments.solving.solver;
     if (arguments.solving.solver == "dense") {
       options["basis"] = ChoiceName(kBases, arguments.solving.dense.degree);
@@ -502,10 +493,10 @@ void TakeHierarchical(const nlohmann::ordered_json& options, PipelineOptions* so
   solving->relative_cutoff = options.at("relative_cutoff").get<double>();
   options.at("iterations").get_to(solving->max_iterations);
   solving->scheme = ChoiceValue(kSchemes, options.at("scheme").get<std::string>());
-  solving->oracle = ChoiceValue(kOracles, options.at("oracle").get<std::string>());
+  solving->oracle = RefinementOracles().Find(options.at("oracle").get<std::string>()).name;
   options.at("multigrid").get_to(solving->multigrid);
   options.at("bounces").get_to(solving->bounces);
-  solving->form_factors = ChoiceValue(kLinkFormFactors, options.at("form_factors").get<std::string>());
+  solving->form_factors = LinkFormFactorMethods().Find(options.at("form_factors").get<std::string>()).name;
 }
 
 }  // namespace
@@ -522,7 +513,7 @@ PipelineOptions SolvingFrom(const nlohmann::ordered_json& options) {
   solving.corner_divisions = options.value("corner_divisions", 0);
   // Files from before there was a choice are of the thesis's kind.
   solving.weight = ChoiceValue(kDiscontinuityWeights, options.value("weight", "thesis"));
-  solving.discontinuities = ChoiceValue(kDiscontinuityChoices, options.value("discontinuities", "ranked"));
+  solving.discontinuities = DiscontinuityChoices().Find(options.value("discontinuities", "ranked")).name;
   solving.keep_hidden_discontinuities = options.value("keep_hidden_discontinuities", false);
   solving.triple_edge_tolerance = options.value("eee", 0.0);
   options.at("error_samples").get_to(solving.error_samples);

@@ -39,5 +39,7 @@ std::array<std::array<std::uint32_t, 3>, 4> Quarters(const std::array<std::uint3
 
 // The exposure [m^2/W] that shows the nodes like MeterExposure() shows a picture: by area.
 double MeterNodes(const Scene& scene, const IrradianceMesh& mesh, const MeshNodes& nodes);
+// The same of all nodes of the mesh.
+double MeterMesh(const Scene& scene, const IrradianceMesh& mesh);
 
 }  // namespace penumbra

@@ -42,6 +42,8 @@ struct Setting {
 class Settings {
  public:
   Setting& Toggle(const std::string& name, const std::string& group, const std::string& help, bool* value);
+  Setting& Toggle(const std::string& name, const std::string& group, const std::string& help,
+                  std::function<bool()> get, std::function<void(bool)> set);
   Setting& Number(const std::string& name, const std::string& group, const std::string& help, double* value,
                   double low, double high, bool logarithmic);
   Setting& Integer(const std::string& name, const std::string& group, const std::string& help, int* value,
@@ -64,7 +66,7 @@ class Settings {
     return AddChoice(name, group, help, std::move(names), place,
                      [value, choices](std::size_t i) { *value = choices[i].second; });
   }
-  // The same, with `auto` for nothing.
+  // Choice() with `auto` for nothing.
   template <class Value>
   Setting& OptionalChoice(const std::string& name, const std::string& group, const std::string& help,
                           std::optional<Value>* value, const Named<std::type_identity_t<Value>>& choices) {
@@ -72,6 +74,9 @@ class Settings {
     for (const auto& [choice, meaning] : choices) all.emplace_back(choice, meaning);
     return Choice(name, group, help, value, all);
   }
+  // The value is one of the names itself.
+  Setting& NameChoice(const std::string& name, const std::string& group, const std::string& help,
+                      std::string* value, const std::vector<std::string>& names);
   Setting& Vector(const std::string& name, const std::string& group, const std::string& help,
                   std::function<Vec3()> get, std::function<void(const Vec3&)> set);
   Setting& Add(Setting setting);

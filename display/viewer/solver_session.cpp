@@ -317,7 +317,7 @@ void SolverSession::DoBuildMesh(MeshKind kind, const ExecutionContext& context) 
   if (kind == MeshKind::kInterpolant) return DoInterpolants(context);
   MeshOptions mesh;
   mesh.discontinuities = pipeline_->resolved().discontinuities;
-  if (kind != MeshKind::kGouraudMesh) mesh.discontinuities.choice = DiscontinuityChoice::kNone;
+  if (kind != MeshKind::kGouraudMesh) mesh.discontinuities.choice = kNoDiscontinuities;
   mesh.order = InterpolantOrder::kLinear;
   MeshResult result = RunLocalPass(before->light->visibility(), before->light->solution(),
                                    SamplerOf(*before->light), mesh, context);

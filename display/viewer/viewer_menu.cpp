@@ -1,5 +1,6 @@
 // The menus of the viewer, after the thesis's Appendix B.
 
+#include "display/viewer/overlays.h"
 #include "display/viewer/viewer.h"
 
 namespace penumbra::viewer {
@@ -70,22 +71,18 @@ void Viewer::AddMenus() {
   toggle("Drawing/False colours", "o", "false-colour");
   toggle("Drawing/Drawing control panel", "d", "control-panel");
 
-  toggle("Visualisation/Element mesh", "m", "element-mesh");
-  add("Visualisation/Mesh one level deeper", ".", "Mesh depth",
-      [this] { view_.overlays.mesh_depth = std::min(view_.overlays.mesh_depth + 1, kMaxLevel); });
-  add("Visualisation/Mesh one level less deep", ",", "Mesh depth",
-      [this] { view_.overlays.mesh_depth = std::max(std::min(view_.overlays.mesh_depth, 8) - 1, 0); });
-  toggle("Visualisation/Visible links", "l", "visible-links");
-  toggle("Visualisation/Links split by a plane", "k", "split-links");
-  toggle("Visualisation/Partial links", "p", "partial-links");
-  toggle("Visualisation/Discontinuities", "x", "discontinuities");
-  toggle("Visualisation/Triangles", "t", "triangles");
-  toggle("Visualisation/Sample points", "s", "sample-points");
+  const auto visualise = [&](const Overlay& overlay) {
+    for (const OverlaySwitch& part : overlay.Switches())
+      toggle("Visualisation/" + part.menu, part.key, part.name);
+    overlay.AddMenuItems(&view_.overlays, &menu_);
+  };
+  const auto overlays = MakeOverlays();
+  const auto is_graph = [](const Overlay& overlay) { return overlay.Group() == "Graphs"; };
+  for (const auto& overlay : overlays)
+    if (!is_graph(*overlay)) visualise(*overlay);
   toggle("Visualisation/Representation error", "e", "error-map");
-  toggle("Visualisation/Analytic irradiance", "g", "analytic-graph");
-  toggle("Visualisation/Interpolated irradiance", "b", "interpolated-graph");
-  toggle("Visualisation/Error surface", "j", "error-graph");
-  toggle("Visualisation/Dynamic grid density", "", "dynamic-grid");
+  for (const auto& overlay : overlays)
+    if (is_graph(*overlay)) visualise(*overlay);
   toggle("Visualisation/Hidden lines", "u", "hidden-lines");
 
   add("Geometry/Unselect all", "escape", "Nothing is selected or probed any more", [this] { Unselect(); });

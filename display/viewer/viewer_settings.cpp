@@ -4,9 +4,17 @@
 
 #include <charconv>
 
+#include "display/image_writers.h"
+#include "display/mesh_writers.h"
+#include "display/viewer/overlays.h"
 #include "display/viewer/viewer.h"
+#include "mesh/discontinuities/discontinuity_choices.h"
 #include "solver/base/check.h"
+#include "solver/base/file_endings.h"
 #include "solver/base/parallel.h"
+#include "solver/scene/scene_writers.h"
+#include "solver/transport/links/link_form_factor_methods.h"
+#include "solver/transport/links/refinement_oracles.h"
 #include "solver/transport/solvers/light_solvers.h"
 
 namespace penumbra::viewer {
@@ -28,6 +36,21 @@ Setting Optional(const std::string& name, const std::string& help, std::optional
     changed();
   };
   return setting;
+}
+
+std::string ExportHelp() {
+  std::vector<std::string> endings = Dotted(MeshWriters().Names());
+  for (const std::string& ending : Dotted(SceneWriters().Names())) endings.push_back(ending);
+  const std::string last = endings.back();
+  endings.pop_back();
+  return fmt::format("Export as {} or {}", fmt::join(endings, ", "), last);
+}
+
+std::string PictureHelp() {
+  std::vector<std::string> formats;
+  for (const ImageWriterRegistry::Method& format : ImageWriters().methods())
+    formats.push_back(fmt::format(".{}{}", format.name, format.make()->IsLinear() ? " in W/m^2" : ""));
+  return fmt::format("Save the picture as {}", fmt::join(formats, ", or "));
 }
 
 std::uint64_t WholeNumber(const std::string& text) {
@@ -71,26 +94,13 @@ void Viewer::AddViewSettings() {
            &view_.false_colour_max, 0, 1e12, false);
 
   OverlaySettings& o = view_.overlays;
-  s.Toggle("element-mesh", "Visualisations", "Element mesh", &o.element_mesh);
-  s.Integer("mesh-depth", "Visualisations", "Mesh depth", &o.mesh_depth, 0, kMaxLevel);
-  s.Toggle("discontinuities", "Visualisations", "All discontinuities", &o.discontinuities);
-  s.Toggle("triangles", "Visualisations", "Triangulation", &o.triangles);
-  s.Toggle("sample-points", "Visualisations", "Sample points", &o.sample_points);
+  AddOverlaySettings("Visualisations", &o, &s);
   s.Toggle("hidden-lines", "Visualisations", "Show hidden lines", &o.hidden_lines);
   s.Toggle("isolate", "Visualisations", "Draw only what is selected", &view_.isolate);
-  s.Toggle("visible-links", "Links", "Visible links", &o.visible_links);
-  s.Toggle("split-links", "Links", "Links split by a plane", &o.split_links);
-  s.Toggle("partial-links", "Links", "Partial links", &o.partial_links);
-  s.Number("link-min-irradiance", "Links", "At least [W/m^2]", &o.link_min_irradiance, 0, 1e12, false);
-  s.Integer("link-limit", "Links", "The strongest", &o.link_limit, 0, 1'000'000);
+  AddOverlaySettings("Links", &o, &s);
   s.Toggle("error-map", "Graphs", "Representation error as a map", &view_.error_map);
   s.Number("error-map-max", "Graphs", "Top of the map, relative", &view_.error_map_max, 1e-9, 1e9, true);
-  s.Toggle("analytic-graph", "Graphs", "Analytic irradiance", &o.analytic_graph);
-  s.Toggle("interpolated-graph", "Graphs", "Interpolated irradiance", &o.interpolated_graph);
-  s.Toggle("error-graph", "Graphs", "Error surface", &o.error_graph);
-  s.Number("graph-scale", "Graphs", "Graph height scale [m per W/m^2]", &o.graph_scale, 1e-9, 1e6, true);
-  s.Integer("grid-density", "Graphs", "Grid density", &o.grid_density, 1, 200);
-  s.Toggle("dynamic-grid", "Graphs", "Dynamic grid density", &o.dynamic_grid);
+  AddOverlaySettings("Graphs", &o, &s);
 
   s.Choice("navigation", "Viewing", "Viewing mode", &view_.navigation,
            {{"arcball", Navigation::kArcball}, {"walk", Navigation::kWalk}});
@@ -153,12 +163,8 @@ void Viewer::AddSolveSettings() {
                 {{"transport", RefineBy::kTransport},
                  {"representation", RefineBy::kRepresentation},
                  {"both", RefineBy::kBoth}}));
-  also(s.Choice("mesh-discontinuities", "Solving", "Discontinuities in the mesh", &o.discontinuities,
-                {{"ranked", DiscontinuityChoice::kRanked},
-                 {"adaptive", DiscontinuityChoice::kAdaptive},
-                 {"none", DiscontinuityChoice::kNone},
-                 {"random", DiscontinuityChoice::kRandom},
-                 {"all", DiscontinuityChoice::kAll}}));
+  also(s.NameChoice("mesh-discontinuities", "Solving", "Discontinuities in the mesh", &o.discontinuities,
+                    DiscontinuityChoices().Names()));
   also(s.OptionalChoice(
       "weight", "Solving", "Weight of discontinuities", &o.weight,
       {{"thesis", DiscontinuityWeight::kThesis}, {"irradiance", DiscontinuityWeight::kIrradiance}}));
@@ -180,16 +186,10 @@ void Viewer::AddSolveSettings() {
                 {{"jacobi", IterationScheme::kJacobi}, {"gauss-seidel", IterationScheme::kGaussSeidel}}));
   also(s.Choice("acceleration", "Solving", "Guess ahead between sweeps", &o.acceleration,
                 {{"none", Acceleration::kNone}, {"anderson", Acceleration::kAnderson}}));
-  also(s.Choice("oracle", "Solving", "Refinement of links", &o.oracle,
-                {{"transport", OracleKind::kTransport},
-                 {"visibility", OracleKind::kVisibility},
-                 {"gradient", OracleKind::kGradient},
-                 {"thesis", OracleKind::kThesis}}));
+  also(s.NameChoice("oracle", "Solving", "Refinement of links", &o.oracle, RefinementOracles().Names()));
   also(s.Toggle("multigrid", "Solving", "Coarse links first", &o.multigrid));
-  also(s.Choice("form-factors", "Solving", "Form factors of links", &o.form_factors,
-                {{"cubature", LinkFormFactors::kCubature},
-                 {"exact", LinkFormFactors::kExact},
-                 {"disk", LinkFormFactors::kDisk}}));
+  also(s.NameChoice("form-factors", "Solving", "Form factors of links", &o.form_factors,
+                    LinkFormFactorMethods().Names()));
   s.Add(Optional("time-limit", "Time limit [s]", &o.time_limit, 1e-9, {}, changed));
   s.Add(Optional("memory-limit", "Memory limit [bytes]", &o.memory_limit, 1, {}, changed));
   also(s.Integer("bounces", "Solving", "Bounces that are reported", &o.bounces, 0, 1000));
@@ -276,10 +276,8 @@ void Viewer::AddFileSettings() {
          [this](const std::string& v) { SaveSolved(v, options_.files.save_solution); });
   action("save-report", "Save the report, as JSON",
          [this](const std::string& v) { SaveSolved(v, options_.files.save_report); });
-  action("export", "Export as .vtu, .ply, .glb, .obj, .pbrt or .mgf",
-         [this](const std::string& v) { Export(v); });
-  action("save-picture", "Save the picture as .png, or .exr in W/m^2",
-         [this](const std::string& v) { SavePicture(v); });
+  action("export", ExportHelp(), [this](const std::string& v) { Export(v); });
+  action("save-picture", PictureHelp(), [this](const std::string& v) { SavePicture(v); });
   action("save-camera", "Name this camera", [this](const std::string& v) { SaveCamera(v); });
   action("camera", "Go to a camera", [this](const std::string& v) {
     for (const Camera& camera : cameras_)

@@ -26,13 +26,13 @@ struct Curve {
 
 struct OracleMethod {
   const char* name;
-  OracleKind oracle;
+  const char* oracle;
   bool multigrid;
 };
 constexpr OracleMethod kOracleMethods[] = {
-    {"transport", OracleKind::kTransport, false},   {"transport, multigrid", OracleKind::kTransport, true},
-    {"visibility", OracleKind::kVisibility, false}, {"gradient", OracleKind::kGradient, false},
-    {"thesis", OracleKind::kThesis, false},         {"thesis, multigrid", OracleKind::kThesis, true},
+    {"transport", "transport", false},   {"transport, multigrid", "transport", true},
+    {"visibility", "visibility", false}, {"gradient", "gradient", false},
+    {"thesis", "thesis", false},         {"thesis, multigrid", "thesis", true},
 };
 
 StudyRow SolveLinks(const ReferenceCase& test, const PipelineOptions& options, int repeats) {

@@ -143,7 +143,7 @@ struct Pipeline::Impl {
     MeshOptions mesh_options;
     mesh_options.discontinuities = resolved.discontinuities;
     if (kind != MeshKind::kGouraudMesh && kind != MeshKind::kInterpolant)
-      mesh_options.discontinuities.choice = DiscontinuityChoice::kNone;
+      mesh_options.discontinuities.choice = kNoDiscontinuities;
     mesh_options.order = kind == MeshKind::kFlat          ? InterpolantOrder::kConstant
                          : kind == MeshKind::kInterpolant ? InterpolantOrder::kQuadratic
                                                           : InterpolantOrder::kLinear;

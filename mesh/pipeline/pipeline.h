@@ -47,7 +47,7 @@ struct PipelineOptions {
   int max_leaf_dsets = 10;                         // Appendix A, 5
   // Which discontinuities the mesh gets. The weight is the thesis's where its minimum is given, for that is
   // on its scale; else the irradiance weight.
-  DiscontinuityChoice discontinuities = DiscontinuityChoice::kRanked;
+  std::string discontinuities = "ranked";  // DiscontinuityOptions::choice
   std::optional<DiscontinuityWeight> weight;
   bool keep_hidden_discontinuities = false;
   double triple_edge_tolerance = 0;       // DiscontinuityOptions::triple_edge_tolerance [m]
@@ -59,11 +59,11 @@ struct PipelineOptions {
   // SolverOptions::source_error. Where it is given, sources are not cut by the interpolants.
   std::optional<double> source_error;
   int max_iterations = 100;
-  LinkFormFactors form_factors = LinkFormFactors::kCubature;  // SolverOptions::form_factors
   // SolverOptions of these names.
+  std::string form_factors = "cubature";
   IterationScheme scheme = IterationScheme::kJacobi;
   Acceleration acceleration = Acceleration::kAnderson;
-  OracleKind oracle = OracleKind::kTransport;
+  std::string oracle = "transport";
   bool multigrid = false;
   // Limits to Solve(), which then ends with the last whole step: in the dark, where that was not even
   // linking. They go on for BuildMesh(), which leaves out refining by what is shown, or where there was no
@@ -92,6 +92,7 @@ struct ResolvedOptions {
   // --source-error stay as they cut it.
   bool refine_light = true;
 };
+// Throws InputError if a method is named that does not exist.
 ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options);
 
 // How the interpolants of a mesh are made.

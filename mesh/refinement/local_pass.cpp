@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "mesh/discontinuities/contact_corners.h"
+#include "mesh/discontinuities/discontinuity_choices.h"
 #include "mesh/discontinuities/dset.h"
-#include "mesh/discontinuities/shadow_crossing.h"
 #include "mesh/interpolants/leaf_light.h"
 #include "mesh/interpolants/light_beside.h"
 #include "mesh/triangulation/weld.h"
@@ -37,13 +37,8 @@ PatchDSets Activate(const ElementForest& forest, const PatchVisibility& visibili
       return light.ScaleIn(places->At(leaf, frame.FromPlane(place)));
     };
   }
-  if (options.choice != DiscontinuityChoice::kAdaptive)
-    return ActivateDiscontinuities(forest, patch, found, options, {}, scale, at_place);
-  ShadowCrossing crossing(forest, visibility, patch);
-  const auto crosses = [&](const Discontinuity& d, ElementId leaf) {
-    return crossing.Crosses(d.source, leaf);
-  };
-  return ActivateDiscontinuities(forest, patch, found, options, crosses, scale);
+  const LeafFilter filter = DiscontinuityChoices().Make(options.choice)->FilterOf(forest, visibility, patch);
+  return ActivateDiscontinuities(forest, patch, found, options, filter, scale, at_place);
 }
 
 // The discontinuities on the patch that may become edges, those of the plan marked.

@@ -12,6 +12,7 @@
 
 #include "solver/scene/scene.h"
 #include "solver/scene/scene_options.h"
+#include "solver/scene/scene_reader.h"
 
 namespace penumbra {
 
@@ -27,5 +28,8 @@ const std::vector<BuiltinScene>& BuiltinScenes();
 // The built-in scene with its cameras; nothing if there is none of that name. Throws InputError where the
 // options do not suit the scene.
 std::optional<Scene> LoadBuiltinScene(std::string_view name, const SceneOptions& options);
+
+// Their names, where no file has the same.
+SceneReaderRegistry::Method BuiltinSceneReaderMethod();
 
 }  // namespace penumbra

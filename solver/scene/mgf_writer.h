@@ -5,6 +5,7 @@
 #include <string>
 
 #include "solver/scene/scene.h"
+#include "solver/scene/scene_writer.h"
 
 namespace penumbra {
 
@@ -16,5 +17,7 @@ std::string MgfText(const Scene& scene);
 
 // CIE XYZ of a colour by those primaries.
 Vec3 MgfXyz(const Rgb& rgb);
+
+SceneWriterRegistry::Method MgfWriterMethod();
 
 }  // namespace penumbra

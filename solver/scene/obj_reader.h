@@ -13,6 +13,7 @@
 
 #include "solver/scene/scene.h"
 #include "solver/scene/scene_options.h"
+#include "solver/scene/scene_reader.h"
 
 namespace penumbra {
 
@@ -28,5 +29,8 @@ Scene ReadObj(const std::filesystem::path& path, const SceneOptions& options);
 // The same from a text; `file_name` stands for it in messages, its stem is the scene's name.
 Scene ReadObjText(std::string_view text, std::string_view file_name, const MtlSource& mtl_source,
                   const SceneOptions& options);
+
+// Files that end in .obj.
+SceneReaderRegistry::Method ObjReaderMethod();
 
 }  // namespace penumbra

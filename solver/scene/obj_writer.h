@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "solver/scene/scene.h"
+#include "solver/scene/scene_writer.h"
 
 namespace penumbra {
 
@@ -18,5 +19,7 @@ namespace penumbra {
 std::string ObjText(const Scene& scene, std::string_view mtl_name);
 // The text of the library: Kd is reflectance, Ke emittance [W/m^2].
 std::string MtlText(const Scene& scene);
+
+SceneWriterRegistry::Method ObjWriterMethod();
 
 }  // namespace penumbra

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "solver/scene/scene.h"
+#include "solver/scene/scene_writer.h"
 
 namespace penumbra {
 
@@ -12,5 +13,7 @@ namespace penumbra {
 // emittance / pi on their fronts, a path tracer and an EXR film of width x height pixels (height <= width)
 // behind the camera. What pbrt cannot be told: backs reflect as fronts do, where they can be seen.
 std::string PbrtText(const Scene& scene, const Camera& camera, int width, int height);
+
+SceneWriterRegistry::Method PbrtWriterMethod();
 
 }  // namespace penumbra

@@ -245,7 +245,7 @@ TEST(LocalPass, DiscontinuitiesPay) {
   const BoxesUnderLight boxes(0);
   const MeshResult with = boxes.Run(UpTo20());
   MeshOptions off = UpTo20();
-  off.discontinuities.choice = DiscontinuityChoice::kNone;
+  off.discontinuities.choice = "none";
   const RepresentationError fine = boxes.Measure(with), coarse = boxes.Measure(boxes.Run(off));
   EXPECT_EQ(with.report.counts.refused_contacts, 0U);
   EXPECT_LT(fine.rms, 0.25 * coarse.rms);

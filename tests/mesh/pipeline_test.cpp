@@ -170,8 +170,7 @@ TEST(Resolve, WantsEdgesByErrorsAlone) {
   EXPECT_TRUE(by_default.can_want());
   EXPECT_LT(by_default.LeastWeight(), by_default.min_weight);
   EXPECT_FALSE(mesh([](PipelineOptions& o) { o.weight = DiscontinuityWeight::kThesis; }).can_want());
-  EXPECT_FALSE(
-      mesh([](PipelineOptions& o) { o.discontinuities = DiscontinuityChoice::kAdaptive; }).can_want());
+  EXPECT_FALSE(mesh([](PipelineOptions& o) { o.discontinuities = "adaptive"; }).can_want());
   const auto named = [](PipelineOptions& o) {
     o.weight = DiscontinuityWeight::kIrradiance;
     o.min_discontinuity_weight = 0.5;

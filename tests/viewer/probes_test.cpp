@@ -143,7 +143,7 @@ TEST(Links, FiltersKeepTheStrongest) {
   const RadiositySolution& solution = Shared().light->solution();
   OverlaySettings settings;
   EXPECT_TRUE(ShownLinks(solution, settings, {}).empty());
-  settings.visible_links = settings.split_links = settings.partial_links = true;
+  settings.shown = {"visible-links", "split-links", "partial-links"};
   settings.link_limit = 1'000'000;
   const auto all = ShownLinks(solution, settings, {});
   EXPECT_EQ(all.size(), solution.links.links.size());
@@ -157,10 +157,8 @@ TEST(Links, FiltersKeepTheStrongest) {
   // The classes share the links out.
   settings.link_limit = 1'000'000;
   std::size_t sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    settings.visible_links = k == 0;
-    settings.split_links = k == 1;
-    settings.partial_links = k == 2;
+  for (const LinkClass link_class : {LinkClass::kVisible, LinkClass::kSplit, LinkClass::kPartial}) {
+    settings.shown = {SwitchOf(link_class)};
     sum += ShownLinks(solution, settings, {}).size();
   }
   EXPECT_EQ(sum, all.size());

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "solver/transport/links/link_table.h"
-#include "solver/transport/links/oracle.h"
 #include "solver/transport/links/push_pull.h"
+#include "solver/transport/links/refinement_oracle.h"
 
 namespace penumbra {
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "solver/transport/links/link_form_factor_methods.h"
+#include "solver/transport/links/link_former.h"
+#include "solver/transport/links/refinement_oracles.h"
 #include "solver/transport/solvers/closure.h"
 
 namespace penumbra {
@@ -21,9 +24,16 @@ double ReferenceArea(const Scene& scene) {
   return area / 256;
 }
 
+// The options, if there are methods of the names that they give. Throws InputError if there are not.
+const SolverOptions& Checked(const SolverOptions& options) {
+  RefinementOracles().Find(options.oracle);
+  LinkFormFactorMethods().Find(options.form_factors);
+  return options;
+}
+
 // Nothing if it was cancelled.
 std::optional<LinkSet> LinkRoots(const ElementForest& forest, const PatchVisibility& visibility,
-                                 LinkFormFactors form_factors, const ExecutionContext& context) {
+                                 const std::string& form_factors, const ExecutionContext& context) {
   std::vector<LinkGroup> groups(forest.size());
   for (std::size_t p = 0; p < groups.size(); ++p) {
     if (context.Cancelled()) return std::nullopt;
@@ -31,7 +41,8 @@ std::optional<LinkSet> LinkRoots(const ElementForest& forest, const PatchVisibil
     for (const PatchPair& pair : visibility.SourcesOf(static_cast<PatchId>(p)))
       groups[p].candidates.push_back({ElementForest::Root(pair.source), visibility.Blockers(pair)});
   }
-  const std::vector<LinkSet> formed = FormLinkGroups(forest, groups, form_factors, context);
+  const auto method = LinkFormFactorMethods().Make(form_factors, {});
+  const std::vector<LinkSet> formed = FormLinkGroups(forest, groups, *method, context);
   if (context.Cancelled()) return std::nullopt;
   LinkSet links = ReplaceLinks({}, {}, formed, context);
   if (context.Cancelled()) return std::nullopt;
@@ -59,7 +70,7 @@ LinkSolver::LinkSolver(const Scene& scene, const PatchVisibility& visibility, co
                        const ExecutionContext& context)
     : scene_(scene),
       visibility_(visibility),
-      options_(options),
+      options_(Checked(options)),
       eps_(options.multigrid ? kCoarsestEps * options.eps : options.eps) {
   solution_.forest = ElementForest(scene);
   std::optional<LinkSet> links = LinkRoots(solution_.forest, visibility, options.form_factors, context);
@@ -73,7 +84,7 @@ LinkSolver::LinkSolver(const Scene& scene, const PatchVisibility& visibility, co
                        RadiositySolution solution, const ExecutionContext& context)
     : scene_(scene),
       visibility_(visibility),
-      options_(options),
+      options_(Checked(options)),
       eps_(options.eps),
       solution_(std::move(solution)),
       push_pull_(std::make_unique<PushPull>(solution_)) {
@@ -144,8 +155,8 @@ double LinkSolver::Cutoff() const {
 
 // Forms the links of the plan and puts them in their place. False if it was cancelled before that.
 bool LinkSolver::Apply(const RefinementPlan& plan, Snapshot& before, const ExecutionContext& context) {
-  const std::vector<LinkSet> formed =
-      FormLinkGroups(solution_.forest, plan.groups, options_.form_factors, context);
+  const auto method = LinkFormFactorMethods().Make(options_.form_factors, {});
+  const std::vector<LinkSet> formed = FormLinkGroups(solution_.forest, plan.groups, *method, context);
   if (context.Cancelled()) return false;
   LinkSet links = ReplaceLinks(solution_.links, plan.dropped, formed, context);
   if (context.Cancelled()) return false;
@@ -157,7 +168,8 @@ bool LinkSolver::Apply(const RefinementPlan& plan, Snapshot& before, const Execu
 }
 
 bool LinkSolver::Split(Snapshot& before, IterationReport& report, const ExecutionContext& context) {
-  const auto oracle = MakeOracle(options_.oracle, {eps_, options_.min_area, ReferenceArea(scene_)});
+  const auto oracle =
+      RefinementOracles().Make(options_.oracle, {eps_, options_.min_area, ReferenceArea(scene_)});
   while (true) {
     const std::size_t elements = solution_.forest.size();
     const RefinementPlan plan = PlanRefinement(solution_, *push_pull_, *oracle);

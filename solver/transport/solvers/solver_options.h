@@ -5,9 +5,8 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
-#include "solver/transport/links/link_former.h"
-#include "solver/transport/links/oracle.h"
 #include "solver/transport/links/push_pull.h"
 #include "solver/transport/solvers/dense_system.h"
 #include "solver/transport/solvers/settling.h"
@@ -25,11 +24,11 @@ struct SolverOptions {
   std::size_t max_links = 8'000'000;
   IterationScheme scheme = IterationScheme::kJacobi;
   Acceleration acceleration = Acceleration::kAnderson;
-  OracleKind oracle = OracleKind::kTransport;
+  std::string oracle = "transport";  // its name in RefinementOracles()
   // Refine by a larger eps first, lowered from one iteration to the next (Hanrahan, Salzman and Aupperle
   // 1991).
   bool multigrid = false;
-  LinkFormFactors form_factors = LinkFormFactors::kCubature;
+  std::string form_factors = "cubature";  // its name in LinkFormFactorMethods()
   int max_corrections = 2;  // passes of exact irradiance over the leaves; 0: links alone, as in the thesis
   // Another stage makes the last of these passes, by LightSolver::SetLight().
   bool last_correction_elsewhere = false;

@@ -1,4 +1,4 @@
-#include "display/image_io.h"
+#include "display/exr_image.h"
 
 #include <ImfArray.h>
 #include <ImfChannelList.h>
@@ -11,17 +11,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <exception>
 #include <vector>
-
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STBI_WRITE_NO_STDIO
-#define STB_IMAGE_WRITE_STATIC
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb_image_write.h>
-#pragma GCC diagnostic pop
 
 #include "solver/base/check.h"
 #include "solver/base/whole_file.h"
@@ -60,22 +51,7 @@ Imf::Slice PlaneSlice(const float* plane, int x_min, int y_min, int width) {
           sizeof(float) * static_cast<std::size_t>(width)};
 }
 
-}  // namespace
-
-void WritePng(const std::string& path, const Srgb8Image& image) {
-  PENUMBRA_CHECK(image.width > 0 && image.height > 0);
-  std::string bytes;
-  const auto append = [](void* context, void* data, int size) {
-    static_cast<std::string*>(context)->append(static_cast<const char*>(data),
-                                               static_cast<std::size_t>(size));
-  };
-  if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.pixels.data(),
-                              3 * image.width))
-    FailToWrite(path, "the image could not be encoded");
-  WriteWholeFile(path, bytes);
-}
-
-void WriteExr(const std::string& path, const RgbImage& image) {
+std::string ExrBytes(const RgbImage& image) {
   PENUMBRA_CHECK(image.width > 0 && image.height > 0);
   Imf::Header header(image.width, image.height);
   header.compression() = Imf::ZIP_COMPRESSION;
@@ -90,8 +66,19 @@ void WriteExr(const std::string& path, const RgbImage& image) {
     file.setFrameBuffer(frame);
     file.writePixels(image.height);
   }  // the table of lines is written at the end
-  WriteWholeFile(path, {memory.bytes().data(), memory.bytes().size()});
+  return {memory.bytes().data(), memory.bytes().size()};
 }
+
+class ExrImage final : public ImageWriter {
+ public:
+  using ImageWriter::Bytes;
+  bool IsLinear() const override { return true; }
+  std::string Bytes(const RgbImage& image) const override { return ExrBytes(image); }
+};
+
+}  // namespace
+
+void WriteExr(const std::string& path, const RgbImage& image) { WriteWholeFile(path, ExrBytes(image)); }
 
 RgbImage ReadExr(const std::string& path) {
   try {
@@ -113,6 +100,12 @@ RgbImage ReadExr(const std::string& path) {
         fmt::format("{}: error: cannot read the image: {}; give an EXR file with the channels R, G and B",
                     path, error.what()));
   }
+}
+
+ImageWriterRegistry::Method ExrImageMethod() {
+  return {"exr", "linear radiosity in W/m^2, unexposed, emittance included", {}, [] {
+            return std::make_unique<const ExrImage>();
+          }};
 }
 
 }  // namespace penumbra
