@@ -178,8 +178,10 @@ std::optional<double> ShownMesh::RefineSources(HierarchicalSolver& solver, std::
   if (context.Cancelled()) return std::nullopt;
   const double change = cells.Change();
   if (!score)
-    score = ChooseSourceCut(solver.solution(), cells, *irradiance_.Get(), kFinestScore * options_.error,
-                            kSourceShare * options_.error, kCutPoints, options_.seed + 1, context)
+    score = ChooseSourceCut(
+                solver.solution(), cells, *irradiance_.Get(),
+                {kFinestScore * options_.error, kSourceShare * options_.error, kCutPoints, options_.seed + 1},
+                context)
                 .score;
   const bool done = solver.CorrectTo(cells.LeafIrradiance(),
                                      cells.Fragments(cells.Cut(*score), /*whole_leaves=*/false), context);

@@ -147,7 +147,7 @@ TEST(SourceCut, CostsWhatItSays) {
   const SourceCells cells = solved.Cells(kFinest);
   const PointIrradiance& exact = solved.pipeline.irradiance();
   const RadiositySolution& solution = solved.pipeline.solution();
-  const SourceCut cut = ChooseSourceCut(solution, cells, exact, kFinest, kError, kPoints, 7);
+  const SourceCut cut = ChooseSourceCut(solution, cells, exact, {kFinest, kError, kPoints, 7});
   EXPECT_LE(cut.p99, kError);
   const std::vector<std::int32_t> chosen = cells.Cut(cut.score);
   EXPECT_LT(chosen.size(), cells.Cut(0).size());

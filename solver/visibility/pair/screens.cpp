@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "solver/base/scratch.h"
 #include "solver/geometry/polygon.h"
 #include "solver/visibility/point/direction_polygon.h"
 
@@ -69,7 +70,8 @@ void ScreenFinder::Find(std::span<const ReceiverPoint> from, double least, std::
                         std::vector<Screen>& screens) const {
   Vec3 eye = Vec3::Zero();
   for (const ReceiverPoint& at : from) eye += at.position / static_cast<double>(from.size());
-  thread_local std::vector<double> angle;
+  const Scratch<std::vector<double>> angles;
+  std::vector<double>& angle = *angles;
   const std::size_t size = patch_.size();
   angle.resize(size);
   // Not the cosine: a wall close by, seen at a flat angle from its middle, hides half of the world.
@@ -77,8 +79,8 @@ void ScreenFinder::Find(std::span<const ReceiverPoint> from, double least, std::
     const double x = centre_[0][i] - eye.x(), y = centre_[1][i] - eye.y(), z = centre_[2][i] - eye.z();
     angle[i] = area_[i] / (x * x + y * y + z * z + area_[i] / (2 * std::numbers::pi));
   }
-  thread_local std::vector<std::pair<double, std::size_t>> large;
-  large.clear();
+  const Scratch<std::vector<std::pair<double, std::size_t>>> large_ones;
+  std::vector<std::pair<double, std::size_t>>& large = *large_ones;
   for (std::size_t i = 0; i < size; ++i)
     if (angle[i] >= least) large.emplace_back(-angle[i], i);
   const std::size_t looked_at = std::min(4 * count, large.size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solver/base/scratch.h"
 #include "solver/visibility/pair/beams.h"
 #include "solver/visibility/pair/tube.h"
 
@@ -77,9 +78,9 @@ bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       const PatchHierarchy& hierarchy, std::vector<PatchId>& blockers) {
   const Tube tube(ends.receiver, ends.source);
-  thread_local std::vector<PatchId> candidates;
-  hierarchy.Find(tube.Region(), {}, candidates);
-  return FindInTube(scene, tube, ends, receiver, source, candidates, blockers);
+  const Scratch<std::vector<PatchId>> candidates;
+  hierarchy.Find(tube.Region(), {}, *candidates);
+  return FindInTube(scene, tube, ends, receiver, source, *candidates, blockers);
 }
 
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "solver/base/scratch.h"
 #include "solver/base/vector_dispatch.h"
 #include "solver/visibility/point/form_factor.h"
 
@@ -350,6 +351,14 @@ void Clipper::Impl::Run() {
   }
 }
 
+void Clipper::Clear() {
+  impl_->cones.clear();
+  impl_->candidates.clear();
+  impl_->depth = 0;
+  impl_->visible.Clear();
+  impl_->occluders = {};
+}
+
 Clipper::Candidates Clipper::Begin(const ImageFrame& frame, const ImagePolygon& whole,
                                    std::span<const Occluder> occluders) {
   Impl& impl = *impl_;
@@ -410,36 +419,41 @@ ImageEdges& Clipper::Visible() { return impl_->visible; }
 
 namespace {
 
-// Calls use(frame) for each image of the source, with what is visible of it in the clipper.
+// What clipping one source needs.
+struct Workshop {
+  Clipper clipper;
+  std::vector<ImagePart> parts;
+
+  void Clear() {
+    clipper.Clear();
+    parts.clear();
+  }
+};
+
+// Calls use(frame, clipper) for each image of the source, with what is visible of it in the clipper.
 template <class Use>
-void ForEachImage(Clipper& clipper, const DirectionPolygon& source, std::span<const Occluder> occluders,
-                  const Vec3& normal, const Use& use) {
-  thread_local std::vector<ImagePart> parts;
-  parts.clear();
-  SplitForImages(source, normal, parts);
-  for (const ImagePart& part : parts) {
+void ForEachImage(const DirectionPolygon& source, std::span<const Occluder> occluders, const Vec3& normal,
+                  const Use& use) {
+  const Scratch<Workshop> workshop;
+  Clipper& clipper = workshop->clipper;
+  SplitForImages(source, normal, workshop->parts);
+  for (const ImagePart& part : workshop->parts) {
     const ImageFrame frame(part.polygon, part.axis);
     const ImagePolygon image = frame.Image(part.polygon);
     const Clipper::Candidates all = clipper.Begin(frame, image, occluders);
     Clipper::Candidates own;
     if (clipper.Narrow(image, all, &own) == Overlap::kAll) continue;
     clipper.CutOut(image, own, 0, part.label);
-    use(frame);
+    use(frame, clipper);
   }
-}
-
-Clipper& ThreadClipper() {
-  thread_local Clipper clipper;
-  return clipper;
 }
 
 }  // namespace
 
 void ForEachVisiblePiece(const DirectionPolygon& source, std::span<const Occluder> occluders,
                          const Vec3& normal, const std::function<void(std::span<const Vec3>)>& visit) {
-  Clipper& clipper = ThreadClipper();
   std::vector<Vec3> directions;
-  ForEachImage(clipper, source, occluders, normal, [&](const ImageFrame& frame) {
+  ForEachImage(source, occluders, normal, [&](const ImageFrame& frame, Clipper& clipper) {
     const ImageEdges& visible = clipper.Visible();
     for (std::size_t p = 0; p < visible.Pieces(); ++p) {
       directions.clear();
@@ -473,7 +487,8 @@ void VisibleFormFactors(const DirectionPolygon& whole, std::span<const Direction
     return;
   }
   std::fill(factors.begin(), factors.end(), 0.0);
-  Clipper& clipper = ThreadClipper();
+  const Scratch<Workshop> workshop;
+  Clipper& clipper = workshop->clipper;
   const ImageFrame frame(whole, axis);
   const Clipper::Candidates all = clipper.Begin(frame, frame.Image(whole), occluders);
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -489,9 +504,8 @@ void VisibleFormFactors(const DirectionPolygon& whole, std::span<const Direction
 
 double Clipping::VisibleFormFactor(const DirectionPolygon& source, std::span<const Occluder> occluders,
                                    const Vec3& normal) const {
-  Clipper& clipper = ThreadClipper();
   double factor = 0;
-  ForEachImage(clipper, source, occluders, normal, [&](const ImageFrame& frame) {
+  ForEachImage(source, occluders, normal, [&](const ImageFrame& frame, Clipper& clipper) {
     AddVisible(clipper.Visible(), frame, normal, {&factor, 1});
   });
   return std::max(0.0, factor);

@@ -18,7 +18,7 @@
 namespace penumbra {
 
 // Cuts shadows out of the polygons of one image. Occluders and the lists of them keep their buffers from one
-// image to the next. One object a thread.
+// image to the next: lease one for many (Scratch).
 class Clipper {
  public:
   // Some of the occluders, on a stack.
@@ -32,6 +32,8 @@ class Clipper {
   Clipper(const Clipper&) = delete;
   Clipper& operator=(const Clipper&) = delete;
 
+  // Forgets the image.
+  void Clear();
   // Turns to the image `frame` of `whole`, which holds all polygons to come. Returns all occluders as
   // candidates. The occluders must stay.
   Candidates Begin(const ImageFrame& frame, const ImagePolygon& whole, std::span<const Occluder> occluders);
