@@ -114,7 +114,7 @@ bool Gathering::HiddenBy(std::span<const Screen> screens, const DirectionPolygon
   const Clipper::Candidates all = clipper_.Begin(frame, image, occluders_);
   Clipper::Candidates own;
   const Overlap overlap = clipper_.Narrow(image, all, &own);
-  if (overlap == Overlap::kPart) clipper_.CutOut(image, own, 0);
+  if (overlap == Overlap::kPart) clipper_.CutOut(image, own, PieceOwner::Part(0));
   return overlap == Overlap::kAll || (overlap == Overlap::kPart && clipper_.Visible().Pieces() == 0);
 }
 
@@ -214,9 +214,9 @@ void Gathering::GatherNode(Tree tree, std::size_t i, const ImageFrame& frame,
   if (overlap == Overlap::kNone) {
     GatherVisible(tree.subspan(i, skip));
   } else if (overlap == Overlap::kPart && skip > 1 && tolerance_ > 0 && IsOne(node, false)) {
-    clipper_.CutOut(image, own, -1 - static_cast<std::int32_t>(sources_.IndexOf(node)));
+    clipper_.CutOut(image, own, PieceOwner::Group(sources_.IndexOf(node)));
   } else if (overlap == Overlap::kPart && skip == 1) {
-    if (!method_ || parts_) clipper_.CutOut(image, own, node.first_leaf);
+    if (!method_ || parts_) clipper_.CutOut(image, own, PieceOwner::Part(node.first_leaf));
     if (method_) {
       clipper_.List(own, buffers_->leaf_occluders);
       Add(node.first_leaf,
@@ -330,7 +330,9 @@ void Gathering::GatherAsOne(Tree nodes) {
 void Gathering::AddMoment(const Node& node) {
   const Vec3 r = node.centre - at_.position;
   const double d2 = r.squaredNorm();
-  if (d2 < 4 * node.radius * node.radius) return;
+  // Nearer than two radii the form factor per area is no linear function over the node.
+  constexpr double kFarSquared = 4;
+  if (d2 < kFarSquared * node.radius * node.radius) return;
   const double high = at_.normal.dot(r), deep = -source_normal_.dot(r);
   // Of high deep / (pi d^4), along the source's plane.
   const Vec3 gradient = deep / (std::numbers::pi * d2 * d2) * (at_.normal - 4 * high / d2 * r);
@@ -360,7 +362,7 @@ void Gathering::GatherUnfit(const Node& leaf, const DirectionPolygon& seen) {
     const Clipper::Candidates all = clipper_.Begin(frame, image, occluders_);
     Clipper::Candidates own;
     if (clipper_.Narrow(image, all, &own) == Overlap::kAll) continue;
-    clipper_.CutOut(image, own, leaf.first_leaf, {part.label.data(), part.label.size()});
+    clipper_.CutOut(image, own, PieceOwner::Part(leaf.first_leaf), part.label);
     AddVisiblePieces(frame, factor_before);
   }
 }
@@ -377,12 +379,12 @@ void Gathering::AddVisiblePieces(const ImageFrame& frame, double factor_before) 
   for (std::size_t p = 0; p < visible.Pieces(); ++p) {
     const double factor = cancels ? visible.PieceByQuadrature(frame, at_.normal, p)
                                   : 0.5 * std::numbers::inv_pi * visible.PieceSum(p);
-    const std::int32_t owner = visible.Owner(p);
-    if (owner >= 0) {
-      Add(owner, std::max(0.0, factor));
+    const PieceOwner owner = visible.Owner(p);
+    if (!owner.IsGroup()) {
+      Add(owner.Number(), std::max(0.0, factor));
     } else {
       // Of a node that a shadow crosses the brighter part tends to be seen: its mean would not do.
-      const Node& node = sources_.NodeAt(static_cast<std::size_t>(-1 - owner));
+      const Node& node = sources_.NodeAt(static_cast<std::size_t>(owner.Number()));
       Add(RadiosityToward(node, frame.Direction(visible.Centroid(p))), std::max(0.0, factor));
     }
   }
@@ -410,21 +412,21 @@ double Gathering::CancellationAllowed() const {
 void Gathering::AddGradientOfPieces(const ImageFrame& frame) {
   const ImageEdges& visible = clipper_.Visible();
   for (std::size_t p = 0; p < visible.Pieces(); ++p) {
-    const std::int32_t leaf = visible.Owner(p);
+    const std::int32_t leaf = visible.Owner(p).Number();
     const DirectionPolygon whole = view_.SeeSource(sources_.LeafVertices(leaf));
     Vec3 gradient = Vec3::Zero();
     for (std::size_t i = visible.Begin(p); i < visible.Begin(p + 1); ++i) {
-      const std::int32_t label = visible.Label(i);
-      if (label == kInnerEdge) continue;
+      const EdgeLabel label = visible.Label(i);
+      if (label.IsInner()) continue;
       const Vec3 from = frame.Direction(visible.Start(i)),
                  to = frame.Direction(visible.Start(i) + visible.Difference(i));
-      if (label < kFirstOccluderEdge) {
-        gradient += EdgeGradient(whole[label], whole.Next(label), from, to, at_.normal);
+      if (label.IsOfSource()) {
+        const int edge = label.SourceEdge();
+        gradient += EdgeGradient(whole[edge], whole.Next(edge), from, to, at_.normal);
         continue;
       }
-      const Cone& cone = *occluders_[OccluderOfEdge(label)].cone;
-      const auto plane = static_cast<std::size_t>(PlaneOfEdge(label));
-      gradient += EdgeGradient(cone.direction[plane], cone.end[plane], from, to, at_.normal);
+      const Cone& cone = *occluders_[label.Occluder()].cone;
+      gradient += EdgeGradient(cone.direction[label.Plane()], cone.end[label.Plane()], from, to, at_.normal);
     }
     AddGradient(leaf, gradient);
   }

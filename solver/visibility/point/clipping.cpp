@@ -52,7 +52,7 @@ using LaneBits = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::in
 
 // A part of a source in the image.
 struct Piece : ImagePolygon {
-  std::array<std::int32_t, kCapacity> label;  // of the edge from vertex i to the next
+  std::array<EdgeLabel, kCapacity> label;  // of the edge from vertex i to the next
 
   Piece() {}  // NOLINT: the array stays as it is
   Piece(const Piece& other) : ImagePolygon() { *this = other; }
@@ -61,12 +61,12 @@ struct Piece : ImagePolygon {
     std::copy_n(other.label.begin(), size, label.begin());
     return *this;
   }
-  // With these labels; from 0 if none are given.
-  Piece(const ImagePolygon& polygon, std::span<const std::int32_t> labels) : ImagePolygon(polygon) {
-    for (int i = 0; i < size; ++i) label[i] = labels.empty() ? i : labels[i];
+  // With these labels; those of the source's edges if none are given.
+  Piece(const ImagePolygon& polygon, std::span<const EdgeLabel> labels) : ImagePolygon(polygon) {
+    for (int i = 0; i < size; ++i) label[i] = labels.empty() ? EdgeLabel::OfSource(i) : labels[i];
   }
 
-  void Add(double px, double py, std::int32_t label_to_next) {
+  void Add(double px, double py, EdgeLabel label_to_next) {
     label[size] = label_to_next;
     ImagePolygon::Add(px, py);
   }
@@ -165,13 +165,12 @@ struct Clipper::Impl {
   std::size_t depth = 0;  // of the stack; what lies above keeps its memory
   ImageEdges visible;
   std::span<const Occluder> occluders;
-  std::int32_t owner = 0;  // of the pieces that are found
+  PieceOwner owner = PieceOwner::Part(0);  // of the pieces that are found
   double snap = 0, dust = 0;
 
   bool Beside(const ImageCone& cone, const ImagePolygon& piece) const;
   Overlap Classify(Candidate& candidate, const ImagePolygon& piece, const Bounds& bounds) const;
-  void Split(const Piece& piece, const ImageLine& line, std::int32_t label, Piece* inside,
-             Piece* outside) const;
+  void Split(const Piece& piece, const ImageLine& line, EdgeLabel label, Piece* inside, Piece* outside) const;
   Overlap Narrow(const ImagePolygon& piece, std::size_t first, std::size_t last);
   void Sort(const Piece& piece, std::size_t first, std::size_t last, int halvings);
   void Halve(const Work& work, int halvings);
@@ -239,7 +238,7 @@ Clipper::~Clipper() = default;
 }
 
 // `inside` and `outside` become the parts of the piece on either side of a line; the cut gets the label.
-void Clipper::Impl::Split(const Piece& piece, const ImageLine& line, std::int32_t label, Piece* inside,
+void Clipper::Impl::Split(const Piece& piece, const ImageLine& line, EdgeLabel label, Piece* inside,
                           Piece* outside) const {
   std::array<double, Piece::kCapacity> height;
   for (int i = 0; i < piece.size; ++i) {
@@ -310,7 +309,7 @@ void Clipper::Impl::Halve(const Work& work, int halvings) {
   Piece low, high;
   Split(work.piece,
         along_x ? ImageLine{1, 0, -0.5 * (b.low_x + b.high_x)} : ImageLine{0, 1, -0.5 * (b.low_y + b.high_y)},
-        kInnerEdge, &high, &low);
+        EdgeLabel::Inner(), &high, &low);
   const std::size_t first = work.first, last = work.last;  // the stack may move from here on
   Sort(high, first, last, halvings);
   Sort(low, first, last, halvings);
@@ -331,7 +330,7 @@ void Clipper::Impl::CutOut(Work& work) {
   for (std::uint32_t lines = cutter.lines; lines != 0 && rest->size >= 3; lines &= lines - 1) {
     const int k = std::countr_zero(lines);
     const ImageCone& cone = cones[cutter.cone];
-    Split(*rest, {cone.a[k], cone.b[k], cone.h[k]}, OccluderEdge(cone.occluder, k), next, &outside);
+    Split(*rest, {cone.a[k], cone.b[k], cone.h[k]}, EdgeLabel::OfOccluder(cone.occluder, k), next, &outside);
     std::swap(rest, next);
     Sort(outside, first + 1, last, halvings);
   }
@@ -389,8 +388,8 @@ Overlap Clipper::Narrow(const ImagePolygon& polygon, const Candidates& candidate
 
 void Clipper::Restore(const Candidates& candidates) { impl_->candidates.resize(candidates.last); }
 
-void Clipper::CutOut(const ImagePolygon& polygon, const Candidates& candidates, std::int32_t owner,
-                     std::span<const std::int32_t> label) {
+void Clipper::CutOut(const ImagePolygon& polygon, const Candidates& candidates, PieceOwner owner,
+                     std::span<const EdgeLabel> label) {
   Impl& impl = *impl_;
   impl.owner = owner;
   if (candidates.empty()) {
@@ -443,7 +442,7 @@ void ForEachImage(const DirectionPolygon& source, std::span<const Occluder> occl
     const Clipper::Candidates all = clipper.Begin(frame, image, occluders);
     Clipper::Candidates own;
     if (clipper.Narrow(image, all, &own) == Overlap::kAll) continue;
-    clipper.CutOut(image, own, 0, part.label);
+    clipper.CutOut(image, own, PieceOwner::Part(0), part.label);
     use(frame, clipper);
   }
 }
@@ -471,7 +470,7 @@ void AddVisible(ImageEdges& visible, const ImageFrame& frame, const Vec3& normal
   const ImageEdges::Sum sum = visible.FormFactorSum(frame, normal);
   const bool cancels = sum.angles > kFormFactorCancellation * std::abs(sum.value);
   for (std::size_t p = 0; p < visible.Pieces(); ++p)
-    factors[static_cast<std::size_t>(visible.Owner(p))] +=
+    factors[static_cast<std::size_t>(visible.Owner(p).Number())] +=
         cancels ? visible.PieceByQuadrature(frame, normal, p)
                 : visible.PieceSum(p) * (0.5 * std::numbers::inv_pi);
 }
@@ -495,7 +494,7 @@ void VisibleFormFactors(const DirectionPolygon& whole, std::span<const Direction
     const ImagePolygon image = frame.Image(parts[i]);
     Clipper::Candidates own;
     if (clipper.Narrow(image, all, &own) != Overlap::kAll)
-      clipper.CutOut(image, own, static_cast<std::int32_t>(i));
+      clipper.CutOut(image, own, PieceOwner::Part(static_cast<std::int32_t>(i)));
     clipper.Restore(all);
   }
   AddVisible(clipper.Visible(), frame, normal, factors);

@@ -45,10 +45,10 @@ class Clipper {
   void Restore(const Candidates& candidates);
 
   // Cuts the candidates, which Narrow() found for this very polygon, out of it. What remains goes to
-  // Visible(), with its owner and labels: those of the polygon's edges, from 0 if none are given, and
-  // OccluderEdge() of the cuts.
-  void CutOut(const ImagePolygon& polygon, const Candidates& candidates, std::int32_t owner,
-              std::span<const std::int32_t> label = {});
+  // Visible(), with its owner and labels: `label` those of the polygon's edges, those of the source's if none
+  // are given.
+  void CutOut(const ImagePolygon& polygon, const Candidates& candidates, PieceOwner owner,
+              std::span<const EdgeLabel> label = {});
 
   // The candidates as they came.
   void List(const Candidates& candidates, std::vector<Occluder>& occluders) const;
