@@ -18,6 +18,9 @@ constexpr std::size_t kPointsATask = 16;
 // and so many at least. A part that seems to err by too much gets more: what few points see may be bad luck.
 constexpr std::size_t kPartPoints = 20, kAllPartPoints = 160, kFewestPartPoints = 4, kSuspectPoints = 300;
 
+// The share of values that a 99th percentile has below it and above it.
+constexpr double kP99 = 0.99, kAboveP99 = 0.01;
+
 // What is found at some points.
 struct Values {
   std::vector<SurfacePoint> at;
@@ -67,11 +70,11 @@ RepresentationError Summarise(const Scene& scene, std::span<const SurfacePoint> 
   error.points = 1;
   for (std::size_t i = 1; i < errors.size(); ++i)
     error.points += errors[i].point != errors[i - 1].point ? 1 : 0;
-  error.p99 = Quantile(errors, 0.99);
-  const double deviation = std::sqrt(0.99 * 0.01 / static_cast<double>(error.points));
-  error.p99_at_most = Quantile(errors, std::min(0.99 + deviation, 1.0));
+  error.p99 = Quantile(errors, kP99);
+  const double deviation = std::sqrt(kP99 * kAboveP99 / static_cast<double>(error.points));
+  error.p99_at_most = Quantile(errors, std::min(kP99 + deviation, 1.0));
   error.p99_at_least =
-      Quantile(errors, std::max(0.0, 0.99 - deviation - 1 / static_cast<double>(error.points)));
+      Quantile(errors, std::max(0.0, kP99 - deviation - 1 / static_cast<double>(error.points)));
   error.p95 = Quantile(errors, 0.95);
   error.rms = std::sqrt(squares / static_cast<double>(errors.size()));
   return error;

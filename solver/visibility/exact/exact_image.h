@@ -171,6 +171,8 @@ class ExactImage {
   }
 
  private:
+  // Of an image coordinate where lengths are compared: the rounding of 1, which is the size of the image.
+  static constexpr double kPlaceAccuracy = 1e-16;
   static constexpr double kLastDigits = 2 * std::numeric_limits<double>::epsilon();
 
   static constexpr std::size_t kNoPoint = std::numeric_limits<std::size_t>::max();
@@ -309,7 +311,7 @@ bool ExactImage<Kernel>::ImageSource(std::span<const std::array<Number, 3>> sour
 template <class Kernel>
 void ExactImage<Kernel>::CollapseShort(double length, std::vector<Homogeneous>& outline) const {
   const auto at = [&](const Homogeneous& h) {
-    return Vec2(ToDouble(h.x / h.w, 1e-16), ToDouble(h.y / h.w, 1e-16));
+    return Vec2(ToDouble(h.x / h.w, kPlaceAccuracy), ToDouble(h.y / h.w, kPlaceAccuracy));
   };
   for (std::size_t k = 0; k < outline.size() && outline.size() >= 3;) {
     const std::size_t next = k + 1 == outline.size() ? 0 : k + 1;
@@ -348,7 +350,9 @@ void ExactImage<Kernel>::ImageOccluder(const Cone& cone, std::int32_t number, do
     for (const Point& p : point_)
       for (const Point& q : point_)
         longest = std::max(
-            longest, plane_.Lift({ToDouble(p.x() - q.x(), 1e-16), ToDouble(p.y() - q.y(), 1e-16)}).norm());
+            longest,
+            plane_.Lift({ToDouble(p.x() - q.x(), kPlaceAccuracy), ToDouble(p.y() - q.y(), kPlaceAccuracy)})
+                .norm());
     CollapseShort(min_segment * longest, outline);
   }
   AddOccluder(outline, number);

@@ -235,13 +235,15 @@ bool BeamFinder::Narrow(Stations& stations, const Wall& wall, Polygon3 piece) co
     before[i] = ahead(1);
     behind[i] = ahead(-1);
   }
+  // A plane through three corners has the rounding of each.
+  constexpr double kPlaneRoundings = 3;
   const auto clip = [&](const Polygon3& from, Polygon3& to) {
     // Heights are off by `rounding` at both polygons that span a plane, and by as many times that beyond them
     // as `to` is farther.
     double near = std::numeric_limits<double>::infinity(), far = 0;
     for (const Vec3& v : from) near = std::min(near, std::abs(Height(wall.normal, wall.on, v)));
     for (const Vec3& v : to) far = std::max(far, std::abs(Height(wall.normal, wall.on, v)));
-    const double slack = 3 * (rounding_ + kCoplanar * scale_) * (1 + far / near);
+    const double slack = kPlaneRoundings * (rounding_ + kCoplanar * scale_) * (1 + far / near);
     ClipToReach(from, piece, rounding_, slack, to);
     return !to.empty();
   };

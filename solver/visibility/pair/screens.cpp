@@ -15,6 +15,9 @@ namespace {
 // No more patches than this, the largest of all, are looked at as screens.
 constexpr std::size_t kMostDiscs = 1024;
 
+// This many times as many patches are looked at as are asked for: some lie in the shadows of others.
+constexpr std::size_t kLookedAtForEach = 4;
+
 // From one point. The first half-space is what lies beyond the patch's plane.
 ConvexRegion PointShadow(const ReceiverPoint& at, const Patch& patch) {
   ConvexRegion shadow;
@@ -83,7 +86,7 @@ void ScreenFinder::Find(std::span<const ReceiverPoint> from, double least, std::
   std::vector<std::pair<double, std::size_t>>& large = *large_ones;
   for (std::size_t i = 0; i < size; ++i)
     if (angle[i] >= least) large.emplace_back(-angle[i], i);
-  const std::size_t looked_at = std::min(4 * count, large.size());
+  const std::size_t looked_at = std::min(kLookedAtForEach * count, large.size());
   std::partial_sort(large.begin(), large.begin() + static_cast<std::ptrdiff_t>(looked_at), large.end());
   screens.clear();
   for (std::size_t k = 0; k < looked_at && screens.size() < count; ++k) {
