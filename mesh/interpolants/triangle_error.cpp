@@ -14,7 +14,7 @@
 namespace penumbra {
 namespace {
 
-constexpr std::size_t kPointsATask = 32;
+constexpr std::size_t kEvaluationsATask = 32;
 
 Vec3 Corner(const IrradianceMesh& mesh, std::uint32_t t, int k) {
   return mesh.positions[mesh.triangles[t].vertex[static_cast<std::size_t>(k % 3)]];
@@ -70,7 +70,7 @@ MeasuredTriangles MeasureTriangles(const Scene& scene, const IrradianceMesh& mes
     else
       unknown.push_back(i);
   }
-  ParallelFor(unknown.size(), kPointsATask, [&](std::size_t k) {
+  ParallelFor(unknown.size(), kEvaluationsATask, [&](std::size_t k) {
     const std::size_t i = unknown[k];
     truth[i] = sampler(patch_of(i), at[i]).irradiance;
   });

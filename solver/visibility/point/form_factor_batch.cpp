@@ -134,8 +134,8 @@ void SmallKernel(const std::array<const double*, 12>& columns, std::size_t count
 
 // out[i] is the sum over the edges of polygon i, added[i] that of their angles.
 PENUMBRA_VECTOR_CLONES
-void Kernel(const std::array<const double*, 12>& columns, std::size_t count, Triple p, Triple n,
-            double* __restrict out, double* __restrict added) {
+void LargeKernel(const std::array<const double*, 12>& columns, std::size_t count, Triple p, Triple n,
+                 double* __restrict out, double* __restrict added) {
   const VertexColumns v0(columns, 0), v1(columns, 1), v2(columns, 2), v3(columns, 3);
   for (std::size_t i = 0; i < count; ++i) {
     double angles = 0;
@@ -202,7 +202,8 @@ void FormFactorSums::Find(const PolygonBatch& batch, std::size_t begin, std::siz
   for (const std::size_t i : large_) large_polygons_.AddFrom(batch, begin + i);
   large_factor_.resize(large_.size());
   large_size_added_.resize(large_.size());
-  Kernel(large_polygons_.Columns(0), large_.size(), p, n, large_factor_.data(), large_size_added_.data());
+  LargeKernel(large_polygons_.Columns(0), large_.size(), p, n, large_factor_.data(),
+              large_size_added_.data());
   for (std::size_t k = 0; k < large_.size(); ++k) {
     factor_[large_[k]] = large_factor_[k];
     size_added_[large_[k]] = large_size_added_[k];
