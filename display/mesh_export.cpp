@@ -144,11 +144,31 @@ std::string PlyBytes(const Scene& scene, const IrradianceMesh& mesh, double expo
   return bytes;
 }
 
-std::string GlbBytes(const Scene& scene, const IrradianceMesh& mesh, double exposure) {
-  const MeshNodes nodes = NodesToWrite<float>(scene, mesh);
-  // Floats about the centre of the scene keep their digits far from the origin.
-  const auto [low, high] = scene.Bounds();
-  const Vec3 centre = 0.5 * (low + high);
+namespace {
+
+// Numbers of OpenGL that glTF takes over.
+constexpr int kGlArray = 34962, kGlElements = 34963, kGlFloat = 5126, kGlUint = 5125;
+
+// The binary buffer of a glTF file, and the parts of it that its JSON names.
+struct GlbBuffer {
+  std::string bytes, views, accessors;
+  std::size_t parts = 0;
+
+  // Adds a part of `count` elements; `more` is further JSON of its accessor.
+  void Add(const std::string& part, int target, int type, std::size_t count, const char* shape,
+           const std::string& more) {
+    const char* comma = parts == 0 ? "" : ",";
+    views += fmt::format("{}{{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{},\"target\":{}}}", comma,
+                         bytes.size(), part.size(), target);
+    accessors += fmt::format("{}{{\"bufferView\":{},\"componentType\":{},\"count\":{},\"type\":\"{}\"{}}}",
+                             comma, parts, type, count, shape, more);
+    bytes += part;
+    ++parts;
+  }
+};
+
+// Positions relative to `centre`, colours, irradiance and radiosity of the nodes, and the triangles.
+GlbBuffer FillGlbBuffer(const Scene& scene, const MeshNodes& nodes, const Vec3& centre, double exposure) {
   std::string positions, colours, irradiance, radiosity, indices;
   Eigen::Array3f least = Eigen::Array3f::Constant(INFINITY), most = -least;
   for (const MeshNodes::Node& node : nodes.nodes) {
@@ -163,50 +183,54 @@ std::string GlbBytes(const Scene& scene, const IrradianceMesh& mesh, double expo
   for (const auto& six : nodes.triangles)
     for (const auto& triangle : Quarters(six))
       for (const std::uint32_t node : triangle) Append(indices, node);
+  GlbBuffer buffer;
+  const std::size_t count = nodes.nodes.size();
+  buffer.Add(positions, kGlArray, kGlFloat, count, "VEC3",
+             fmt::format(",\"min\":[{},{},{}],\"max\":[{},{},{}]", least[0], least[1], least[2], most[0],
+                         most[1], most[2]));
+  buffer.Add(colours, kGlArray, kGlFloat, count, "VEC3", "");
+  buffer.Add(irradiance, kGlArray, kGlFloat, count, "VEC3", "");
+  buffer.Add(radiosity, kGlArray, kGlFloat, count, "VEC3", "");
+  buffer.Add(indices, kGlElements, kGlUint, 12 * nodes.triangles.size(), "SCALAR", "");
+  return buffer;
+}
 
+// Everything in the JSON but the asset itself.
+std::string GlbScene(const GlbBuffer& buffer, const Vec3& centre, double exposure) {
+  // (x, y, z), z up, becomes (x, z, -y): a quarter turn about x.
+  constexpr double kHalf = 0.70710678118654752;
+  return fmt::format(
+      "\"scenes\":[{{\"nodes\":[0]}}],"
+      "\"nodes\":[{{\"mesh\":0,\"rotation\":[{},0,0,{}],\"translation\":[{},{},{}]}}],"
+      "\"meshes\":[{{\"primitives\":[{{\"attributes\":{{\"POSITION\":0,\"COLOR_0\":1,\"_IRRADIANCE\":2,"
+      "\"_RADIOSITY\":3}},\"indices\":4,\"material\":0}}],\"extras\":{{\"exposure\":{}}}}}],"
+      "\"materials\":[{{\"pbrMetallicRoughness\":{{\"baseColorFactor\":[1,1,1,1],\"metallicFactor\":0,"
+      "\"roughnessFactor\":1}},\"extensions\":{{\"KHR_materials_unlit\":{{}}}}}}],"
+      "\"accessors\":[{}],\"bufferViews\":[{}],\"buffers\":[{{\"byteLength\":{}}}]}}",
+      -kHalf, kHalf, centre.x(), centre.z(), -centre.y(), exposure, buffer.accessors, buffer.views,
+      buffer.bytes.size());
+}
+
+}  // namespace
+
+std::string GlbBytes(const Scene& scene, const IrradianceMesh& mesh, double exposure) {
+  const MeshNodes nodes = NodesToWrite<float>(scene, mesh);
   std::string json =
       "{\"asset\":{\"version\":\"2.0\",\"generator\":\"penumbra\"},"
       "\"extensionsUsed\":[\"KHR_materials_unlit\"],\"scene\":0,";
-  std::string buffer;
+  GlbBuffer buffer;
   if (nodes.nodes.empty()) {
     json += "\"scenes\":[{}]}";  // nothing may be empty but the scene
   } else {
-    std::string views, accessors;
-    const auto add = [&](const std::string& bytes, int target, int type, std::size_t count, const char* shape,
-                         const std::string& more) {
-      const char* comma = views.empty() ? "" : ",";
-      const std::size_t number =
-          views.empty() ? 0 : static_cast<std::size_t>(std::count(views.begin(), views.end(), '{'));
-      views += fmt::format("{}{{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{},\"target\":{}}}", comma,
-                           buffer.size(), bytes.size(), target);
-      accessors += fmt::format("{}{{\"bufferView\":{},\"componentType\":{},\"count\":{},\"type\":\"{}\"{}}}",
-                               comma, number, type, count, shape, more);
-      buffer += bytes;
-    };
-    constexpr int kArray = 34962, kElements = 34963, kFloat = 5126, kUint = 5125;
-    const std::size_t count = nodes.nodes.size();
-    add(positions, kArray, kFloat, count, "VEC3",
-        fmt::format(",\"min\":[{},{},{}],\"max\":[{},{},{}]", least[0], least[1], least[2], most[0], most[1],
-                    most[2]));
-    add(colours, kArray, kFloat, count, "VEC3", "");
-    add(irradiance, kArray, kFloat, count, "VEC3", "");
-    add(radiosity, kArray, kFloat, count, "VEC3", "");
-    add(indices, kElements, kUint, 12 * nodes.triangles.size(), "SCALAR", "");
-    // (x, y, z), z up, becomes (x, z, -y): a quarter turn about x.
-    constexpr double kHalf = 0.70710678118654752;
-    json += fmt::format(
-        "\"scenes\":[{{\"nodes\":[0]}}],"
-        "\"nodes\":[{{\"mesh\":0,\"rotation\":[{},0,0,{}],\"translation\":[{},{},{}]}}],"
-        "\"meshes\":[{{\"primitives\":[{{\"attributes\":{{\"POSITION\":0,\"COLOR_0\":1,\"_IRRADIANCE\":2,"
-        "\"_RADIOSITY\":3}},\"indices\":4,\"material\":0}}],\"extras\":{{\"exposure\":{}}}}}],"
-        "\"materials\":[{{\"pbrMetallicRoughness\":{{\"baseColorFactor\":[1,1,1,1],\"metallicFactor\":0,"
-        "\"roughnessFactor\":1}},\"extensions\":{{\"KHR_materials_unlit\":{{}}}}}}],"
-        "\"accessors\":[{}],\"bufferViews\":[{}],\"buffers\":[{{\"byteLength\":{}}}]}}",
-        -kHalf, kHalf, centre.x(), centre.z(), -centre.y(), exposure, accessors, views, buffer.size());
+    // Floats about the centre of the scene keep their digits far from the origin.
+    const auto [low, high] = scene.Bounds();
+    const Vec3 centre = 0.5 * (low + high);
+    buffer = FillGlbBuffer(scene, nodes, centre, exposure);
+    json += GlbScene(buffer, centre, exposure);
   }
   constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942, kVersion = 2;
   std::string chunks = Chunk(kJsonChunk, json, ' ');
-  if (!buffer.empty()) chunks += Chunk(kBinaryChunk, buffer, '\0');
+  if (!buffer.bytes.empty()) chunks += Chunk(kBinaryChunk, buffer.bytes, '\0');
   std::string bytes = "glTF";
   Append(bytes, kVersion);
   Append(bytes, static_cast<std::uint32_t>(12 + chunks.size()));

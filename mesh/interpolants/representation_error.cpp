@@ -195,8 +195,8 @@ double Quantile(std::span<const ValueError> values, double q) {
 }
 
 MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
-                           std::span<const IrradianceSampler> better, std::size_t points, std::uint64_t seed,
-                           double bound) {
+                           std::span<const IrradianceSampler> better, const ErrorMeasurement& measurement) {
+  const auto [points, seed, bound] = measurement;
   MeasuredError error;
   if (scene.patches.empty() || points == 0) return error;
   const std::vector<double> areas = SeenAreas(scene);
@@ -228,7 +228,7 @@ MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const
 RepresentationError MeasureRepresentationError(const Scene& scene, const IrradianceMesh& mesh,
                                                const IrradianceSampler& sampler, std::size_t points,
                                                std::uint64_t seed) {
-  return MeasureError(scene, mesh, sampler, {}, points, seed, 0).interpolant;
+  return MeasureError(scene, mesh, sampler, {}, {points, seed, 0}).interpolant;
 }
 
 }  // namespace penumbra

@@ -100,7 +100,7 @@ std::unique_ptr<const PointIrradiance> ShownMesh::ShownIrradiance(const Radiosit
 }
 
 SourceCells ShownMesh::Cells(const RadiositySolution& solution, const ExecutionContext& context) {
-  return SourceCells(solution, plan_.forest, triangulations_, mesh_, *irradiance_.Get(),
+  return SourceCells(solution, {plan_.forest, triangulations_, mesh_}, *irradiance_.Get(),
                      kFinestScore * options_.error, context);
 }
 
@@ -241,8 +241,8 @@ std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, 
   refinement.error = error;
   refinement.min_area = options_.solver.min_area;
   refinement.samples = options_.error_samples;
-  RefinedMesh refined = RefineMesh(visibility_, solution, Sampler(tolerance, context), options, refinement,
-                                   context, &LocalPass(), &plan_, samples);
+  RefinedMesh refined = RefineMesh({visibility_, solution, Sampler(tolerance, context)}, options, refinement,
+                                   context, {&LocalPass(), &plan_, samples});
   if (context.Cancelled()) return std::nullopt;
   mesh_ = std::move(refined.mesh);
   triangulations_ = std::move(refined.triangulations);

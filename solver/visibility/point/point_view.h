@@ -27,6 +27,10 @@ class PointView {
   PointView(const PointView&) = delete;
   PointView& operator=(const PointView&) = delete;
 
+  const ReceiverPoint& at() const { return at_; }
+  // The source that the view is turned to.
+  const Patch& Source() const { return *source_; }
+
   // From where sources are seen: the point, unless they are lifted.
   const Vec3& SourceEye() const { return source_at_.position; }
 
