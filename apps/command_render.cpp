@@ -37,11 +37,18 @@ ToneMapping ToneFor(const RenderArguments& arguments, const RgbImage& linear,
   return tone;
 }
 
+// A picture with several samples a pixel.
+struct PictureSamples {
+  const RgbImage& linear;            // of all samples
+  std::span<const PixelKind> kinds;  // the same
+  int across = 1, down = 1;          // samples a pixel
+};
+
 // The means of each pixel's samples in false colours, with their scale; what it shows is what its first
 // sample is.
-void PaintFalseColoursOf(const RenderArguments& arguments, const RgbImage& linear,
-                         std::span<const PixelKind> kinds, int across, int down, const ToneMapping& tone,
-                         Srgb8Image* screen) {
+void PaintFalseColoursOf(const RenderArguments& arguments, const PictureSamples& picture,
+                         const ToneMapping& tone, Srgb8Image* screen) {
+  const auto& [linear, kinds, across, down] = picture;
   const RgbImage means = Downsample(linear, across, down);
   std::vector<PixelKind> first(means.PixelCount());
   for (int y = 0; y < means.height; ++y)
@@ -69,7 +76,7 @@ void WriteImage(const RenderArguments& arguments, const RgbImage& linear, std::s
   }
   Srgb8Image screen;
   if (arguments.false_colour) {
-    PaintFalseColoursOf(arguments, linear, kinds, across, down, tone, &screen);
+    PaintFalseColoursOf(arguments, {linear, kinds, across, down}, tone, &screen);
   } else {
     EncodeSrgb(Expose(linear, kinds, tone.exposure, across, down), tone.dither, &screen);
   }
@@ -96,10 +103,11 @@ void WriteSplit(const RenderArguments& arguments, const Camera& camera, const Ir
   const RenderedFrame& frame = display.Render(camera, w, h, arguments.mode.shading);
   Srgb8Image picture, whole;
   if (arguments.false_colour)
-    PaintFalseColoursOf(arguments, frame.linear, frame.kind, 1, 1, tone, &picture);
+    PaintFalseColoursOf(arguments, {frame.linear, frame.kind}, tone, &picture);
   else
     picture = display.ToneMap(tone).screen;
-  PaintSplit(frame, MakePixelRays(camera, w, h), mesh, picture, width, height, &whole);
+  whole.Resize(width, height);
+  PaintSplit(frame, MakePixelRays(camera, w, h), mesh, picture, &whole);
   WriteImageFile(*arguments.output, whole);
 }
 

@@ -122,7 +122,10 @@ nlohmann::ordered_json RenderOptionsUsed(const RenderArguments& arguments) {
   return options;
 }
 
-void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
+namespace {
+
+// What is written, and what is drawn.
+void AddFileAndMode(CLI::App& app, RenderArguments* arguments) {
   app.add_option_function<std::string>(
          "-o,--output",
          [arguments](const std::string& path) {
@@ -155,6 +158,10 @@ void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
       ->type_name("WxH")
       ->default_str(fmt::format("{}x{}", arguments->width, arguments->height))
       ->group("Picture");
+}
+
+// How light becomes colours.
+void AddColours(CLI::App& app, RenderArguments* arguments) {
   AddNumber(app, "--exposure", &arguments->exposure, kPositive,
             "Brightness on the screen, 0 to 1, per W/m^2 (default: metered from the picture; rho: 1)")
       ->group("Picture");
@@ -167,6 +174,13 @@ void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
   app.add_flag("--split", arguments->split,
                "A PNG shows triangle ids, barycentric coordinates, depths and the picture, in quarters")
       ->group("Picture");
+}
+
+}  // namespace
+
+void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
+  AddFileAndMode(app, arguments);
+  AddColours(app, arguments);
   AddChoice(app, "--backend", &arguments->backend, kBackends,
             "What draws the two passes: our rasteriser, or the graphics system, off screen, as in the thesis")
       ->group("Picture");

@@ -19,7 +19,7 @@ Analyses::Analyses()
           const auto top = static_cast<ElementId>(key.selection.index);
           triangles = TrianglesOf(*key.light, key.mesh->mesh(), {&top, 1});
         }
-        return MakeGraph(*key.light, key.mesh->mesh(), triangles, key.density, key.dynamic, key.exact,
+        return MakeGraph(*key.light, key.mesh->mesh(), triangles, {key.density, key.dynamic, key.exact},
                          context);
       }),
       error_map_([](const MeshKey& key, const ExecutionContext& context) {

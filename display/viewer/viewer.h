@@ -101,6 +101,17 @@ class Viewer {
   void AddFileSettings();
   // viewer_menu.cpp
   void AddMenus();
+  void AddFileMenu();
+  void AddViewingMenu();
+  void AddDrawingMenu();
+  void AddOverlayMenu();
+  void AddIterationMenu();
+  void Item(const std::string& path, const std::string& key, const std::string& help,
+            std::function<void()> run);
+  void ToggleItem(const std::string& path, const std::string& key, const std::string& name);
+  void ChoiceItem(const std::string& path, const std::string& key, const std::string& name,
+                  const std::string& value);
+  void AskItem(const std::string& path, const std::string& key, const std::string& name);
   void AddCameraMenu();
   // viewer_input.cpp
   void KeyDown(const InputEvent& event);

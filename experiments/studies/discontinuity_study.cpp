@@ -172,8 +172,8 @@ void MeasureThesisMesh(StudyLog& log) {
   pipeline.Solve({});
   const RadiositySolution& solution = pipeline.solution();
   MeshReport report;
-  TriangulatePatches(pipeline.visibility(), solution, {solution.forest, {}},
-                     pipeline.resolved().discontinuities, {}, report);
+  PatchTriangulator(pipeline.visibility(), solution, pipeline.resolved().discontinuities, {})
+      .Triangulate({solution.forest, {}}, report);
   std::size_t leaves = 0;
   for (const Element& element : solution.forest.elements()) leaves += element.IsLeaf() ? 1 : 0;
   constexpr std::size_t kThesisLeaves = 1622, kThesisTriangles = 6576, kThesisMerged = 103;

@@ -438,7 +438,7 @@ void Pipeline::Measure(const ExecutionContext& context) {
   const IrradianceSampler truths[] = {WhileGoing(NearSampler(*better, tolerance), running),
                                       WhileGoing(NearSampler(*shown, tolerance), running)};
   const auto measure = [&](std::size_t at) {
-    return MeasureError(impl_->scene, mesh, sampler, truths, at, seed, report.error_asked);
+    return MeasureError(impl_->scene, mesh, sampler, truths, {at, seed, report.error_asked});
   };
   MeasuredError error = measure(std::min(points, kFewSourcePoints));
   if (points > kFewSourcePoints && error.above > kClearlyMet && error.above < kClearlyMissed)

@@ -130,7 +130,7 @@ std::unique_ptr<const PointIrradiance> ShownMesh::ShownIrradiance(const Radiosit
 }
 
 SourceCells ShownMesh::Cells(const RadiositySolution& solution, const ExecutionContext& context) {
-  return SourceCells(solution, plan_.forest, triangulations_, mesh_, *irradiance_.Get(),
+  return SourceCells(solution, {plan_.forest, triangulations_, mesh_}, *irradiance_.Get(),
                      kFinestScore * options_.error, context);
 }
 
@@ -208,8 +208,10 @@ std::optional<double> ShownMesh::RefineSources(LightSolver& solver, std::optiona
   if (context.Cancelled()) return std::nullopt;
   const double change = cells.Change();
   if (!score)
-    score = ChooseSourceCut(solver.solution(), cells, *irradiance_.Get(), kFinestScore * options_.error,
-                            kSourceShare * options_.error, kCutPoints, options_.seed + 1, context)
+    score = ChooseSourceCut(
+                solver.solution(), cells, *irradiance_.Get(),
+                {kFinestScore * options_.error, kSourceShare * options_.error, kCutPoints, options_.seed + 1},
+                context)
                 .score;
   const bool done = solver.SetLight(cells.LeafIrradiance(),
                                     cells.Fragments(cells.Cut(*score), /*whole_leaves=*/false), context);
@@ -269,8 +271,8 @@ std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, 
   refinement.error = error;
   refinement.min_area = options_.solver.min_area;
   refinement.samples = options_.error_samples;
-  RefinedMesh refined = RefineMesh(visibility_, solution, Sampler(tolerance, context), options, refinement,
-                                   context, &LocalPass(), &plan_, samples);
+  RefinedMesh refined = RefineMesh({visibility_, solution, Sampler(tolerance, context)}, options, refinement,
+                                   context, {&LocalPass(), &plan_, samples});
   if (context.Cancelled()) return std::nullopt;
   mesh_ = std::move(refined.mesh);
   triangulations_ = std::move(refined.triangulations);

@@ -21,7 +21,7 @@ using mesh_test::Segment;
 // The unit square, its corner (0, 0) the origin of its frame, split into four.
 struct QuarteredSquare {
   QuarteredSquare() : scene(EmptyScene()) {
-    AddSquare(scene, 0.5, 0.5, 0, 0.5, true);
+    AddSquare(scene, {0.5, 0.5, 0}, 0.5, true);
     forest = ElementForest(scene);
     forest.Subdivide(0);
   }

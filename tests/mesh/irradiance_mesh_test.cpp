@@ -188,8 +188,8 @@ TEST(MeshLocator, FindsPointsUpToTheOutline) {
 struct BoxesUnderLight {
   // `decimals`: how far coordinates are rounded, as in a file; 0 leaves them.
   explicit BoxesUnderLight(int decimals) : scene(EmptyScene()) {
-    AddSquare(scene, 0, 0, 0, 2, true);
-    const PatchId light = AddSquare(scene, 0.5, 0.7, 3, 0.4, false, 1);
+    AddSquare(scene, {0, 0, 0}, 2, true);
+    const PatchId light = AddSquare(scene, {0.5, 0.7, 3}, 0.4, false, 1);
     AddBox(scene, {-0.5, -0.4, 0}, {0.45, 0.4, 0.6}, false);
     AddBox(scene, {0.7, -0.9, 0.5}, {1.1, -0.3, 0.9}, true);
     scene.materials[1].emittance = Rgb(100, 90, 80);

@@ -37,6 +37,30 @@ Vec3 PointIn(Random& random, const Element& element) {
                    : Vec3(v[0] + s * (v[1] - v[0]) + t * (v[2] - v[0]));
 }
 
+using BlockersOfLinks = std::map<Pair, std::vector<PatchId>>;
+
+BlockersOfLinks AllBlockers(const LinkSet& links) {
+  BlockersOfLinks all;
+  for (const Link& link : links.links) {
+    const std::span<const PatchId> own = links.Blockers(link);
+    all[{link.receiver, link.source}] = {own.begin(), own.end()};
+  }
+  return all;
+}
+
+// Every link has come from one of those before, and its blockers from that one's.
+void ExpectInherited(const RadiositySolution& solution, const BlockersOfLinks& before) {
+  const ElementForest& forest = solution.forest;
+  for (const Link& link : solution.links.links) {
+    const std::vector<PatchId>* parent = nullptr;
+    for (ElementId r = link.receiver; r != kNoElement; r = forest[r].parent)
+      for (ElementId s = link.source; s != kNoElement; s = forest[s].parent)
+        if (const auto found = before.find({r, s}); found != before.end()) parent = &found->second;
+    ASSERT_NE(parent, nullptr);
+    EXPECT_TRUE(std::ranges::includes(*parent, solution.links.Blockers(link)));
+  }
+}
+
 // By every oracle, with and without multigridding: the solution converges; every pair of leaves is linked at
 // most once, and at least once if points of theirs see each other; what stands between two points is among
 // the blockers of the link that joins them; a new link's blockers are among those of the link it came from.
@@ -55,23 +79,12 @@ TEST(Refinement, CoversOnceAndKeepsBlockers) {
       HierarchicalSolver solver(scene, visibility, options);
       const RadiositySolution& solution = solver.solution();
       const ElementForest& forest = solution.forest;
-      std::map<Pair, std::vector<PatchId>> before;
       while (!solver.Converged()) {
-        before.clear();
-        for (const Link& link : solution.links.links) {
-          const std::span<const PatchId> own = solution.links.Blockers(link);
-          before[{link.receiver, link.source}] = {own.begin(), own.end()};
-        }
+        const BlockersOfLinks before = AllBlockers(solution.links);
         ASSERT_TRUE(solver.Iterate(ExecutionContext())) << oracle;
-        for (const Link& link : solution.links.links) {
-          const std::vector<PatchId>* parent = nullptr;
-          for (ElementId r = link.receiver; r != kNoElement; r = forest[r].parent)
-            for (ElementId s = link.source; s != kNoElement; s = forest[s].parent)
-              if (const auto found = before.find({r, s}); found != before.end()) parent = &found->second;
-          ASSERT_NE(parent, nullptr) << oracle;
-          EXPECT_TRUE(std::ranges::includes(*parent, solution.links.Blockers(link))) << oracle;
-          ++inherited;
-        }
+        SCOPED_TRACE(oracle);
+        ExpectInherited(solution, before);
+        inherited += solution.links.links.size();
       }
       std::map<Pair, const Link*> links;
       for (const Link& link : solution.links.links) links[{link.receiver, link.source}] = &link;

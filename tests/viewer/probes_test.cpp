@@ -90,7 +90,7 @@ TEST(Graph, HoldsTheInterpolantsSamplesAtItsNodes) {
   const Solved& s = Shared();
   const std::vector<std::uint32_t> triangles = {0, 1, 2};
   const IrradianceGraph graph =
-      MakeGraph(*s.light, s.mesh->mesh(), triangles, 2, false, true, ExecutionContext());
+      MakeGraph(*s.light, s.mesh->mesh(), triangles, {2, false, true}, ExecutionContext());
   ASSERT_EQ(graph.size(), 3U);
   for (const GraphSheet& sheet : graph) {
     ASSERT_EQ(sheet.exact.size(), 6U);
@@ -109,7 +109,7 @@ TEST(Graph, DynamicGridsFollowTheArea) {
   std::vector<std::uint32_t> all;
   for (std::uint32_t i = 0; i < s.mesh->mesh().triangles.size(); ++i) all.push_back(i);
   for (const GraphSheet& sheet :
-       MakeGraph(*s.light, s.mesh->mesh(), all, 40, true, false, ExecutionContext())) {
+       MakeGraph(*s.light, s.mesh->mesh(), all, {40, true, false}, ExecutionContext())) {
     const ElementId leaf = LeafOf(*s.light, s.mesh->mesh(), sheet.triangle);
     const double share = TriangleArea(s.mesh->mesh(), sheet.triangle) / s.light->solution().forest[leaf].area;
     EXPECT_NEAR(sheet.cells, std::max(1.0, 40 * std::sqrt(share)), 0.51);

@@ -47,12 +47,10 @@ class ListedFactors {
   }
   void Evaluate(const ReceiverPoint& at) {
     const std::size_t count = results_.size();
-    factor_.resize(count);
-    angles_.resize(count);
     // What the sums lose is nothing beside what the rule does.
-    FormFactorSums(polygons_, 0, count, at.position, at.normal, factor_.data(), angles_.data());
+    sums_.Find(polygons_, 0, count, at.position, at.normal);
     for (std::size_t i = 0; i < count; ++i)
-      std::fill(results_[i].to.begin(), results_[i].to.end(), results_[i].weight * std::max(0.0, factor_[i]));
+      std::fill(results_[i].to.begin(), results_[i].to.end(), results_[i].weight * std::max(0.0, sums_.Factor(i)));
   }
 
  private:
@@ -62,7 +60,7 @@ class ListedFactors {
   };
   PolygonBatch polygons_;
   std::vector<Result> results_;
-  std::vector<double> factor_, angles_;
+  FormFactorSums sums_;
 };
 
 class LinkCubature {

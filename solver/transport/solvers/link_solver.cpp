@@ -140,8 +140,8 @@ bool LinkSolver::Balance(const ExecutionContext& context) {
 bool LinkSolver::Settle(std::span<const Rgb> correction, double cutoff, IterationReport& report,
                         const ExecutionContext& context) {
   if (!Balance(context)) return false;
-  const Settled settled = penumbra::Settle(*push_pull_, solution_, correction, options_.scheme,
-                                           options_.acceleration, cutoff, context);
+  const Settled settled = penumbra::Settle(*push_pull_, solution_, correction,
+                                           {options_.scheme, options_.acceleration, cutoff}, context);
   report.residual = settled.residual;
   report.sweeps += settled.sweeps;
   to_come_ = settled.to_come;
