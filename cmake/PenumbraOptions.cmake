@@ -1,6 +1,7 @@
 # Build options, warnings, sanitizers and the helpers that define our targets.
 
 option(PENUMBRA_TESTS "Build the tests" ON)
+option(PENUMBRA_EXAMPLES "Build the examples" ON)
 option(PENUMBRA_EXPERIMENTS "Build the benchmarks and studies" ON)
 option(PENUMBRA_WERROR "Let no warning pass" OFF)
 option(PENUMBRA_CHECKS "Keep the internal checks (PENUMBRA_DCHECK) alive" OFF)
@@ -18,7 +19,8 @@ endif()
 # What every target of ours is compiled with. No contraction: the same bytes on every run.
 add_library(penumbra_options INTERFACE)
 target_compile_features(penumbra_options INTERFACE cxx_std_20)
-target_include_directories(penumbra_options INTERFACE "${PROJECT_SOURCE_DIR}")
+target_include_directories(penumbra_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                           $<INSTALL_INTERFACE:include/penumbra>)
 target_compile_options(penumbra_options INTERFACE -ffp-contract=off)
 if(PENUMBRA_CHECKS)
   target_compile_definitions(penumbra_options INTERFACE PENUMBRA_CHECKS)
@@ -60,6 +62,6 @@ function(penumbra_library name)
   endif()
   add_library(penumbra_${name} STATIC ${sources})
   set_target_properties(penumbra_${name} PROPERTIES LINKER_LANGUAGE CXX)
-  target_link_libraries(penumbra_${name} PUBLIC penumbra_options PRIVATE penumbra_warnings)
+  target_link_libraries(penumbra_${name} PUBLIC penumbra_options PRIVATE $<BUILD_INTERFACE:penumbra_warnings>)
   target_link_libraries(penumbra_${name} PUBLIC ${ARGN})
 endfunction()

@@ -11,7 +11,7 @@ set(LAYERS solver/base solver/geometry solver/scene
   solver/transport/links solver/transport/sources solver/transport/points solver/transport/solvers
   mesh/discontinuities mesh/triangulation mesh/interpolants mesh/refinement mesh/pipeline
   display apps)
-set(OUTSIDE tests experiments)  # may include every layer; no layer may include them
+set(OUTSIDE tests experiments examples)  # may include every layer; no layer may include them
 set(HEAVY "^(CGAL|embree[0-9]*|tbb|oneapi|EGL|GL|GLFW|OpenEXR|stb)/|^Imf|^imgui|^stb_|^hdf5|^H5")
 
 # The place of the library that `path` belongs to; -1 for none.

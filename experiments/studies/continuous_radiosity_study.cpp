@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/studies/study.h"
+#include "solver/base/check.h"
 #include "solver/transport/points/point_irradiance.h"
 #include "solver/transport/solvers/hierarchical_solver.h"
 
@@ -21,14 +22,15 @@ namespace {
 
 using nlohmann::json;
 
-// PENUMBRA_TRUTH names the folder of the reference values; else they are looked for beside the checkout, from
-// its root. Null where they are not at hand.
+// The reference values: of tests/truth, for studies run from the root of the checkout, or of the folder that
+// PENUMBRA_TRUTH names. Throws InputError if there are none.
 json ReadTruth() {
   const char* given = std::getenv("PENUMBRA_TRUTH");
   const std::filesystem::path path =
-      std::filesystem::path(given ? given : "../shared/truth") / "radiosity_continuous.json";
+      std::filesystem::path(given ? given : "tests/truth") / "radiosity_continuous.json";
   std::ifstream file(path);
-  return file ? json::parse(file) : json();
+  if (!file) throw InputError(path.string() + ":0: error: cannot be read; run the studies from the root");
+  return json::parse(file);
 }
 
 struct Sample {
@@ -99,10 +101,6 @@ bool GoesOn(const StudyLog& log) {
 
 void StudyContinuousRadiosity(StudyLog& log) {
   const json truth = ReadTruth();
-  if (truth.is_null()) {
-    log.Find("Not run: the reference values were not at hand.");
-    return;
-  }
   for (const json& c : truth["cases"]) {
     std::vector<Sample> samples;
     const Scene scene = MakeScene(c, &samples);

@@ -1,7 +1,6 @@
 // tests/transport/truth_files.h
 //
-// Reference values with 12 to 30 digits, where they are at hand: a folder `shared/truth` beside the checkout,
-// or the one that PENUMBRA_TRUTH names.
+// Reference values with 12 to 30 digits: those of tests/truth, or of the folder that PENUMBRA_TRUTH names.
 
 #pragma once
 
@@ -9,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -21,13 +21,19 @@ namespace penumbra::truth {
 
 using nlohmann::json;
 
-// The file, or null where it is not at hand.
+// The reference values of that file. Throws std::runtime_error, so that the test fails, if the file is
+// missing or holds no case.
 inline json Load(const std::string& name) {
   const char* given = std::getenv("PENUMBRA_TRUTH");
-  const std::filesystem::path folder =
-      given ? given : std::filesystem::path(PENUMBRA_SOURCE_DIR) / ".." / "shared" / "truth";
-  std::ifstream file(folder / name);
-  return file ? json::parse(file) : json();
+  const std::filesystem::path path =
+      (given ? std::filesystem::path(given)
+             : std::filesystem::path(PENUMBRA_SOURCE_DIR) / "tests" / "truth") /
+      name;
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("no reference values in " + path.string());
+  json truth = json::parse(file);
+  if (truth.at("cases").empty()) throw std::runtime_error("no cases in " + path.string());
+  return truth;
 }
 
 inline Vec3 ToVec3(const json& j) { return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()}; }

@@ -4,8 +4,11 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <numbers>
+#include <stdexcept>
 
 #include "solver/scene/patch_builder.h"
 #include "solver/scene/surface_points.h"
@@ -36,10 +39,24 @@ void AddPolygon(Scene& scene, const Polygon3& polygon, std::int32_t material) {
   scene.patches.insert(scene.patches.end(), one.patches.begin(), one.patches.end());
 }
 
+// The reference values travel with the code, whole; a test that asks for a file that is not there fails.
+TEST(Truth, IsThere) {
+  std::size_t files = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(PENUMBRA_SOURCE_DIR) / "tests" / "truth")) {
+    if (entry.path().extension() != ".json") continue;
+    std::ifstream file(entry.path());
+    const json truth = json::parse(file);
+    EXPECT_EQ(truth["cases"].size(), truth["count"].get<std::size_t>()) << entry.path();
+    ++files;
+  }
+  EXPECT_EQ(files, 7U);
+  EXPECT_THROW(Load("no_such_file.json"), std::runtime_error);
+}
+
 // Every case of occluded.json, by every exact method, to the tolerance that it states.
 TEST(Truth, OccludedLights) {
   const json truth = Load("occluded.json");
-  if (truth.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
   for (const auto& [name, method] : scene_test::ExactMethods()) {
     double worst = 0;
     for (const json& c : truth["cases"]) {
@@ -65,7 +82,6 @@ TEST(Truth, OccludedLights) {
 // that it states.
 TEST(Truth, PointsAndPolygons) {
   const json truth = Load("point_polygon.json");
-  if (truth.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
   for (const auto& [name, method] : scene_test::ExactMethods()) {
     double worst = 0;
     for (const json& c : truth["cases"]) {
@@ -114,7 +130,6 @@ double MaskedSky(const json& c, const ReceiverPoint& at, const OcclusionMethod& 
 // All points of lighting_analytic.json, to the 1e-12 that it states.
 TEST(Truth, LightingAnalytic) {
   const json truth = Load("lighting_analytic.json");
-  if (truth.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
   for (const auto& [name, method] : scene_test::ExactMethods()) {
     int tested = 0;
     double worst = 0;
@@ -150,7 +165,6 @@ TEST(Truth, LightingAnalytic) {
 // Every case of area_area.json, either way, to the tolerance that it states; and the error is what it says.
 TEST(Truth, AreasAndAreas) {
   const json truth = Load("area_area.json");
-  if (truth.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
   double worst = 0, worst_stated = 0, slowest = 0;
   for (const json& c : truth["cases"]) {
     Scene scene;
@@ -237,7 +251,6 @@ void ExpectFlux(const json& expected, double x0, double x1, double y0, double y1
 
 TEST(Truth, FluxIsConserved) {
   const json truth = Load("lighting_analytic.json");
-  if (truth.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
   int tested = 0;
   for (const json& c : truth["cases"]) {
     if (c["id"] == "flux_conservation") ++tested, ExpectFlux(c["expected"], 1.5, 2.5, 1.5, 2.5);
@@ -277,7 +290,6 @@ void ExpectFurnace(const Scene& scene, const std::string& id) {
 // The closed boxes of radiosity_exact.json, whose radiosity and irradiance are 1 everywhere.
 TEST(Truth, Furnaces) {
   const json truth = Load("radiosity_exact.json");
-  if (truth.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
   int tested = 0;
   for (const json& c : truth["cases"]) {
     if (!c.contains("faces")) continue;
@@ -291,7 +303,6 @@ TEST(Truth, Furnaces) {
 // count: within 5 %.
 TEST(Truth, ContinuousCubes) {
   const json truth = Load("radiosity_continuous.json");
-  if (truth.is_null()) GTEST_SKIP() << "no reference values beside the checkout";
   int tested = 0;
   for (const json& c : truth["cases"]) {
     if (!c["rho"].contains("ceiling")) continue;
