@@ -13,6 +13,7 @@
 #include "apps/commands.h"
 #include "apps/interruptible.h"
 #include "apps/option_values.h"
+#include "apps/options_used.h"
 #include "apps/output.h"
 #include "apps/scene_arguments.h"
 #include "display/false_colour.h"
