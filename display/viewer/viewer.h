@@ -22,6 +22,7 @@
 #include "display/viewer/settings.h"
 #include "display/viewer/solver_session.h"
 #include "display/viewer/view_state.h"
+#include "mesh/pipeline/option_table.h"
 
 namespace penumbra::viewer {
 
@@ -98,6 +99,9 @@ class Viewer {
   // viewer_settings.cpp
   void AddViewSettings();
   void AddSolveSettings();
+  void AddSolveSetting(const SolveOption& option);
+  PipelineOptions& HolderOf(const SolveOption& option);
+  void KeepSolverOptions(const PipelineOptions& before);
   void AddFileSettings();
   // viewer_menu.cpp
   void AddMenus();
@@ -141,7 +145,7 @@ class Viewer {
 
   ViewerOptions options_;
   std::optional<PipelineOptions> own_links_;  // while links are given: as one's own would be made
-  DenseOptions dense_;                        // of the dense solver, whether it is chosen or not
+  PipelineOptions dense_;                     // with the dense solver chosen: see HolderOf()
   SolverSession session_;
   std::shared_ptr<const Snapshot> snapshot_;
   std::shared_ptr<const MeshState> tools_;
