@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -105,7 +106,9 @@ std::string HelpOf(const std::string& help, const SolveOption& option) {
   std::size_t end = help.find('\n', begin + 1);
   if (help.compare(end, 10, "\n         ") == 0)
     end = help.find('\n', end + 1);  // a long name has its own line
-  return help.substr(begin + 1, end - begin);
+  std::string lines = help.substr(begin + 1, end - begin);
+  std::replace(lines.begin(), lines.end(), '\n', ' ');
+  return lines;
 }
 
 // Help tells the default that PipelineOptions has, and unit and range in the same words everywhere.
