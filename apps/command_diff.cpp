@@ -12,6 +12,7 @@
 #include "apps/commands.h"
 #include "apps/interruptible.h"
 #include "apps/option_values.h"
+#include "apps/options_used.h"
 #include "apps/output.h"
 #include "apps/scene_arguments.h"
 #include "display/exr_image.h"

@@ -11,9 +11,11 @@
 #include "apps/commands.h"
 #include "apps/export_file.h"
 #include "apps/option_values.h"
+#include "apps/options_used.h"
 #include "apps/output.h"
 #include "apps/restart.h"
 #include "apps/scene_arguments.h"
+#include "apps/solve_options.h"
 #include "apps/solve_run.h"
 #include "solver/base/file_endings.h"
 

@@ -15,6 +15,7 @@
 #include "apps/output.h"
 #include "apps/render_arguments.h"
 #include "apps/restart.h"
+#include "apps/solve_options.h"
 #include "apps/solve_run.h"
 #include "display/false_colour.h"
 #include "display/image_writers.h"
@@ -195,6 +196,7 @@ Command AddRenderCommand(CLI::App& program) {
   AddPictureOptions(*app, arguments.get());
   AddCameraOptions(*app, &arguments->camera);
   AddSolveOptions(*app, &arguments->scene);
+  AddPictureStudies(*app, arguments.get());
   AddRestartOption(*app, &arguments->scene);
   AddReportOption(*app, &arguments->scene);
   return {app, [arguments] { Render(*arguments); }};

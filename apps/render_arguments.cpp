@@ -11,6 +11,7 @@
 #include "apps/output.h"
 #include "display/image_writers.h"
 #include "solver/base/file_endings.h"
+#include "mesh/pipeline/option_table.h"
 
 namespace penumbra {
 namespace {
@@ -184,11 +185,6 @@ void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
   AddChoice(app, "--backend", &arguments->backend, kBackends,
             "What draws the two passes: our rasteriser, or the graphics system, off screen, as in the thesis")
       ->group("Picture");
-  AddChoice(
-      app, "--opengl-coordinates", &arguments->coordinates, kCoordinates,
-      "opengl: barycentric coordinates as floats, or from the thesis's texture of 256 x 256 texels of 8 "
-      "bits")
-      ->group("Picture");
   AddInteger(
       app, "--supersampling", &arguments->supersampling, 1, 8,
       "Samples a side of each pixel of a PNG, averaged; an EXR, false colours and --split have one, at the "
@@ -202,6 +198,14 @@ void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
              "-o may be left out")
       ->default_str("")
       ->group("Running");
+}
+
+void AddPictureStudies(CLI::App& app, RenderArguments* arguments) {
+  AddChoice(
+      app, "--opengl-coordinates", &arguments->coordinates, kCoordinates,
+      "opengl: barycentric coordinates as floats, or from the thesis's texture of 256 x 256 texels of 8 "
+      "bits")
+      ->group(GroupTitle(OptionGroup::kStudies));
 }
 
 }  // namespace penumbra

@@ -67,6 +67,8 @@ struct RenderArguments {
 bool HasOneSample(const RenderArguments& arguments);
 
 void AddPictureOptions(CLI::App& app, RenderArguments* arguments);
+// Those of a picture that only studies compare. REQUIRES: AddSolveOptions(), whose last group they join.
+void AddPictureStudies(CLI::App& app, RenderArguments* arguments);
 
 // What can be told before the work starts. Throws UsageError, and InputError where a file cannot be written.
 void CheckRenderArguments(const RenderArguments& arguments);

@@ -9,6 +9,7 @@
 #include "apps/interruptible.h"
 #include "apps/messages.h"
 #include "apps/option_checks.h"
+#include "apps/options_used.h"
 #include "apps/output.h"
 #include "mesh/pipeline/solution_file.h"
 #include "solver/base/check.h"

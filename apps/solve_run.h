@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/load_scene.h"
 #include "apps/report.h"
 #include "apps/scene_arguments.h"
 #include "mesh/pipeline/pipeline.h"

@@ -54,7 +54,8 @@ constexpr float kGap = 8;
 // What the drawing control panel holds, and how wide its fields and those of the parameters are.
 constexpr std::string_view kControlGroups[] = {"Drawing", "Exposure", "Visualisations",
                                                "Links",   "Graphs",   "Viewing"};
-constexpr std::string_view kParameterGroups[] = {"Scene", "Solving"};
+constexpr std::string_view kStudies = GroupTitle(OptionGroup::kStudies);
+constexpr std::string_view kParameterGroups[] = {"Scene", GroupTitle(OptionGroup::kSolving), kStudies};
 constexpr float kControlField = 120, kParameterField = 150;
 
 // The menus of the bar stand side by side where they leave room for so much of what is being computed.
@@ -324,7 +325,8 @@ void Panels::Parameters(Viewer& viewer) {
   if (BeginPanel("Parameters", {beside, 30, PanelWidth(viewer, kParameterGroups, kParameterField), 360},
                  &viewer.panels().parameters)) {
     ImGui::PushItemWidth(kParameterField * Scale());
-    for (const std::string_view group : kParameterGroups) Group(viewer, group);
+    for (const std::string_view group : kParameterGroups)
+      if (group != kStudies || ImGui::CollapsingHeader(group.data())) Group(viewer, group);
     ImGui::PopItemWidth();
     ImGui::TextDisabled("The next iteration starts over where they differ.");
     for (const char* path : {"Iteration/Iterate", "Iteration/Iterate to convergence"}) {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -66,17 +65,6 @@ class Settings {
     return AddChoice(name, group, help, std::move(names), place,
                      [value, choices](std::size_t i) { *value = choices[i].second; });
   }
-  // Choice() with `auto` for nothing.
-  template <class Value>
-  Setting& OptionalChoice(const std::string& name, const std::string& group, const std::string& help,
-                          std::optional<Value>* value, const Named<std::type_identity_t<Value>>& choices) {
-    Named<std::optional<Value>> all = {{"auto", std::nullopt}};
-    for (const auto& [choice, meaning] : choices) all.emplace_back(choice, meaning);
-    return Choice(name, group, help, value, all);
-  }
-  // The value is one of the names itself.
-  Setting& NameChoice(const std::string& name, const std::string& group, const std::string& help,
-                      std::string* value, const std::vector<std::string>& names);
   Setting& Vector(const std::string& name, const std::string& group, const std::string& help,
                   std::function<Vec3()> get, std::function<void(const Vec3&)> set);
   Setting& Add(Setting setting);

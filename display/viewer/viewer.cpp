@@ -190,7 +190,7 @@ void Viewer::Set(const std::string& name, const std::string& value) {
   fresh_ = false;
   const Setting* setting = settings_.Find(name);
   if (!setting) throw InputError(fmt::format("there is no option '{}'; --help-script lists them", name));
-  if (own_links_ && std::find(kLinkOptions.begin(), kLinkOptions.end(), name) != kLinkOptions.end())
+  if (own_links_ && IsLinkOption(name))
     throw InputError(
         fmt::format("{}: it says how links are made, but restart keeps those of a solution", name));
   try {

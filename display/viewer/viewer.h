@@ -22,6 +22,7 @@
 #include "display/viewer/settings.h"
 #include "display/viewer/solver_session.h"
 #include "display/viewer/view_state.h"
+#include "mesh/pipeline/option_table.h"
 
 namespace penumbra::viewer {
 
@@ -98,6 +99,7 @@ class Viewer {
   // viewer_settings.cpp
   void AddViewSettings();
   void AddSolveSettings();
+  void AddSolveSetting(const SolveOption& option);
   void AddFileSettings();
   // viewer_menu.cpp
   void AddMenus();
