@@ -1,7 +1,7 @@
 // solver/base/kept.h
 //
-// Values by number, each made when it is first asked for and kept until the next beginning, which costs
-// nothing.
+// A table of values that are computed on first use. Begin() invalidates all values in constant time, except
+// that it grows the table if needed.
 
 #pragma once
 
@@ -15,7 +15,7 @@ namespace penumbra {
 template <class T>
 class Kept {
  public:
-  // Forgets all. Numbers are below `count` from here on.
+  // Invalidates all values. Until the next call, indices are below `count`.
   void Begin(std::size_t count) {
     if (stamp_.size() < count) {
       stamp_.resize(count, 0);
@@ -27,7 +27,7 @@ class Kept {
     }
   }
 
-  // The value, and whether it must be made anew.
+  // The value with this index, and true if the caller must compute it. Counts as computed afterwards.
   std::pair<T&, bool> operator[](std::int32_t number) {
     const auto i = static_cast<std::size_t>(number);
     const bool is_new = stamp_[i] != now_;
