@@ -9,7 +9,7 @@
 
 namespace penumbra {
 
-// The scene that a user names: an OBJ file or a built-in scene; a file wins. Throws InputError.
+// The scene called `name`: an OBJ file or a built-in scene. A file has precedence. Throws InputError.
 Scene ReadNamedScene(const std::string& name, const SceneOptions& options);
 
 }  // namespace penumbra
