@@ -1,7 +1,7 @@
 // display/image_io.h
 //
-// Pictures as files. A file is written beside its place and renamed, so that a killed run leaves the old one
-// whole; the same pixels give the same bytes.
+// Reads and writes picture files. Files are written under a temporary name and then renamed, so that a killed
+// program leaves the old file intact. The same pixels give the same bytes.
 
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace penumbra {
 
-// 8-bit sRGB PNG. Throws InputError if the file cannot be written; nothing is left behind then.
+// Writes an 8-bit sRGB PNG file. If the file cannot be written, throws InputError and leaves no file behind.
 void WritePng(const std::string& path, const Srgb8Image& image);
 
-// Linear RGB EXR, 32-bit floats, ZIP-compressed without loss. Errors as WritePng.
+// Writes a linear RGB EXR file: 32-bit floats with lossless ZIP compression. Errors as WritePng().
 void WriteExr(const std::string& path, const RgbImage& image);
 
 // The channels R, G and B of an EXR file of any pixel type; a channel that is missing is 0.

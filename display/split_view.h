@@ -1,6 +1,6 @@
 // display/split_view.h
 //
-// The scratch images beside the picture that is made from them (thesis B.3.2).
+// Shows the scratch images next to the picture that is made from them (thesis B.3.2).
 
 #pragma once
 
@@ -11,13 +11,14 @@
 
 namespace penumbra {
 
-// Four quarters of a picture of width x height pixels: triangle ids, each in a colour of its own; barycentric
-// coordinates, s red, t green, 1 - s - t blue; depths, the nearest white; and `picture`. The frame and the
-// picture are of the size of a quarter; the frame was drawn of the mesh with these rays.
+// Paints a picture of width x height pixels in four quarters: triangle ids, each id in its own colour;
+// barycentric coordinates, s red, t green, 1 - s - t blue; depths, the nearest white; and `picture`.
+// REQUIRES: the frame and the picture have the size of a quarter, and the frame was drawn from the mesh with
+// `rays`.
 void PaintSplit(const RenderedFrame& frame, const PixelRays& rays, const IrradianceMesh& mesh,
                 const Srgb8Image& picture, int width, int height, Srgb8Image* out);
 
-// A side of a quarter.
+// The side of a quarter, for a side of the whole picture [pixels].
 inline constexpr int QuarterSide(int side) { return side < 2 ? 1 : side / 2; }
 
 }  // namespace penumbra
