@@ -1,6 +1,6 @@
 // apps/export_file.h
 //
-// Meshes and scenes in the formats of other programs, chosen by the ending of the file's name.
+// Writes meshes and scenes in the formats of other programs. The ending of the file name selects the format.
 
 #pragma once
 
@@ -12,15 +12,15 @@
 
 namespace penumbra {
 
-// What is wrong with the ending; nothing if it is one that we write.
+// The error message for an unknown ending; nullopt if the format is known.
 std::optional<std::string> ExportFormatError(const std::string& path);
-// Where the materials of an .obj go; nothing for other formats.
+// The path of the material library of an .obj file; nullopt for other formats.
 std::optional<std::string> LibraryBeside(const std::string& path);
-// Whether the format holds the mesh, and not the scene alone. REQUIRES: one that we write.
+// Whether the format contains the mesh, not only the scene. REQUIRES: a known format.
 bool ExportsMesh(const std::string& path);
 
-// Both throw InputError if a file cannot be written. `exposure` [m^2/W] makes the colours; metered from the
-// mesh if not given.
+// Both functions throw InputError if a file cannot be written. `exposure` [m^2/W] is the factor from
+// radiosity to colours; without it, it is metered from the mesh.
 void ExportMesh(const std::string& path, const Scene& scene, const IrradianceMesh& mesh,
                 std::optional<double> exposure);
 void ExportScene(const std::string& path, const Scene& scene, const Camera& camera);

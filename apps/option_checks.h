@@ -8,8 +8,8 @@
 
 namespace penumbra {
 
-// The options that mean something to the hierarchical solver alone, in the words of the command line without
-// its dashes.
+// Whether only the hierarchical solver uses the option. `name` is the option's name without the leading
+// dashes.
 bool IsHierarchicalOption(const std::string& name);
 
 // Throws UsageError for options that contradict each other.
@@ -18,7 +18,7 @@ void CheckOptions(const SceneArguments& arguments);
 // Throws UsageError for distances that are too large for the scene.
 void CheckDistances(const SceneArguments& arguments, const Scene& scene);
 
-// What a solve with these options may cost beyond measure, in a sentence; empty where nothing is to be said.
+// A warning, one sentence, if a solve with these options may take extremely long; empty otherwise.
 std::string CostNote(const SceneArguments& arguments, const ResolvedOptions& resolved);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // apps/option_values.h
 //
-// Values on the command line: read whole and correctly rounded, checked against what they may be. A value
-// that may not be ends the parse with one line that says what may.
+// Values on the command line: parsed completely, rounded correctly, and checked against their range. For an
+// invalid value the parser prints one line that states the valid values, and ends.
 
 #pragma once
 
@@ -23,18 +23,18 @@
 
 namespace penumbra {
 
-// The number that the whole text is; nothing if it is none, or not finite.
+// The number in the text; nullopt unless the whole text is one finite number.
 std::optional<double> ParseNumber(std::string_view text);
 
-// The three numbers of `x,y,z`; nothing if the text is anything else.
+// The three numbers of the text `x,y,z`; nullopt for any other text.
 std::optional<Vec3> ParseVector(std::string_view text);
 
-// What a number may be, with the words for it.
+// The range of a number, and its description.
 struct NumberRule {
   bool (*holds)(double);
   const char* words;
 };
-// Squares and products of what is in range must not overflow nor vanish.
+// Limits such that squares and products of valid numbers neither overflow nor underflow.
 inline constexpr double kTiniest = 1e-100, kLargest = 1e100;
 inline constexpr NumberRule kPositive{[](double x) { return x >= kTiniest && x <= kLargest; },
                                       "a number from 1e-100 to 1e100"};
@@ -42,26 +42,26 @@ inline constexpr NumberRule kEmittance{[](double x) { return x >= 0 && x <= kLar
                                        "a number, 0 or more, up to 1e100"};
 inline constexpr NumberRule kNonNegative{[](double x) { return x >= 0 && x <= kLargest; },
                                          "a number from 0 to 1e100"};
-// A relative error. Light is found to some 1e-6 at best: the digits that rays and samples leave.
+// The range of a relative error. The program computes light to about 1e-6 at best.
 inline constexpr NumberRule kRelativeError{[](double x) { return x >= 1e-6 && x <= 10; },
                                            "a number from 1e-6 to 10"};
 
-// "a, b and c"; of many, the first and how many more.
+// The text "a, b and c"; for many names, the first names and the number of the others.
 std::string NameList(const std::vector<std::string>& names);
 
-// `NAME X`, a number; the default in the help is the target's value. A target that is optional has its
-// default in the help text.
+// Adds the option `NAME X`, a number. The help shows the target's value as the default. For an optional
+// target, `help` describes the default.
 CLI::Option* AddNumber(CLI::App& app, const std::string& name, double* target, const NumberRule& rule,
                        const std::string& help);
 CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<double>* target,
                        const NumberRule& rule, const std::string& help);
 
-// `NAME N`, an integer in [low, high]. For int and std::uint64_t.
+// Adds the option `NAME N`, an integer in [low, high]. Defined for int and std::uint64_t.
 template <class Integer>
 CLI::Option* AddInteger(CLI::App& app, const std::string& name, Integer* target, Integer low, Integer high,
                         const std::string& help);
 
-// A name and what it stands for.
+// A named value.
 template <class Value>
 struct Choice {
   const char* name;
@@ -74,7 +74,7 @@ const char* ChoiceName(const Choice<Value> (&choices)[kCount], Value value) {
   return "";
 }
 
-// The value of that name. Throws InputError if there is none.
+// The value of the choice called `name`. Throws InputError if there is none.
 template <class Value, std::size_t kCount>
 Value ChoiceValue(const Choice<Value> (&choices)[kCount], const std::string& name) {
   for (const Choice<Value>& choice : choices)
@@ -82,7 +82,8 @@ Value ChoiceValue(const Choice<Value> (&choices)[kCount], const std::string& nam
   throw InputError("no such choice: " + name);
 }
 
-// `NAME A|B|...`, one of the choices; the target is of their type, or optional.
+// Adds the option `NAME A|B|...`, one of the choices. The target has the type of their values, or is an
+// optional of it.
 template <class Target, class Value, std::size_t kCount>
 CLI::Option* AddChoice(CLI::App& app, const std::string& name, Target* target,
                        const Choice<Value> (&choices)[kCount], const std::string& help) {
@@ -102,13 +103,13 @@ struct VectorRule {
   bool (*holds)(const Vec3&);
   const char* words;
 };
-// As the coordinates of scenes: squares must not overflow in floats, nor cubes in doubles.
+// The limit for coordinates of scenes: squares do not overflow in floats, nor cubes in doubles.
 inline constexpr VectorRule kPoint{[](const Vec3& v) { return MaxAbs(v) <= 1e36; },
                                    "three numbers, x,y,z, each up to 1e36"};
 inline constexpr VectorRule kDirection{[](const Vec3& v) { return MaxAbs(v) <= 1e36 && !v.isZero(0); },
                                        "a direction, x,y,z, of any length but 0"};
 
-// `NAME x,y,z`, three numbers.
+// Adds the option `NAME x,y,z`, three numbers.
 CLI::Option* AddVector(CLI::App& app, const std::string& name, std::optional<Vec3>* target,
                        const VectorRule& rule, const std::string& help);
 

@@ -1,6 +1,6 @@
 // apps/render_arguments.h
 //
-// What `render` is told about the picture.
+// The options of `render` for the picture.
 
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace penumbra {
 
-// How a mode finds what a pixel shows.
+// The method by which a mode computes a pixel.
 enum class RenderMethod {
   kTwoPass,
   kRayShade,   // rays, exact irradiance
@@ -41,7 +41,7 @@ inline constexpr std::array<RenderMode, 7> kRenderModes = {
      {"lerp", RenderMethod::kLerpShade, MeshKind::kInterpolant, ShadingMode::kRadiosity},
      {"rho", RenderMethod::kTwoPass, MeshKind::kFlat, ShadingMode::kReflectance}}};
 
-// What draws the two passes.
+// The program or system that draws the two passes.
 enum class Backend { kSoftware, kOpenGl };
 
 struct RenderArguments {
@@ -53,12 +53,12 @@ struct RenderArguments {
   OpenGlCoordinates coordinates = OpenGlCoordinates::kFloat;
   int width = 1280, height = 960;
   std::optional<double> exposure;   // [m^2/W]; metered if not given
-  bool false_colour = false;        // a PNG shows values in false colours
-  std::optional<double> scale_max;  // the end of their scale [W/m^2]; what the exposure makes white if not
-  bool split = false;               // a PNG shows the scratch images, too
+  bool false_colour = false;        // PNG: show values in false colours
+  std::optional<double> scale_max;  // end of the scale [W/m^2]; default: what the exposure maps to white
+  bool split = false;               // PNG: show the scratch images, too
   int benchmark_frames = 0;         // 0: no benchmark
-  int supersampling = 2;            // of PNG pictures: samples a side of a pixel
-  int samples = 1;                  // rays a pixel, where a mode casts rays
+  int supersampling = 2;            // PNG: samples per side of a pixel
+  int samples = 1;                  // rays per pixel, for modes that cast rays
 
   bool ByRays() const { return mode.method != RenderMethod::kTwoPass; }
 };
@@ -66,15 +66,15 @@ struct RenderArguments {
 bool IsExr(const std::string& path);
 bool IsPng(const std::string& path);
 
-// Whether a picture has a sample a pixel, or rays.
+// Whether supersampling does not apply: the picture has one sample per pixel, or its mode casts rays.
 bool HasOneSample(const RenderArguments& arguments);
 
 void AddPictureOptions(CLI::App& app, RenderArguments* arguments);
 
-// What can be told before the work starts. Throws UsageError, and InputError where a file cannot be written.
+// Checks the arguments before the work starts. Throws UsageError, or InputError if a file cannot be written.
 void CheckRenderArguments(const RenderArguments& arguments);
 
-// What a user could set of the picture, in the words of OptionsUsed().
+// The options of the picture, in the format of OptionsUsed().
 nlohmann::ordered_json RenderOptionsUsed(const RenderArguments& arguments);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // apps/restart.h
 //
-// The light of a scene over the links of a solution of the same geometry, after emittances or reflectances
-// have changed: `--restart`.
+// The option --restart: computes the light of a scene over the links of a solution of the same geometry, with
+// other emittances or reflectances.
 
 #pragma once
 
@@ -9,10 +9,11 @@
 
 namespace penumbra {
 
-// LoadScene(), for who is going to solve. With --restart it reads that solution, too, whose links become
-// those of the scene: LoadedScene::restart. The options that say how links are made become those of the file.
-// Throws InputError if the file is no solution, has no links, or is of another geometry, and UsageError if
-// the arguments name a solution for a scene or say how to make links (kLinkOptions), for that is done.
+// LoadScene() for commands that solve. With --restart, also reads the solution that the option names, into
+// LoadedScene::restart; the solver will use its links. The options that control how links are made take the
+// values of the solution file. Throws InputError if the file is not a solution, has no links, or has another
+// geometry. Throws UsageError if the scene argument is a solution, or if the arguments contain options of
+// links (kLinkOptions), because the links exist already.
 LoadedScene LoadToSolve(SceneArguments& arguments);
 
 }  // namespace penumbra

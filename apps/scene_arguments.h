@@ -1,6 +1,6 @@
 // apps/scene_arguments.h
 //
-// What all commands share that take a SCENE: which one, how it is read, how it is solved.
+// The arguments of all commands that take a SCENE: the scene, how it is read, and how it is solved.
 
 #pragma once
 
@@ -22,61 +22,63 @@
 namespace penumbra {
 
 struct SceneArguments {
-  const CLI::App* app = nullptr;  // which options were given; null: nobody gave any
+  const CLI::App* app = nullptr;  // tells which options were given; null: none
   std::string scene;              // a path, or the name of a built-in scene
   SceneOptions reading;
   std::vector<MaterialChange> emittance, reflectance;
   PipelineOptions solving;
   int threads = 0;  // 0: all
   bool verbose = false;
-  std::optional<std::string> report;   // where the report goes
-  std::optional<std::string> restart;  // the solution whose links a solve begins with: LoadToSolve()
-  OutputFiles outputs;                 // what the command will write, which nothing that it reads may be
-  bool lit = true;                     // whether it is about light, and not geometry alone
+  std::optional<std::string> report;   // path of the report
+  std::optional<std::string> restart;  // path of the solution whose links are used: LoadToSolve()
+  OutputFiles outputs;                 // output files, which may not be input files
+  bool lit = true;                     // whether the command uses light, not only geometry
 };
 
-// Threads, seed and verbosity: of every command that takes long.
+// Adds the options for threads, seed and verbosity, which every long command has.
 void AddRunningOptions(CLI::App& app, int* threads, std::uint64_t* seed, bool* verbose);
-// SCENE or SOLUTION, the options of reading it, threads, seed, verbosity.
+// Adds the SCENE argument, the options for reading the scene, and AddRunningOptions().
 void AddSceneArguments(CLI::App& app, SceneArguments* arguments);
-// The options of the method. REQUIRES: AddSceneArguments.
+// Adds the options of the solver. REQUIRES: AddSceneArguments() was called.
 void AddSolveOptions(CLI::App& app, SceneArguments* arguments);
 CLI::Option* AddReportOption(CLI::App& app, SceneArguments* arguments);
 CLI::Option* AddRestartOption(CLI::App& app, SceneArguments* arguments);
 
-// What a user could set and what it came to, by option name with '_' for '-'. Without `resolved` nothing is
-// solved, and only what concerns the scene is listed.
+// All options with the values that were used, by option name with '_' in place of '-'. If `resolved` is null,
+// nothing is solved, and only the options of the scene are listed.
 nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const ResolvedOptions* resolved);
-// The same read back: OptionsUsed() of these, resolved, gives `options` again. Throws
+// Reads what OptionsUsed() wrote: OptionsUsed() of the result gives `options` again. Throws
 // nlohmann::json::exception.
 PipelineOptions SolvingFrom(const nlohmann::ordered_json& options);
-// The "Options used:" block, to standard error: what, given again, does the same.
+// Prints the block "Options used:" on standard error. The same options give the same result again.
 void PrintOptionsUsed(const nlohmann::ordered_json& options);
 
-// A solution file's share in a run.
+// The content of a solution file, besides the scene.
 struct StoredRun {
-  PipelineState state;             // what is left of it once a SolveRun took it is unspecified
-  PipelineOptions solving;         // how it was solved,
-  nlohmann::ordered_json options;  // in the words of OptionsUsed(), without `threads`
-  std::string version;             // of the program that solved it
+  PipelineState state;             // unspecified after a SolveRun has taken it
+  PipelineOptions solving;         // the options of the solve,
+  nlohmann::ordered_json options;  // the same in the format of OptionsUsed(), without `threads`
+  std::string version;             // of the program that wrote the file
 };
 
 struct LoadedScene {
   std::unique_ptr<const Scene> owner;
   const Scene& scene = *owner;
-  double seconds = 0;                              // that reading it took
+  double seconds = 0;                              // time for reading
   std::optional<StoredRun> stored = std::nullopt;  // of a solution file
-  // Of a solution of the same geometry, whose links another solve begins with: LoadToSolve().
+  // The solution of --restart, of the same geometry, whose links the solve will use: LoadToSolve().
   std::optional<StoredRun> restart = std::nullopt;
 };
 
-// Sets the number of threads and reads the scene, or the solution with its scene; warnings of scenes go to
-// standard error. Throws InputError, and UsageError if options of reading or solving come with a solution.
+// Sets the number of threads and reads the scene, or the solution with its scene. Prints warnings about the
+// scene on standard error. Throws InputError, and UsageError if options for reading or solving are given with
+// a solution.
 LoadedScene LoadScene(const SceneArguments& arguments);
-// The same without the warnings, and these: for who may yet refuse what was read, which is told alone.
+// LoadScene() without the warnings, and the warnings. For callers that may refuse the scene after reading it:
+// they then print only the error.
 LoadedScene LoadQuietly(const SceneArguments& arguments);
 void TellWarnings(const LoadedScene& loaded);
-// Reads a solution file. Throws InputError if it is none.
+// Reads a solution file. Throws InputError if it is not one.
 LoadedScene LoadSolution(const std::string& path);
 
 }  // namespace penumbra
