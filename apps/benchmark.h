@@ -16,7 +16,7 @@ struct BenchmarkSettings {
   Camera camera;
   int width = 0, height = 0;  // of a frame, for the output
   int frames = 0;
-  std::size_t triangles = 0;  // to be told
+  std::size_t triangles = 0;  // for the output
 };
 
 // Draws one frame that allocates memory, and then the measured frames along one orbit of the camera around

@@ -80,7 +80,7 @@ class Prober {
   bool parts_;
   RayCaster rays_;
   double reach_;     // [m]
-  Vec3 low_, high_;  // of the box around the scene [m]
+  Vec3 low_, high_;  // of the scene's bounding box [m]
 };
 
 // The measurements as CSV, one row each, with all digits. With `parts`, rows include direct light and

@@ -65,7 +65,7 @@ struct LoadedScene {
   std::unique_ptr<const Scene> owner;
   const Scene& scene = *owner;
   double seconds = 0;                              // time for reading
-  std::optional<StoredRun> stored = std::nullopt;  // of a solution file
+  std::optional<StoredRun> stored = std::nullopt;  // set for a solution file
   // The solution of --restart, of the same geometry, whose links the solve will use: LoadToSolve().
   std::optional<StoredRun> restart = std::nullopt;
 };

@@ -40,8 +40,8 @@ class Rasteriser : public Passes {
   Rasteriser& operator=(Rasteriser&&) noexcept;
 
   //  (1) Triangles that share an edge or lie on two sides of one leave no pixel between them.
-  //  (2) At equal depth to rounding one of the two wins, at exactly equal depth the lower index.
-  //  (3) The same ids for every number of threads.
+  //  (2) Of two triangles whose depths differ by rounding only, one wins; at equal depths the lower index
+  //  wins. (3) The ids do not depend on the number of threads.
   void DrawTriangleIds(const PixelRays& rays, int width, int height, std::span<std::uint32_t> ids) override;
   // For triangles larger than a pixel, the coordinates of the ray's intersection with the triangle to
   // kBarycentricError.
@@ -54,7 +54,7 @@ class Rasteriser : public Passes {
   // two functions, each thread for its own tile.
   void Prepare(const PixelRays& rays, int width, int height);
   void DrawTileIds(std::size_t index, Tile* tile) const;  // clears the tile first
-  void DrawRowBarycentrics(BlockRow* row) const;          // REQUIRES: FindRuns
+  void DrawRowBarycentrics(BlockRow* row) const;          // REQUIRES: FindRuns(row)
 
  private:
   struct Impl;

@@ -33,7 +33,7 @@ inline constexpr double kSnapDistance = 1e-13;
 
 struct ConstraintSegment {
   std::int32_t from = 0, to = 0;  // indices of points
-  std::int32_t tag = kNoTag;      // kBorder, or 0 or more
+  std::int32_t tag = kNoTag;      // kBorder, or a caller's tag >= 0
 };
 
 struct ConstrainedTriangulation {

@@ -22,7 +22,7 @@ std::vector<std::array<bool, 3>> SeenChannels(const Scene& scene);
 
 struct ScenePart {
   std::string name;
-  std::vector<PatchId> patches;  // ascending
+  std::vector<PatchId> patches;  // sorted
 };
 
 // The parts of a scene, sorted by their first patch; each patch belongs to one part. Parts are the objects of

@@ -12,7 +12,7 @@ namespace penumbra {
 // Projecting an edge through a point has an error of about 1e3 roundings of the patch's coordinates for
 // discontinuities of relevant weight. The snap distance is several decimal digits larger, and far smaller
 // than a picture or an interpolant resolves.
-inline constexpr double kSnap = 1e-9;             // of the patch's diameter
+inline constexpr double kSnap = 1e-9;             // relative to the patch's diameter
 inline constexpr double kSnapCoordinate = 1e-12;  // relative to the patch's largest coordinate: 4e3 roundings
 double SnapDistance(const Patch& patch);
 
