@@ -40,8 +40,8 @@ class Rasteriser : public Passes {
   Rasteriser& operator=(Rasteriser&&) noexcept;
 
   //  (1) Triangles that share an edge or lie on two sides of one leave no pixel between them.
-  //  (2) Of two triangles whose depths differ by rounding only, one wins; at equal depths the lower index
-  //  wins. (3) The ids do not depend on the number of threads.
+  //  (2) Of two triangles whose depths differ by rounding only, one wins; at equal depths the lower index.
+  //  (3) The ids do not depend on the number of threads.
   void DrawTriangleIds(const PixelRays& rays, int width, int height, std::span<std::uint32_t> ids) override;
   // For triangles larger than a pixel, the coordinates of the ray's intersection with the triangle to
   // kBarycentricError.
