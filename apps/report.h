@@ -17,7 +17,7 @@ struct RunReport {
   PipelineReport pipeline;
 };
 
-// The report as JSON text. Memory, threads and version are those of this process.
+// The report as JSON text. Memory, threads and version are those of the running program.
 std::string ReportJson(const RunReport& report);
 
 // The part of the report that is the same in every run: no times, threads or memory, and no options.

@@ -17,7 +17,7 @@ namespace penumbra {
 nlohmann::ordered_json StoredOptions(const nlohmann::ordered_json& stored, const SceneArguments& arguments,
                                      const ResolvedOptions& resolved);
 
-// The bytes of a solution file. They do not depend on the number of threads. REQUIRES: the pipeline is
+// The bytes of a solution file, which do not depend on the number of threads. REQUIRES: the pipeline is
 // solved, has interpolants, and is measured.
 std::string SolutionFileOf(const Pipeline& pipeline, const nlohmann::ordered_json& options);
 

@@ -1,7 +1,7 @@
 // display/vector_kernels.h
 //
-// The inner loops of the display over a tile of the picture. They are compiled for several instruction sets,
-// and the program selects the best at run time. All vector widths perform the same IEEE operations on each
+// The inner loops of the display over a tile of the picture, compiled for several instruction sets. The
+// program selects the best set at run time. All vector widths perform the same IEEE operations on each
 // element and give the same bytes.
 //
 // The values of a tile are stored in blocks of 4 x 4 pixels. A block fits one vector, and most blocks show a
@@ -53,8 +53,8 @@ struct TileTriangle {
 
 // A triangle also covers pixels whose centres lie outside of it by less than this distance [pixels]; these
 // are drawn slightly deeper. The fringe closes gaps that rounding causes, at T-vertices between patches and
-// at vertices that lie exactly in the centre of a pixel. It is far larger than the rounding of the edge
-// functions in a tile (below 2^-16), and far too small to be visible.
+// at vertices that lie exactly in the centre of a pixel. The width of the fringe is far larger than the
+// rounding of the edge functions in a tile (below 2^-16), and far too small to be visible.
 inline constexpr float kFringe = 0x1p-10f;
 
 // The light of a triangle, for red, green and blue.

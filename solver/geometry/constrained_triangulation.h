@@ -27,8 +27,8 @@ inline constexpr std::int32_t kNoTag = -1;
 // The border of the region: closed loops that run around the inside in a constant sense.
 inline constexpr std::int32_t kBorder = -2;
 
-// Relative to the larger side of the bounding box of the points: far above the rounding of a crossing
-// (1e-16), far below any length that matters.
+// The snap distance divided by the larger side of the points' bounding box: far above the rounding of a
+// crossing (1e-16), far below any length that matters.
 inline constexpr double kSnapDistance = 1e-13;
 
 struct ConstraintSegment {
@@ -84,11 +84,11 @@ class ConstrainedTriangulator {
   ConstrainedTriangulator(ConstrainedTriangulator&&) noexcept;
   ConstrainedTriangulator& operator=(ConstrainedTriangulator&&) noexcept;
 
-  // The triangulation, which stays valid until the next call. It has no triangles if all points lie on a
-  // line. The order of points and constraints decides between the two diagonals of four points on a circle,
-  // so the result is a function of the input. Null if crossings lie so close together, relative to the
-  // rounding of their coordinates, that no planar mesh was found. REQUIRES: finite coordinates, indices in
-  // range.
+  // The triangulation, which stays valid until the next call. If all points lie on a line there are no
+  // triangles. The order of points and constraints decides between the two diagonals of four points on a
+  // circle, so the result is a function of the input. Null if crossings lie so close together, relative to
+  // the rounding of their coordinates, that no planar mesh was found. REQUIRES: finite coordinates, indices
+  // in range.
   const ConstrainedTriangulation* TryTriangulate(std::span<const Vec2> points,
                                                  std::span<const ConstraintSegment> constraints);
   // As TryTriangulate(), but never null. REQUIRES: a planar mesh is found, which is certain if the distances

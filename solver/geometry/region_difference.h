@@ -19,8 +19,8 @@
 
 namespace penumbra {
 
-// The distance within which two corners or edges count as one. Along a coordinate axis it is the rounding of
-// this coordinate in the file (`step`); in any direction it is at least `base`.
+// The distance within which two corners or edges count as one. The distance along a coordinate axis is the
+// rounding of this coordinate in the file (`step`). The distance in any direction is at least `base`.
 struct SnapReach {
   double base = 0;
   Vec2 step = Vec2::Zero();  // along each coordinate axis

@@ -33,9 +33,10 @@ class ContactSearch {
   // As the function FindContacts().
   std::vector<Contact> Find(PatchId receiver) const;
 
-  // The feet of other patches on the front of the receiver: the contacts of patches that rise from the
-  // receiver, and the projections onto the receiver of edges at a height of at most kHanging times their
-  // length, of patches that rise from there. Patches that lie flat on the receiver are omitted.
+  // The feet of other patches on the front of the receiver. A patch that rises from the receiver has its
+  // contact as a foot. A patch that rises from an edge at a height of at most kHanging times the edge's
+  // length has the projection of this edge onto the receiver as a foot. Patches that lie flat on the receiver
+  // have no foot.
   std::vector<Contact> FindWalls(PatchId receiver) const;
 
  private:

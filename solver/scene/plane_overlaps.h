@@ -15,9 +15,9 @@
 
 namespace penumbra {
 
-// Distance within which planes or edges are the same, relative to the larger diameter. It exceeds the effect
-// of rounding coordinates to binary64 (1e-16, and 1e-12 for a small face far from the origin), and is smaller
-// than any intended distance.
+// Distance within which planes or edges are the same, relative to the larger diameter. This number exceeds
+// the effect of rounding coordinates to binary64 (1e-16, and 1e-12 for a small face far from the origin), and
+// is smaller than any intended distance.
 inline constexpr double kCoplanarTolerance = 1e-9;
 
 // Largest distance within which planes are the same, relative to the scene's diagonal, for any number of

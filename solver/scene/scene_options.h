@@ -17,8 +17,8 @@ struct SceneOptions {
   bool two_sided = false;  // repeat every face, reversed, after the last: face n + i is the back of face i
   std::optional<double> max_reflectance =
       std::nullopt;  // in [0, 1): larger reflectances are clamped instead of refused
-  // May change the materials that were read. It is called before patches are built, because emittance decides
-  // which of two overlapping faces is visible.
+  // A function that may change the materials that were read. The reader calls it before patches are built,
+  // because emittance decides which of two overlapping faces is visible.
   std::function<void(std::vector<Material>&)> change_materials = nullptr;
   bool strict = false;  // refuse what is otherwise repaired with a warning
   bool flip = false;    // reverse the vertices of every face
