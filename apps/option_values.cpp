@@ -102,17 +102,6 @@ template CLI::Option* AddInteger(CLI::App&, const std::string&, int*, int, int, 
 template CLI::Option* AddInteger(CLI::App&, const std::string&, std::uint64_t*, std::uint64_t, std::uint64_t,
                                  const std::string&);
 
-CLI::Option* AddChoice(CLI::App& app, const std::string& name, std::string* target,
-                       const std::vector<std::string>& names, const std::string& help) {
-  const std::string list = fmt::format("{}", fmt::join(names, "|"));
-  const auto read = [=](const std::string& text) {
-    if (std::find(names.begin(), names.end(), text) == names.end())
-      throw CLI::ValidationError(name, fmt::format("'{}' is not one of {}", text, list));
-    *target = text;
-  };
-  return app.add_option_function<std::string>(name, read, help)->type_name(list)->default_str(*target);
-}
-
 CLI::Option* AddVector(CLI::App& app, const std::string& name, std::optional<Vec3>* target,
                        const VectorRule& rule, const std::string& help) {
   const auto read = [=](const std::string& text) {

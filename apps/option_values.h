@@ -82,10 +82,6 @@ CLI::Option* AddChoice(CLI::App& app, const std::string& name, Value* target,
       ->default_str(ChoiceName(choices, *target));
 }
 
-// The same, one of the names.
-CLI::Option* AddChoice(CLI::App& app, const std::string& name, std::string* target,
-                       const std::vector<std::string>& names, const std::string& help);
-
 struct VectorRule {
   bool (*holds)(const Vec3&);
   const char* words;

@@ -10,8 +10,8 @@
 #include "apps/option_values.h"
 #include "apps/output.h"
 #include "display/image_writers.h"
-#include "solver/base/file_endings.h"
 #include "mesh/pipeline/option_table.h"
+#include "solver/base/file_endings.h"
 
 namespace penumbra {
 namespace {

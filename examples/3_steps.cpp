@@ -61,6 +61,7 @@ int main(int argc, char** argv) try {
 
   // 4. Build the mesh: find the lines where shadows begin and end, triangulate, and fit the interpolants.
   //    They refine the light once more, until the error that was asked for is met.
+  pipeline.RefineLight(context);
   pipeline.BuildMesh(MeshKind::kInterpolant, context);
   PrintRow(pipeline, "build mesh");
   const PipelineReport::Counts& counts = pipeline.report().counts;

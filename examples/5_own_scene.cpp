@@ -90,6 +90,7 @@ int main(int argc, char** argv) try {
   options.error = 0.1;
   Pipeline pipeline(scene, options);
   pipeline.Solve(context);
+  pipeline.RefineLight(context);
   pipeline.BuildMesh(MeshKind::kInterpolant, context);
   pipeline.Diagnose(context);
   const EnergyBalance& energy = pipeline.report().energy;

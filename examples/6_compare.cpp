@@ -94,6 +94,7 @@ int main(int argc, char** argv) try {
   // 6. Show the solution in both ways.
   pipeline.BuildMesh(MeshKind::kGouraud, context);
   const std::vector<double> linear = Shown(pipeline);
+  pipeline.RefineLight(context);
   pipeline.BuildMesh(MeshKind::kInterpolant, context);
   const std::vector<double> quadratic = Shown(pipeline), exact = Exact(pipeline);
 

@@ -84,14 +84,6 @@ Setting& Settings::AddChoice(const std::string& name, const std::string& group, 
   return Add(std::move(setting));
 }
 
-Setting& Settings::NameChoice(const std::string& name, const std::string& group, const std::string& help,
-                              std::string* value, const std::vector<std::string>& names) {
-  const auto place = [value, names] {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), *value) - names.begin());
-  };
-  return AddChoice(name, group, help, names, place, [value, names](std::size_t i) { *value = names[i]; });
-}
-
 Setting& Settings::Vector(const std::string& name, const std::string& group, const std::string& help,
                           std::function<Vec3()> get, std::function<void(const Vec3&)> set) {
   Setting setting{name, group, help, SettingKind::kText, 0, 1, false, false, {}, {}, {}};

@@ -26,7 +26,8 @@ constexpr NumberRange kCutoff{1e-15, 1};
 constexpr NumberRange kPolyline{1e-9, 1e9, true};
 constexpr NumberRange kSeconds{1e-9, 1e9}, kBytes{1, 1e18};
 constexpr std::uint64_t kMostErrorSamples = 100, kMostErrorPoints = 100'000'000, kMostLines = 1'000'000,
-                        kMostDivisions = 64, kMostIterations = 1'000'000, kMostCorrections = 100, kMostBounces = 1000;
+                        kMostDivisions = 64, kMostIterations = 1'000'000, kMostCorrections = 100,
+                        kMostBounces = 1000;
 
 NamedValues<DiscontinuityWeight> WeightsOfDiscontinuities() {
   return {{"thesis", DiscontinuityWeight::kThesis}, {"irradiance", DiscontinuityWeight::kIrradiance}};
@@ -336,7 +337,8 @@ void AddSolvers(Table& table) {
                "directly with exact form factors: a reference for small scenes",
        .label = "Solver"});
   table.push_back({.name = "basis",
-                   .field = ChoiceField([](auto& options) -> auto& { return options.dense.degree; }, Bases()),
+                   .field = ChoiceField(
+                       [](auto& options) -> auto& { return options.dense.degree; }, Bases()),
                    .group = OptionGroup::kDense,
                    .links_depend = true,
                    .help = "Of the dense solver's elements: `constant` (Galerkin), `linear` or `quadratic` "
@@ -361,9 +363,8 @@ void AddSolvers(Table& table) {
 void TellOwners(Table& table) {
   for (const LightSolverRegistry::Method& solver : LightSolvers().methods())
     for (const std::string& parameter : solver.parameters) {
-      const auto option = std::find_if(table.begin(), table.end(), [&](const SolveOption& entry) {
-        return entry.name == parameter;
-      });
+      const auto option = std::find_if(table.begin(), table.end(),
+                                       [&](const SolveOption& entry) { return entry.name == parameter; });
       PENUMBRA_CHECK(option != table.end() && option->solver.empty());
       option->solver = solver.name;
     }

@@ -179,6 +179,7 @@ TEST(Refinement, ReachesTheErrorAskedFor) {
   for (const double error : {0.1, 0.03}) {
     Pipeline pipeline(scene, Options(error));
     pipeline.Solve({});
+    pipeline.RefineLight({});
     pipeline.BuildMesh(MeshKind::kInterpolant, {});
     pipeline.Measure({});
     const PipelineReport& report = pipeline.report();
@@ -197,6 +198,7 @@ TEST(Refinement, SourcesSeenAsOneCostLittle) {
   const Scene scene = Room();
   Pipeline pipeline(scene, Options(0.05));
   pipeline.Solve({});
+  pipeline.RefineLight({});
   pipeline.BuildMesh(MeshKind::kInterpolant, {});
   ASSERT_FALSE(pipeline.solution().fragments.empty());
   constexpr std::size_t kPoints = 1000;
@@ -240,6 +242,7 @@ TEST(Refinement, SourcesSeenAsOneCostLittleInTheDark) {
   const Scene scene = Hut();
   Pipeline pipeline(scene, Options(0.05));
   pipeline.Solve({});
+  pipeline.RefineLight({});
   pipeline.BuildMesh(MeshKind::kInterpolant, {});
   constexpr double kTolerances[] = {0.005, 0.01};  // of errors of 0.025 and 0.05
   std::vector<Rgb> near[2], exact;
@@ -280,6 +283,7 @@ TEST(Refinement, SettlesTheLightInASlot) {
   constexpr double kError = 0.05;
   Pipeline pipeline(scene, Options(kError));
   pipeline.Solve({});
+  pipeline.RefineLight({});
   pipeline.BuildMesh(MeshKind::kInterpolant, {});
   pipeline.Measure({});
   const PipelineReport& report = pipeline.report();
@@ -291,6 +295,7 @@ TEST(Refinement, SettlesTheLightInASlot) {
   constexpr double kFineError = 0.02;
   Pipeline fine(scene, Options(kFineError));
   fine.Solve({});
+  fine.RefineLight({});
   fine.BuildMesh(MeshKind::kInterpolant, {});
   std::vector<Rgb> shown, better;
   for (const SurfacePoint& p : SpreadPoints(scene, 1000, 5)) {
@@ -316,6 +321,7 @@ TEST(Refinement, ReachesTheErrorThatCentroidsOverlook) {
   options.error_points = 4000;
   Pipeline pipeline(scene, options);
   pipeline.Solve({});
+  pipeline.RefineLight({});
   pipeline.BuildMesh(MeshKind::kInterpolant, {});
   pipeline.Measure({});
   const PipelineReport& report = pipeline.report();
@@ -480,6 +486,7 @@ TEST(Refinement, SameOnAnyNumberOfThreads) {
     SetThreadCount(threads);
     Pipeline pipeline(scene, Options(0.1));
     pipeline.Solve({});
+    pipeline.RefineLight({});
     pipeline.BuildMesh(MeshKind::kInterpolant, {});
     const std::vector<QuadraticInterpolant>& got = pipeline.mesh().irradiance;
     if (threads == 1) {

@@ -45,6 +45,7 @@ std::unique_ptr<SolvedFile> Solve(Scene scene) {
   solved->scene = std::move(scene);
   solved->pipeline = std::make_unique<Pipeline>(solved->scene, Rough());
   solved->pipeline->Solve({});
+  solved->pipeline->RefineLight({});
   solved->pipeline->BuildMesh(MeshKind::kInterpolant, {});
   return solved;
 }
@@ -124,12 +125,14 @@ TEST(SolutionFile, ComesBackToTheBit) {
   Pipeline pipeline(*scene, Rough(), std::move(stored.state));
   EXPECT_EQ(Encode(pipeline), bytes);
 
+  pipeline.RefineLight({});
   pipeline.BuildMesh(MeshKind::kInterpolant, {});
   EXPECT_TRUE(SameMesh(pipeline.mesh(), before.pipeline->mesh()));
   pipeline.BuildMesh(MeshKind::kGouraudMesh, {});
   Pipeline anew(before.scene, Rough());
   anew.Solve({});
-  anew.BuildMesh(MeshKind::kInterpolant, {});  // refines the sources
+  anew.RefineLight({});
+  anew.BuildMesh(MeshKind::kInterpolant, {});
   anew.BuildMesh(MeshKind::kGouraudMesh, {});
   EXPECT_TRUE(SameMesh(pipeline.mesh(), anew.mesh()));
   EXPECT_FALSE(SameMesh(pipeline.mesh(), before.pipeline->mesh()));

@@ -20,6 +20,7 @@ namespace {
 struct Solved {
   Solved() : scene(viewer_test::ShadowScene()), pipeline(*scene, viewer_test::Options(false).solving) {
     pipeline.Solve(ExecutionContext());
+    pipeline.RefineLight(ExecutionContext());
     pipeline.BuildMesh(MeshKind::kInterpolant, ExecutionContext());
     light = std::make_shared<const LightState>(scene,
                                                std::make_shared<const PatchVisibility>(pipeline.visibility()),

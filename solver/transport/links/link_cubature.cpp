@@ -50,7 +50,8 @@ class ListedFactors {
     // What the sums lose is nothing beside what the rule does.
     sums_.Find(polygons_, 0, count, at.position, at.normal);
     for (std::size_t i = 0; i < count; ++i)
-      std::fill(results_[i].to.begin(), results_[i].to.end(), results_[i].weight * std::max(0.0, sums_.Factor(i)));
+      std::fill(results_[i].to.begin(), results_[i].to.end(),
+                results_[i].weight * std::max(0.0, sums_.Factor(i)));
   }
 
  private:
