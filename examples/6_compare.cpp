@@ -91,10 +91,10 @@ int main(int argc, char** argv) try {
   Pipeline pipeline(scene, options);
   pipeline.Solve(context);
 
-  // 6. Show the solution in both ways.
+  // 6. Refine the light, and show the solution in both ways.
+  pipeline.RefineLight(context);
   pipeline.BuildMesh(MeshKind::kGouraud, context);
   const std::vector<double> linear = Shown(pipeline);
-  pipeline.RefineLight(context);
   pipeline.BuildMesh(MeshKind::kInterpolant, context);
   const std::vector<double> quadratic = Shown(pipeline), exact = Exact(pipeline);
 
