@@ -40,7 +40,7 @@ void RefuseSolve(const ExportArguments& arguments) {
 
 // Options that the format has no use for.
 void RefuseIdle(const ExportArguments& arguments) {
-  const std::string format = "." + EndingOf(arguments.output);
+  const std::string format = fmt::format(".{}", EndingOf(arguments.output));
   if (arguments.exposure && !ExportsColours(arguments.output))
     throw UsageError(fmt::format("--exposure is of the colours in {}, and {} has none; leave it out",
                                  EndingsWithColours(), format));

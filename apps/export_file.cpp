@@ -31,8 +31,8 @@ template <class Writers>
 std::string EndingsWith(const Writers& writers, const auto& has) {
   std::vector<std::string> endings;
   for (const auto& format : writers.methods())
-    if (has(*format.make())) endings.push_back("." + format.name);
-  return NameList(endings);
+    if (has(*format.make())) endings.push_back(format.name);
+  return NameList(Dotted(endings));
 }
 
 // A line for each format of a kind.
@@ -40,7 +40,7 @@ std::string Formats(const auto& writers) {
   constexpr int kColumn = 6;
   std::string lines;
   for (const auto& format : writers.methods())
-    lines += fmt::format("\n  {:<{}} {}", "." + format.name, kColumn, format.help);
+    lines += fmt::format("\n  {:<{}} {}", fmt::format(".{}", format.name), kColumn, format.help);
   return lines;
 }
 

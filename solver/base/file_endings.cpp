@@ -1,5 +1,7 @@
 #include "solver/base/file_endings.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 namespace penumbra {
@@ -10,16 +12,14 @@ std::string EndingOf(const std::string& path) {
 }
 
 std::string EndingError(const std::string& path, const std::vector<std::string>& endings) {
-  const std::string file = "'" + path + "' ";
-  if (endings.size() == 1) return file + "does not end in ." + endings[0];
-  if (endings.size() == 2) return file + "ends neither in ." + endings[0] + " nor in ." + endings[1];
-  std::string list;
-  for (const std::string& ending : endings) list += (list.empty() ? "." : ", .") + ending;
-  return file + "ends in none of " + list;
+  const std::vector<std::string> all = Dotted(endings);
+  if (all.size() == 1) return fmt::format("'{}' does not end in {}", path, all[0]);
+  if (all.size() == 2) return fmt::format("'{}' ends neither in {} nor in {}", path, all[0], all[1]);
+  return fmt::format("'{}' ends in none of {}", path, fmt::join(all, ", "));
 }
 
 std::vector<std::string> Dotted(std::vector<std::string> endings) {
-  for (std::string& ending : endings) ending.insert(0, ".");
+  for (std::string& ending : endings) ending = fmt::format(".{}", ending);
   return endings;
 }
 

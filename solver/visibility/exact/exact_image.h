@@ -66,9 +66,27 @@ struct ImageBox {
   }
 };
 
-// What an edge belongs to, if not to the occluder with that number.
-inline constexpr std::int32_t kSourceOutline = -1;
-inline constexpr std::int32_t kDiagonal = -2;  // between two parts of one occluder
+// What an edge belongs to.
+class EdgeOwner {
+ public:
+  // The outline of the source.
+  static constexpr EdgeOwner Source() { return EdgeOwner(kSource); }
+  // No outline: the edge is the border between two parts of one occluder.
+  static constexpr EdgeOwner Diagonal() { return EdgeOwner(kDiagonal); }
+  // The outline of an occluder, by its place in the list of occluders.
+  static constexpr EdgeOwner Occluder(std::int32_t occluder) { return EdgeOwner(occluder); }
+
+  constexpr bool IsOccluder() const { return code_ >= 0; }
+  // REQUIRES: the owner is an occluder.
+  constexpr std::int32_t OccluderNumber() const { return code_; }
+  constexpr bool operator==(const EdgeOwner&) const = default;
+
+ private:
+  static constexpr std::int32_t kSource = -1, kDiagonal = -2;
+  constexpr explicit EdgeOwner(std::int32_t code) : code_(code) {}
+
+  std::int32_t code_;
+};
 
 template <class Kernel>
 class ExactImage {
@@ -85,10 +103,10 @@ class ExactImage {
 
   // An edge of the source's or of an occluder's outline.
   struct Edge {
-    Line line;                              // what the outline bounds lies on its positive side
-    std::int32_t outline = kSourceOutline;  // or kDiagonal or the occluder's number
-    bool seen = false;                      // a part of it lies in the source
-    std::size_t from = 0, to = 0;           // that part, as points of this image
+    Line line;  // what the outline bounds lies on its positive side
+    EdgeOwner owner = EdgeOwner::Source();
+    bool seen = false;             // a part of it lies in the source
+    std::size_t from = 0, to = 0;  // that part, as points of this image
   };
 
   // A convex region bounded by the lines of edges[first ... last - 1].
@@ -396,7 +414,7 @@ void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const Homogeneous &a = outline[k], &b = outline[k + 1 == outline.size() ? 0 : k + 1];
     Edge edge;
-    edge.outline = a.diagonal ? kDiagonal : number;
+    edge.owner = a.diagonal ? EdgeOwner::Diagonal() : EdgeOwner::Occluder(number);
     edge.line = LineThrough(a, b);
     if (!edge.line.is_degenerate()) {
       edges_.push_back(edge);
