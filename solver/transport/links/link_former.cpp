@@ -21,10 +21,11 @@ void AddLink(const LinkCandidate& candidate, ReceiverLinks* links) {
   link.receiver = links->receiver;
   link.source = candidate.source;
   link.first_blocker = static_cast<std::uint32_t>(links->set.blockers.size());
+  TubeBlockers blockers;
+  if (!FindTubeBlockers(scene, *ends, receiver.patch, source.patch, candidate.blockers, blockers)) return;
   LinkView view;
-  if (!FindTubeBlockers(scene, *ends, receiver.patch, source.patch, candidate.blockers, links->set.blockers,
-                        view.blockers))
-    return;
+  view.blockers = std::move(blockers.first);
+  links->set.blockers.insert(links->set.blockers.end(), blockers.all.begin(), blockers.all.end());
   link.blocker_count = static_cast<std::uint32_t>(links->set.blockers.size()) - link.first_blocker;
   link.visibility = link.blocker_count > 0 ? Visibility::kPartial : Visibility::kVisible;
   if (ends->receiver_clipped) {
