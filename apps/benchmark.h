@@ -9,18 +9,19 @@
 
 namespace penumbra {
 
-// Draws and tone-maps a frame; returns what its parts took.
+// Draws and tone-maps a frame; returns the times of its steps.
 using DrawFrame = std::function<FrameTimes(const Camera&)>;
 
 struct BenchmarkSettings {
   Camera camera;
-  int width = 0, height = 0;  // of what `draw` draws, to be told
+  int width = 0, height = 0;  // of a frame, for the output
   int frames = 0;
-  std::size_t triangles = 0;  // to be told
+  std::size_t triangles = 0;  // for the output
 };
 
-// Draws the frames along one turn of the camera about the point that it looks at, after one more that takes
-// the memory. Returns the measured times as a line of JSON: `fps` over wall clock, `ms` the means a frame.
+// Draws one frame that allocates memory, and then the measured frames along one orbit of the camera around
+// the point that it looks at. Returns a line of JSON: `fps` from wall-clock time, and `ms`, the mean times of
+// the steps per frame.
 std::string RunBenchmark(const BenchmarkSettings& settings, const DrawFrame& draw);
 
 }  // namespace penumbra

@@ -11,17 +11,18 @@
 
 namespace penumbra {
 
-// Where the command line puts the camera.
+// The camera options of the command line.
 struct CameraArguments {
-  std::optional<std::string> camera;  // the name or the index of one of the scene's
+  std::optional<std::string> camera;  // name or index of one of the scene's cameras
   std::optional<Vec3> eye, look_at, up;
   std::optional<double> vertical_fov;  // degrees
 };
 
 void AddCameraOptions(CLI::App& app, CameraArguments* arguments);
 
-// The scene's camera that was asked for, else its first, else one that frames the scene, with what the
-// command line says instead of its own. Throws UsageError if there is none of that name or it cannot see.
+// The requested camera of the scene, otherwise its first camera, otherwise a camera that frames the scene;
+// values from the command line replace those of the camera. Throws UsageError if there is no camera with the
+// requested name, or if the result is invalid (ValidateCamera).
 Camera ChooseCamera(const Scene& scene, const CameraArguments& arguments);
 
 }  // namespace penumbra

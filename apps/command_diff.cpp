@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,12 +12,15 @@
 #include "apps/commands.h"
 #include "apps/interruptible.h"
 #include "apps/option_values.h"
+#include "apps/options_used.h"
 #include "apps/output.h"
 #include "apps/scene_arguments.h"
+#include "display/exr_image.h"
 #include "display/false_colour.h"
 #include "display/image_difference.h"
-#include "display/image_io.h"
+#include "display/image_writers.h"
 #include "solver/base/check.h"
+#include "solver/base/file_endings.h"
 #include "solver/base/parallel.h"
 
 namespace penumbra {
@@ -100,7 +102,7 @@ void Diff(const DiffArguments& arguments) {
     visible = FindVisibleDifference(reference, test, arguments.pixels_per_degree, context);
   });
   if (arguments.output)
-    WritePng(*arguments.output, FalseColours(visible.map, reference.width, reference.height));
+    WriteImageFile(*arguments.output, FalseColours(visible.map, reference.width, reference.height));
   WriteResult(std::nullopt,
               arguments.as_json ? DiffJson(reference, errors, visible) : DiffTable(errors, visible));
 }
@@ -118,12 +120,12 @@ Command AddDiffCommand(CLI::App& program) {
   app->add_option_function<std::string>(
          "-o,--output",
          [arguments](const std::string& path) {
-           if (std::filesystem::path(path).extension() != ".png")
-             throw CLI::ValidationError("-o", fmt::format("'{}' does not end in .png", path));
+           if (!IsScreenImage(path))
+             throw CLI::ValidationError("-o", EndingError(path, ScreenImageEndings()));
            arguments->output = path;
          },
          "A map of the visible difference in false colours: black none, white all")
-      ->type_name("MAP.png");
+      ->type_name(fmt::format("MAP{}", fmt::join(Dotted(ScreenImageEndings()), "|")));
   AddNumber(*app, "--pixels-per-degree", &arguments->pixels_per_degree,
             NumberRule{[](double x) { return x >= 1 && x <= 1000; }, "a number from 1 to 1000"},
             "How far away the screen is: pixels in a degree of the view");

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,10 +11,13 @@
 #include "apps/commands.h"
 #include "apps/export_file.h"
 #include "apps/option_values.h"
+#include "apps/options_used.h"
 #include "apps/output.h"
 #include "apps/restart.h"
 #include "apps/scene_arguments.h"
+#include "apps/solve_options.h"
 #include "apps/solve_run.h"
+#include "solver/base/file_endings.h"
 
 namespace penumbra {
 namespace {
@@ -38,14 +40,15 @@ void RefuseSolve(const ExportArguments& arguments) {
 
 // Options that the format has no use for.
 void RefuseIdle(const ExportArguments& arguments) {
-  const std::string format = std::filesystem::path(arguments.output).extension().string();
-  if (arguments.exposure && format != ".ply" && format != ".glb")
-    throw UsageError(
-        fmt::format("--exposure is of the colours in .ply and .glb, and {} has none; leave it out", format));
+  const std::string format = fmt::format(".{}", EndingOf(arguments.output));
+  if (arguments.exposure && !ExportsColours(arguments.output))
+    throw UsageError(fmt::format("--exposure is of the colours in {}, and {} has none; leave it out",
+                                 EndingsWithColours(), format));
   const CameraArguments& camera = arguments.camera;
-  if (format != ".pbrt" &&
+  if (!ExportsCamera(arguments.output) &&
       (camera.camera || camera.eye || camera.look_at || camera.up || camera.vertical_fov))
-    throw UsageError(fmt::format("a camera is of .pbrt, and {} has none; leave its options out", format));
+    throw UsageError(fmt::format("a camera is of {}, and {} has none; leave its options out",
+                                 EndingsWithCamera(), format));
 }
 
 void Export(ExportArguments arguments) {
@@ -53,8 +56,8 @@ void Export(ExportArguments arguments) {
   if (!ExportsMesh(arguments.output)) RefuseSolve(arguments);
   arguments.scene.outputs.Add("-o", arguments.output);
   arguments.scene.outputs.Add("--report", arguments.scene.report);
-  if (const std::optional<std::string> library = LibraryBeside(arguments.output))
-    arguments.scene.outputs.Add("the library of -o", *library);
+  for (const std::string& library : FilesBeside(arguments.output))
+    arguments.scene.outputs.Add("the library of -o", library);
   LoadedScene loaded = LoadToSolve(arguments.scene);
   if (!ExportsMesh(arguments.output)) {
     if (arguments.scene.verbose) PrintOptionsUsed(OptionsUsed(arguments.scene, nullptr));
@@ -85,21 +88,13 @@ Command AddExportCommand(CLI::App& program) {
       ->required()
       ->type_name("FILE");
   AddNumber(*app, "--exposure", &arguments->exposure, kPositive,
-            "Brightness of the colours in .ply and .glb, 0 to 1, per W/m^2 (default: metered from the mesh)");
+            fmt::format("Brightness of the colours in {}, 0 to 1, per W/m^2 (default: metered from the mesh)",
+                        EndingsWithColours()));
   AddCameraOptions(*app, &arguments->camera);
   AddSolveOptions(*app, &arguments->scene);
   AddRestartOption(*app, &arguments->scene);
   AddReportOption(*app, &arguments->scene);
-  app->footer(
-      "With the light, which is solved for first:\n"
-      "  .vtu   VTK, ParaView: quadratic triangles, the interpolants themselves; irradiance, radiosity, "
-      "patch\n"
-      "  .ply   binary: vertices with irradiance, radiosity [W/m^2] and colours; four triangles for each\n"
-      "  .glb   glTF 2.0: the same triangles, unlit, y up; _IRRADIANCE and _RADIOSITY as attributes\n"
-      "The scene alone, nothing is solved:\n"
-      "  .obj   with an .mtl beside it; read again it is the same scene\n"
-      "  .pbrt  pbrt 4, with the camera; area lights of radiance emittance/pi\n"
-      "  .mgf   Materials and Geometry Format, for RenderPark; one-sided polygons");
+  app->footer(ExportFormats());
   return {app, [arguments] { Export(*arguments); }};
 }
 

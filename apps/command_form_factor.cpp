@@ -11,7 +11,9 @@
 
 #include "apps/commands.h"
 #include "apps/interruptible.h"
+#include "apps/load_scene.h"
 #include "apps/option_values.h"
+#include "apps/options_used.h"
 #include "apps/output.h"
 #include "apps/scene_arguments.h"
 #include "solver/base/check.h"

@@ -8,10 +8,12 @@
 #include <string>
 
 #include "apps/commands.h"
+#include "apps/options_used.h"
 #include "apps/output.h"
 #include "apps/report.h"
 #include "apps/restart.h"
 #include "apps/scene_arguments.h"
+#include "apps/solve_options.h"
 #include "apps/solve_run.h"
 #include "mesh/pipeline/solution_file.h"
 #include "solver/scene/plane_overlaps.h"

@@ -15,9 +15,10 @@
 #include "apps/output.h"
 #include "apps/render_arguments.h"
 #include "apps/restart.h"
+#include "apps/solve_options.h"
 #include "apps/solve_run.h"
 #include "display/false_colour.h"
-#include "display/image_io.h"
+#include "display/image_writers.h"
 #include "display/ray_display.h"
 #include "display/split_view.h"
 #include "solver/base/check.h"
@@ -37,11 +38,18 @@ ToneMapping ToneFor(const RenderArguments& arguments, const RgbImage& linear,
   return tone;
 }
 
+// A picture with several samples a pixel.
+struct PictureSamples {
+  const RgbImage& linear;            // of all samples
+  std::span<const PixelKind> kinds;  // the same
+  int across = 1, down = 1;          // samples a pixel
+};
+
 // The means of each pixel's samples in false colours, with their scale; what it shows is what its first
 // sample is.
-void PaintFalseColoursOf(const RenderArguments& arguments, const RgbImage& linear,
-                         std::span<const PixelKind> kinds, int across, int down, const ToneMapping& tone,
-                         Srgb8Image* screen) {
+void PaintFalseColoursOf(const RenderArguments& arguments, const PictureSamples& picture,
+                         const ToneMapping& tone, Srgb8Image* screen) {
+  const auto& [linear, kinds, across, down] = picture;
   const RgbImage means = Downsample(linear, across, down);
   std::vector<PixelKind> first(means.PixelCount());
   for (int y = 0; y < means.height; ++y)
@@ -56,7 +64,7 @@ void PaintFalseColoursOf(const RenderArguments& arguments, const RgbImage& linea
 // colours; for a PNG each is exposed by itself, so that the edges of lights are smooth.
 void WriteImage(const RenderArguments& arguments, const RgbImage& linear, std::span<const PixelKind> kinds,
                 int across, int down, const ToneMapping& tone) {
-  if (IsExr(*arguments.output)) {
+  if (IsLinearImage(*arguments.output)) {
     const RgbImage means = Downsample(linear, across, down);
     for (const auto& plane : means.channel)
       if (!std::all_of(plane.begin(), plane.end(), [](float value) { return std::isfinite(value); }))
@@ -64,16 +72,16 @@ void WriteImage(const RenderArguments& arguments, const RgbImage& linear, std::s
             fmt::format("{}: error: a pixel is no number that 32 bits hold, up to 3.4e38; give the "
                         "scene less light",
                         *arguments.output));
-    WriteExr(*arguments.output, means);
+    WriteImageFile(*arguments.output, means);
     return;
   }
   Srgb8Image screen;
   if (arguments.false_colour) {
-    PaintFalseColoursOf(arguments, linear, kinds, across, down, tone, &screen);
+    PaintFalseColoursOf(arguments, {linear, kinds, across, down}, tone, &screen);
   } else {
     EncodeSrgb(Expose(linear, kinds, tone.exposure, across, down), tone.dither, &screen);
   }
-  WritePng(*arguments.output, screen);
+  WriteImageFile(*arguments.output, screen);
 }
 
 BenchmarkSettings BenchmarkOf(const RenderArguments& arguments, const Camera& camera,
@@ -96,11 +104,12 @@ void WriteSplit(const RenderArguments& arguments, const Camera& camera, const Ir
   const RenderedFrame& frame = display.Render(camera, w, h, arguments.mode.shading);
   Srgb8Image picture, whole;
   if (arguments.false_colour)
-    PaintFalseColoursOf(arguments, frame.linear, frame.kind, 1, 1, tone, &picture);
+    PaintFalseColoursOf(arguments, {frame.linear, frame.kind}, tone, &picture);
   else
     picture = display.ToneMap(tone).screen;
-  PaintSplit(frame, MakePixelRays(camera, w, h), mesh, picture, width, height, &whole);
-  WritePng(*arguments.output, whole);
+  whole.Resize(width, height);
+  PaintSplit(frame, MakePixelRays(camera, w, h), mesh, picture, &whole);
+  WriteImageFile(*arguments.output, whole);
 }
 
 // A PNG is drawn larger by the supersampling; an EXR has one sample a pixel, at its centre.
@@ -114,7 +123,7 @@ void RenderTwoPass(const RenderArguments& arguments, const Camera& camera, Solve
   if (arguments.split) {
     WriteSplit(arguments, camera, mesh, display, tone);
   } else if (arguments.output) {
-    const int k = IsExr(*arguments.output) || arguments.false_colour ? 1 : arguments.supersampling;
+    const int k = IsLinearImage(*arguments.output) || arguments.false_colour ? 1 : arguments.supersampling;
     if (k > 1) display.Render(camera, k * width, k * height, shading);
     WriteImage(arguments, frame.linear, frame.kind, k, k, tone);
   }
@@ -187,6 +196,7 @@ Command AddRenderCommand(CLI::App& program) {
   AddPictureOptions(*app, arguments.get());
   AddCameraOptions(*app, &arguments->camera);
   AddSolveOptions(*app, &arguments->scene);
+  AddPictureStudies(*app, arguments.get());
   AddRestartOption(*app, &arguments->scene);
   AddReportOption(*app, &arguments->scene);
   return {app, [arguments] { Render(*arguments); }};

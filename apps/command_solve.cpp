@@ -10,6 +10,7 @@
 #include "apps/output.h"
 #include "apps/restart.h"
 #include "apps/scene_arguments.h"
+#include "apps/solve_options.h"
 #include "apps/solve_run.h"
 
 namespace penumbra {

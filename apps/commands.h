@@ -1,6 +1,7 @@
 // apps/commands.h
 //
-// The commands of the program: each adds its options to the command line and comes back with what it does.
+// The commands of the program. Each function adds a command's options to the command line and returns the
+// command.
 
 #pragma once
 
@@ -11,8 +12,7 @@
 
 namespace penumbra {
 
-// The command line asks for something that cannot be, which only shows once the scene is there: exit
-// status 2.
+// The command line is wrong in a way that only shows after the scene is read: exit status 2.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -25,7 +25,7 @@ class Interrupted : public std::runtime_error {
 };
 
 struct Command {
-  CLI::App* app = nullptr;    // true once the command was given
+  CLI::App* app = nullptr;    // converts to true if the user gave the command
   std::function<void()> run;  // throws InputError, UsageError, Interrupted
 };
 

@@ -3,65 +3,104 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <filesystem>
 
+#include "apps/option_values.h"
 #include "apps/output.h"
-#include "display/mesh_export.h"
+#include "display/mesh_nodes.h"
+#include "display/mesh_writers.h"
+#include "solver/base/file_endings.h"
 #include "solver/base/whole_file.h"
-#include "solver/scene/mgf_writer.h"
-#include "solver/scene/obj_writer.h"
-#include "solver/scene/pbrt_writer.h"
+#include "solver/scene/scene_writers.h"
 
 namespace penumbra {
 namespace {
 
-constexpr std::array<const char*, 3> kMeshFormats = {".vtu", ".ply", ".glb"},
-                                     kSceneFormats = {".obj", ".pbrt", ".mgf"};
-constexpr int kFilmWidth = 1280, kFilmHeight = 960;  // what pbrt draws [pixels]
+// Null if the ending names no such format.
+std::unique_ptr<const MeshWriter> MeshWriterFor(const std::string& path) {
+  const MeshWriterRegistry::Method* format = FindByEnding(MeshWriters(), path);
+  return format ? format->make() : nullptr;
+}
 
-std::string FormatOf(const std::string& path) { return std::filesystem::path(path).extension().string(); }
+std::unique_ptr<const SceneWriter> SceneWriterFor(const std::string& path) {
+  const SceneWriterRegistry::Method* format = FindByEnding(SceneWriters(), path);
+  return format ? format->make() : nullptr;
+}
 
-bool Contains(const std::array<const char*, 3>& formats, const std::string& format) {
-  return std::find(formats.begin(), formats.end(), format) != formats.end();
+// The endings of the writers that have what is asked for.
+template <class Writers>
+std::string EndingsWith(const Writers& writers, const auto& has) {
+  std::vector<std::string> endings;
+  for (const auto& format : writers.methods())
+    if (has(*format.make())) endings.push_back(format.name);
+  return NameList(Dotted(endings));
+}
+
+// A line for each format of a kind.
+std::string Formats(const auto& writers) {
+  constexpr int kColumn = 6;
+  std::string lines;
+  for (const auto& format : writers.methods())
+    lines += fmt::format("\n  {:<{}} {}", fmt::format(".{}", format.name), kColumn, format.help);
+  return lines;
 }
 
 }  // namespace
 
 std::optional<std::string> ExportFormatError(const std::string& path) {
-  if (Contains(kMeshFormats, FormatOf(path)) || Contains(kSceneFormats, FormatOf(path))) return std::nullopt;
-  return fmt::format("'{}' ends in none of .vtu, .ply, .glb, .obj, .pbrt, .mgf", path);
+  if (MeshWriterFor(path) || SceneWriterFor(path)) return std::nullopt;
+  std::vector<std::string> endings = MeshWriters().Names();
+  for (const std::string& ending : SceneWriters().Names()) endings.push_back(ending);
+  return EndingError(path, endings);
 }
 
-std::optional<std::string> LibraryBeside(const std::string& path) {
-  if (FormatOf(path) != ".obj") return std::nullopt;
-  return std::filesystem::path(path).replace_extension(".mtl").string();
+std::vector<std::string> FilesBeside(const std::string& path) {
+  const std::unique_ptr<const SceneWriter> writer = SceneWriterFor(path);
+  return writer ? writer->FilesBeside(path) : std::vector<std::string>();
 }
 
-bool ExportsMesh(const std::string& path) { return Contains(kMeshFormats, FormatOf(path)); }
+bool ExportsMesh(const std::string& path) { return MeshWriterFor(path) != nullptr; }
+
+bool ExportsColours(const std::string& path) {
+  const std::unique_ptr<const MeshWriter> writer = MeshWriterFor(path);
+  return writer && writer->HasColours();
+}
+
+bool ExportsCamera(const std::string& path) {
+  const std::unique_ptr<const SceneWriter> writer = SceneWriterFor(path);
+  return writer && writer->HasCamera();
+}
+
+std::string EndingsWithColours() {
+  return EndingsWith(MeshWriters(), [](const MeshWriter& writer) { return writer.HasColours(); });
+}
+
+std::string EndingsWithCamera() {
+  return EndingsWith(SceneWriters(), [](const SceneWriter& writer) { return writer.HasCamera(); });
+}
+
+std::string ExportFormats() {
+  return "With the light, which is solved for first:" + Formats(MeshWriters()) +
+         "\nThe scene alone, nothing is solved:" + Formats(SceneWriters());
+}
 
 void ExportMesh(const std::string& path, const Scene& scene, const IrradianceMesh& mesh,
                 std::optional<double> exposure) {
-  const std::string format = FormatOf(path);
-  if (format == ".vtu") {
-    WriteResult(path, VtuBytes(scene, mesh));
-  } else {
-    const double chosen = exposure.value_or(MeterMesh(scene, mesh));
-    WriteResult(path, format == ".ply" ? PlyBytes(scene, mesh, chosen) : GlbBytes(scene, mesh, chosen));
-  }
+  const std::unique_ptr<const MeshWriter> writer = MeshWriterFor(path);
+  PENUMBRA_CHECK(writer != nullptr);
+  if (!exposure && writer->HasColours()) exposure = MeterMesh(scene, mesh);
+  WriteResult(path, writer->Bytes(scene, mesh, exposure.value_or(1)));
 }
 
 void ExportScene(const std::string& path, const Scene& scene, const Camera& camera) {
-  const std::string format = FormatOf(path);
-  if (format == ".pbrt") {
-    WriteResult(path, PbrtText(scene, camera, kFilmWidth, kFilmHeight));
-  } else if (format == ".mgf") {
-    WriteResult(path, MgfText(scene));
-  } else {
-    const std::string library = *LibraryBeside(path), materials = MtlText(scene);
-    const std::string text = ObjText(scene, std::filesystem::path(library).filename().string());
-    WriteWholeFiles(std::array<FileToWrite, 2>{{{library, materials}, {path, text}}});
-  }
+  const std::unique_ptr<const SceneWriter> writer = SceneWriterFor(path);
+  PENUMBRA_CHECK(writer != nullptr);
+  std::vector<std::string> paths = writer->FilesBeside(path);
+  paths.push_back(path);
+  const std::vector<std::string> texts = writer->Texts(scene, camera, path);
+  PENUMBRA_CHECK(texts.size() == paths.size());
+  std::vector<FileToWrite> files;
+  for (std::size_t i = 0; i < paths.size(); ++i) files.push_back({paths[i], texts[i]});
+  WriteWholeFiles(files);
 }
 
 }  // namespace penumbra

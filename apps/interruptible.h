@@ -8,9 +8,9 @@
 
 namespace penumbra {
 
-// Runs the work with a context that shows its progress as a line on standard error, where that is a terminal,
-// and that an interrupt (Ctrl-C) cancels; a second interrupt kills. Throws Interrupted if it was cancelled,
-// and whatever the work throws; the line is erased in any case.
+// Calls work(context). The context shows progress as a line on standard error if this is a terminal. An
+// interrupt (Ctrl-C) cancels the context; a second interrupt kills the program. Throws Interrupted if the
+// work was cancelled, and whatever the work throws. The progress line is erased in any case.
 void RunInterruptible(const std::function<void(const ExecutionContext&)>& work);
 
 }  // namespace penumbra

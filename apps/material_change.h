@@ -1,6 +1,6 @@
 // apps/material_change.h
 //
-// Other emittances and reflectances than those of the file, from the command line.
+// Emittances and reflectances from the command line that replace those of the file.
 
 #pragma once
 
@@ -19,15 +19,15 @@ struct MaterialChange {
   Rgb value = Rgb::Zero();
 };
 
-// `NAME MATERIAL=r,g,b`, as often as wanted; each number is what the rule says.
+// Adds the repeatable option `NAME MATERIAL=r,g,b`. Each number must satisfy the rule.
 CLI::Option* AddMaterialChange(CLI::App& app, const std::string& name, std::vector<MaterialChange>* changes,
                                const NumberRule& rule, const std::string& help);
 
-// `MATERIAL=r,g,b`, as it is given.
+// The text `MATERIAL=r,g,b`, as the user gives it.
 std::string MaterialChangeText(const std::string& material, const Rgb& value);
 
-// Gives materials other values; of several changes of one material the last holds. Throws UsageError for one
-// that the scene does not have.
+// Applies the changes to `member` of the materials, in order, so that the last change of a material
+// determines its value. Throws UsageError for a material that the scene does not have.
 void ChangeMaterials(const std::vector<MaterialChange>& changes, Rgb Material::*member,
                      std::vector<Material>& materials);
 

@@ -1,6 +1,6 @@
 // apps/messages.h
 //
-// What users are told on standard error.
+// Messages to the user on standard error.
 
 #pragma once
 
@@ -8,17 +8,17 @@
 
 namespace penumbra {
 
-// One line: control characters and what is no UTF-8 are escaped, for names in files may hold anything, and a
-// very long one loses its middle. Whatever becomes of it, the work goes on.
+// Prints one line. Names in files may contain any bytes: control characters and invalid UTF-8 are escaped,
+// and the middle of a very long line is omitted. If printing fails, the program continues; see WasUnheard().
 void Say(const std::string& message);
 
-// Lines as they are.
+// Prints text without changes.
 void SayAsItIs(const std::string& text);
 
-// `message` as Say() says it, without the end of the line.
+// The line that Say() prints for `message`, without the line end.
 std::string OneLine(const std::string& message);
 
-// Whether something could not be said.
+// Whether printing a message has failed.
 bool WasUnheard();
 
 }  // namespace penumbra

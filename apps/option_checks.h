@@ -8,10 +8,6 @@
 
 namespace penumbra {
 
-// The options that mean something to the hierarchical solver alone, in the words of the command line without
-// its dashes.
-bool IsHierarchicalOption(const std::string& name);
-
 // Throws UsageError for options that contradict each other.
 void CheckOptions(const SceneArguments& arguments);
 

@@ -14,10 +14,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
-#include "solver/base/check.h"
+#include "mesh/pipeline/option_range.h"
 #include "solver/geometry/vec.h"
 #include "solver/scene/scene.h"
 
@@ -34,17 +33,10 @@ struct NumberRule {
   bool (*holds)(double);
   const char* words;
 };
-// Squares and products of what is in range must not overflow nor vanish.
-inline constexpr double kTiniest = 1e-100, kLargest = 1e100;
-inline constexpr NumberRule kPositive{[](double x) { return x >= kTiniest && x <= kLargest; },
+inline constexpr NumberRule kPositive{[](double x) { return x >= kTiniestOption && x <= kLargestOption; },
                                       "a number from 1e-100 to 1e100"};
 inline constexpr NumberRule kEmittance{[](double x) { return x >= 0 && x <= kLargestEmittance; },
                                        "a number, 0 or more, up to 1e100"};
-inline constexpr NumberRule kNonNegative{[](double x) { return x >= 0 && x <= kLargest; },
-                                         "a number from 0 to 1e100"};
-// A relative error. Light is found to some 1e-6 at best: the digits that rays and samples leave.
-inline constexpr NumberRule kRelativeError{[](double x) { return x >= 1e-6 && x <= 10; },
-                                           "a number from 1e-6 to 10"};
 
 // "a, b and c"; of many, the first and how many more.
 std::string NameList(const std::vector<std::string>& names);
@@ -74,17 +66,9 @@ const char* ChoiceName(const Choice<Value> (&choices)[kCount], Value value) {
   return "";
 }
 
-// The value of that name. Throws InputError if there is none.
+// `NAME A|B|...`, one of the choices; the default in the help is the target's value.
 template <class Value, std::size_t kCount>
-Value ChoiceValue(const Choice<Value> (&choices)[kCount], const std::string& name) {
-  for (const Choice<Value>& choice : choices)
-    if (name == choice.name) return choice.value;
-  throw InputError("no such choice: " + name);
-}
-
-// `NAME A|B|...`, one of the choices; the target is of their type, or optional.
-template <class Target, class Value, std::size_t kCount>
-CLI::Option* AddChoice(CLI::App& app, const std::string& name, Target* target,
+CLI::Option* AddChoice(CLI::App& app, const std::string& name, Value* target,
                        const Choice<Value> (&choices)[kCount], const std::string& help) {
   std::string names;
   for (const Choice<Value>& choice : choices) names += (names.empty() ? "" : "|") + std::string(choice.name);
@@ -93,9 +77,9 @@ CLI::Option* AddChoice(CLI::App& app, const std::string& name, Target* target,
       if (text == choice->name) return void(*target = choice->value);
     throw CLI::ValidationError(name, "'" + text + "' is not one of " + names);
   };
-  CLI::Option* option = app.add_option_function<std::string>(name, read, help)->type_name(names);
-  if constexpr (std::is_same_v<Target, Value>) option->default_str(ChoiceName(choices, *target));
-  return option;
+  return app.add_option_function<std::string>(name, read, help)
+      ->type_name(names)
+      ->default_str(ChoiceName(choices, *target));
 }
 
 struct VectorRule {

@@ -1,6 +1,6 @@
 // apps/output.h
 //
-// Where results go.
+// Writing results to files and to standard output.
 
 #pragma once
 
@@ -11,38 +11,39 @@
 
 namespace penumbra {
 
-// Whoever read our standard output has had enough: the work ends quietly.
+// The reader of a pipe on standard output has closed the pipe: the program ends without a message.
 class PipeClosed : public std::runtime_error {
  public:
   PipeClosed() : std::runtime_error("the pipe was closed") {}
 };
 
-// Makes writing to streams that are closed, full or limited an error that is told, and keeps files that are
-// opened from becoming standard streams. To be called before anything else.
+// Prepares the standard streams: writing to a closed, full or limited stream becomes an error with a message,
+// and files that are opened later cannot take the place of a closed standard stream. Must be called first.
 void PrepareStreams();
 
-// Whether all that was written to standard output has got there; says what happened unless it was a pipe that
-// was closed. Of standard error, too, where something was said.
+// Whether all output to standard output, and all messages to standard error, arrived. If not, prints the
+// reason, except for a closed pipe.
 bool StreamsHeld();
 
-// Whether both paths lead to one file, or would once it is there. Devices are nobody's.
+// Whether both paths lead to the same file, or would if the file existed. False for devices.
 bool IsSameFile(const std::string& a, const std::string& b);
 
-// Throws InputError unless a file can be written at `path`: before the work, so that hours are not lost to a
-// misspelt folder. Leaves nothing behind.
+// Throws InputError unless a file can be written at `path`. Called before the work, so that a misspelt folder
+// does not cost hours. Leaves no file behind.
 void CheckWritable(const std::string& path);
 
-// The files that a command writes: none may be one that it reads, nor another that it writes.
+// The output files of a command. An output file may not be an input file, nor the output file of another
+// option.
 class OutputFiles {
  public:
-  // Adds the file that the option names. Checks that it can be written (CheckWritable), and throws UsageError
-  // if the command reads it, or writes it already.
+  // Adds the file that the option names. Checks that it can be written (CheckWritable). Throws UsageError if
+  // it is already an output file.
   void Add(const std::string& option, const std::string& path);
   void Add(const std::string& option, const std::optional<std::string>& path) {
     if (path) Add(option, *path);
   }
 
-  // Throws UsageError if the file that is about to be read is one that will be written.
+  // Throws UsageError if `path`, an input file, is one of the output files.
   void RefuseInput(const std::string& path) const;
 
  private:
@@ -52,8 +53,8 @@ class OutputFiles {
   std::vector<Output> outputs_;
 };
 
-// Writes the text to the file, beside its place and then renamed; without a path to standard output. Throws
-// InputError, and leaves nothing behind, if that fails; PipeClosed if nobody reads standard output any more.
+// Writes the text to the file (WriteWholeFile), or to standard output if there is no path. On failure, throws
+// InputError and leaves no file behind. Throws PipeClosed if standard output is a closed pipe.
 void WriteResult(const std::optional<std::string>& path, const std::string& text);
 
 }  // namespace penumbra

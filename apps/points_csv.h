@@ -10,18 +10,18 @@
 
 namespace penumbra {
 
-// A place to measure irradiance at, as the user gave it.
+// A point at which irradiance is measured, as the user gave it.
 struct ProbePoint {
   Vec3 position = Vec3::Zero();  // [m]
   Vec3 normal = Vec3::Zero();    // any length
 };
 
-// The points of a CSV file with the header x,y,z,nx,ny,nz. Blanks around values, blank lines and line ends of
-// any system are passed over. Throws InputError, "FILE:LINE: error: …", without LINE if the file cannot be
+// The points of a CSV file with the header x,y,z,nx,ny,nz. Accepts blanks around values, blank lines, and the
+// line ends of all systems. Throws InputError, "FILE:LINE: error: …", without LINE if the file cannot be
 // read.
 std::vector<ProbePoint> ReadPointsCsv(const std::string& path);
 
-// The same from a text; `path` stands for it in messages.
+// Reads points from a text, as ReadPointsCsv() does. `path` is the name of the text in messages.
 std::vector<ProbePoint> ReadPointsText(std::string_view text, const std::string& path);
 
 }  // namespace penumbra

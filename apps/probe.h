@@ -1,6 +1,7 @@
 // apps/probe.h
 //
-// Measurements at points of the user's choice: where they lie, and whether light can get there at all.
+// Measures irradiance at the user's points, finds the faces on which they lie, and detects points that light
+// cannot reach.
 
 #pragma once
 
@@ -17,55 +18,57 @@
 
 namespace penumbra {
 
-// How near a point must lie to a patch to lie on it, relative to the scene's diagonal, and how far its normal
-// may be off [degrees].
+// A point lies on a patch if its distance is at most kOnPatchDistance times the scene's diagonal, and its
+// normal deviates by at most kOnPatchDegrees degrees.
 inline constexpr double kOnPatchDistance = 1e-6;
 inline constexpr double kOnPatchDegrees = 1;
 
-// Points that are farther from the box around the scene than so many of its diagonals are far outside: what
-// is in centimetres or feet is, where the scene is in metres.
+// A point is far outside if its distance from the scene's bounding box exceeds this number of diagonals.
+// Points in centimetres or feet are far outside a scene in metres.
 inline constexpr double kFarDiagonals = 10;
 
-// The front that a point lies on.
+// The face and the patch on whose front a point lies.
 struct Footing {
-  std::int32_t face = -1;  // as users count; -1: none
+  std::int32_t face = -1;  // its number in outputs; -1: none
   PatchId patch = kNoPatch;
 };
 
 enum class Surroundings {
   kOpen,
-  kBehind,      // inside a solid, or behind faces: only backs are in sight
+  kBehind,      // inside a solid, or behind faces: sees only backs
   kZeroNormal,  // no direction to measure in
-  kFar,         // so far from the scene that it may be in another unit
+  kFar,         // so far from the scene that its unit may be wrong
 };
 
 struct Measurement {
   ProbePoint point;
   Footing footing;
-  Rgb exact = Rgb::Zero();   // [W/m^2]; nan where the normal is zero
-  Rgb direct = Rgb::Zero();  // the share in it of what surfaces emit of themselves, if asked for
-  IrradianceGradient gradient = IrradianceGradient::Zero();  // of `exact`, if asked for [W/m^3]
-  Rgb interpolated = Rgb::Zero();  // [W/m^2]; nan off the fronts, and where nothing was solved
+  Rgb exact = Rgb::Zero();   // [W/m^2]; nan if the normal is zero
+  Rgb direct = Rgb::Zero();  // directly from emitters, part of `exact`; if requested [W/m^2]
+  IrradianceGradient gradient = IrradianceGradient::Zero();  // of `exact`; if requested [W/m^3]
+  Rgb interpolated = Rgb::Zero();                            // [W/m^2]; nan if not on a front, or not solved
   Surroundings surroundings = Surroundings::kOpen;
-  bool sound = true;  // no value is infinite, and only those that are said to be are nan
+  bool sound = true;  // no value is infinite, and values are nan only as described above
 };
 
 class Prober {
  public:
-  // Without a pipeline nothing is interpolated. With `parts` direct light and gradients are measured, too.
-  // Everything referred to must outlive this object.
+  // Without a pipeline, `interpolated` is nan. With `parts`, direct light and gradients are measured, too.
+  // All arguments must outlive this object.
   Prober(const Scene& scene, const PointIrradiance& irradiance, const Pipeline* pipeline, bool parts);
 
-  // Measures at all points, in parallel; the same for any number of threads. What is left of the results
-  // after a cancelled context is unspecified.
+  // Measures at all points, in parallel. The result does not depend on the number of threads. If the context
+  // is cancelled, the result is unspecified.
   std::vector<Measurement> Measure(const std::vector<ProbePoint>& points,
                                    const ExecutionContext& context) const;
 
-  // The front within reach of the point whose face has the lowest index; `normal` is unit.
+  // The front on which the point lies; if it lies on several, that of the face with the lowest index.
+  // `normal` is a unit vector.
   Footing FindFooting(const Vec3& position, const Vec3& normal) const;
 
  private:
-  // The point itself, or its foot on the patch, which digits may have left behind the front.
+  // The receiver point for a position: the position itself, or its foot on the patch, because rounded
+  // coordinates may lie behind the front.
   ReceiverPoint StandOn(PatchId patch, const Vec3& position, const Vec3& normal) const;
   Measurement MeasureAt(const ProbePoint& point) const;
   bool IsFar(const Vec3& position) const;
@@ -77,16 +80,18 @@ class Prober {
   bool parts_;
   RayCaster rays_;
   double reach_;     // [m]
-  Vec3 low_, high_;  // of the box around the scene [m]
+  Vec3 low_, high_;  // of the scene's bounding box [m]
 };
 
-// The measurements as CSV, a row each, all digits; with `parts`, the direct light and the gradient as well.
+// The measurements as CSV, one row each, with all digits. With `parts`, rows include direct light and
+// gradients.
 std::string MeasurementsCsv(const std::vector<Measurement>& measurements, bool parts);
 
-// Throws InputError if a value is no number where it should be.
+// Throws InputError if a measurement is not sound (Measurement::sound).
 void CheckMeasurements(const std::vector<Measurement>& measurements);
 
-// One line that names the rows, counted from 1, where no light can be expected; empty if there are none.
+// A warning, one line, that lists the rows of points that light cannot reach, counted from 1; empty if there
+// are none.
 std::string SurroundingsWarning(const std::vector<Measurement>& measurements);
 
 }  // namespace penumbra

@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <filesystem>
 #include <string_view>
 #include <system_error>
 
 #include "apps/commands.h"
 #include "apps/option_values.h"
 #include "apps/output.h"
+#include "display/image_writers.h"
+#include "mesh/pipeline/option_table.h"
+#include "solver/base/file_endings.h"
 
 namespace penumbra {
 namespace {
@@ -45,14 +47,20 @@ void SetMode(const std::string& name, RenderMode* mode) {
   throw CLI::ValidationError("--mode", fmt::format("'{}' is none of {}", name, names));
 }
 
-}  // namespace
+// What each format holds.
+std::string PictureHelp() {
+  std::vector<std::string> formats;
+  for (const ImageWriterRegistry::Method& format : ImageWriters().methods())
+    formats.push_back(fmt::format(".{} is {}", format.name, format.help));
+  return fmt::format("The picture: {}", fmt::join(formats, "; "));
+}
 
-bool IsExr(const std::string& path) { return std::filesystem::path(path).extension() == ".exr"; }
-bool IsPng(const std::string& path) { return std::filesystem::path(path).extension() == ".png"; }
+}  // namespace
 
 void CheckRenderArguments(const RenderArguments& arguments) {
   if (!arguments.output && arguments.benchmark_frames == 0)
-    throw UsageError("render needs -o IMAGE.png or -o IMAGE.exr, or --benchmark FRAMES");
+    throw UsageError(fmt::format("render needs -o IMAGE{}, or --benchmark FRAMES",
+                                 fmt::join(Dotted(ImageWriters().Names()), " or -o IMAGE")));
   if (arguments.split && arguments.false_colour)
     throw UsageError(
         "--split shows the passes and their picture, --false-colour values; leave one of them out");
@@ -69,9 +77,10 @@ void CheckRenderArguments(const RenderArguments& arguments) {
         "out");
   if (arguments.scale_max && !arguments.false_colour)
     throw UsageError("--scale-max is the end of --false-colour's scale; give both");
-  if ((arguments.false_colour || arguments.split) && (!arguments.output || !IsPng(*arguments.output)))
-    throw UsageError(fmt::format("{} shows something else than radiosity and wants -o IMAGE.png",
-                                 arguments.split ? "--split" : "--false-colour"));
+  if ((arguments.false_colour || arguments.split) && (!arguments.output || !IsScreenImage(*arguments.output)))
+    throw UsageError(fmt::format("{} shows something else than radiosity and wants -o IMAGE{}",
+                                 arguments.split ? "--split" : "--false-colour",
+                                 fmt::join(Dotted(ScreenImageEndings()), " or -o IMAGE")));
   if (arguments.ByRays()) {
     if (arguments.split || arguments.backend == Backend::kOpenGl)
       throw UsageError(fmt::format("--mode {} casts rays and has no passes; leave out {}",
@@ -82,7 +91,7 @@ void CheckRenderArguments(const RenderArguments& arguments) {
     return;
   }
   const int side = arguments.supersampling * std::max(arguments.width, arguments.height);
-  if (arguments.output && IsPng(*arguments.output) &&
+  if (arguments.output && IsScreenImage(*arguments.output) &&
       (side > kMaxPictureSize ||
        arguments.supersampling * arguments.height > kMaxPixels / (arguments.supersampling * arguments.width)))
     throw UsageError(
@@ -92,7 +101,7 @@ void CheckRenderArguments(const RenderArguments& arguments) {
 
 bool HasOneSample(const RenderArguments& arguments) {
   return arguments.ByRays() || arguments.false_colour || arguments.split ||
-         (arguments.output && IsExr(*arguments.output));
+         (arguments.output && IsLinearImage(*arguments.output));
 }
 
 nlohmann::ordered_json RenderOptionsUsed(const RenderArguments& arguments) {
@@ -114,17 +123,19 @@ nlohmann::ordered_json RenderOptionsUsed(const RenderArguments& arguments) {
   return options;
 }
 
-void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
+namespace {
+
+// What is written, and what is drawn.
+void AddFileAndMode(CLI::App& app, RenderArguments* arguments) {
   app.add_option_function<std::string>(
          "-o,--output",
          [arguments](const std::string& path) {
-           if (!IsPng(path) && !IsExr(path))
-             throw CLI::ValidationError("-o", fmt::format("'{}' ends neither in .png nor in .exr", path));
+           if (!FindByEnding(ImageWriters(), path))
+             throw CLI::ValidationError("-o", EndingError(path, ImageWriters().Names()));
            arguments->output = path;
          },
-         "The picture: .png is 8-bit sRGB, exposed, emitters white; .exr is linear radiosity in W/m^2, "
-         "unexposed, emittance included")
-      ->type_name("IMAGE.png|.exr");
+         PictureHelp())
+      ->type_name(fmt::format("IMAGE{}", fmt::join(Dotted(ImageWriters().Names()), "|")));
   app.add_option_function<std::string>(
          "--mode", [arguments](const std::string& name) { SetMode(name, &arguments->mode); },
          "flat: one value an element; gouraud: exact irradiance at the elements' corners, linear between; "
@@ -148,6 +159,10 @@ void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
       ->type_name("WxH")
       ->default_str(fmt::format("{}x{}", arguments->width, arguments->height))
       ->group("Picture");
+}
+
+// How light becomes colours.
+void AddColours(CLI::App& app, RenderArguments* arguments) {
   AddNumber(app, "--exposure", &arguments->exposure, kPositive,
             "Brightness on the screen, 0 to 1, per W/m^2 (default: metered from the picture; rho: 1)")
       ->group("Picture");
@@ -160,13 +175,15 @@ void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
   app.add_flag("--split", arguments->split,
                "A PNG shows triangle ids, barycentric coordinates, depths and the picture, in quarters")
       ->group("Picture");
+}
+
+}  // namespace
+
+void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
+  AddFileAndMode(app, arguments);
+  AddColours(app, arguments);
   AddChoice(app, "--backend", &arguments->backend, kBackends,
             "What draws the two passes: our rasteriser, or the graphics system, off screen, as in the thesis")
-      ->group("Picture");
-  AddChoice(
-      app, "--opengl-coordinates", &arguments->coordinates, kCoordinates,
-      "opengl: barycentric coordinates as floats, or from the thesis's texture of 256 x 256 texels of 8 "
-      "bits")
       ->group("Picture");
   AddInteger(
       app, "--supersampling", &arguments->supersampling, 1, 8,
@@ -181,6 +198,14 @@ void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
              "-o may be left out")
       ->default_str("")
       ->group("Running");
+}
+
+void AddPictureStudies(CLI::App& app, RenderArguments* arguments) {
+  AddChoice(
+      app, "--opengl-coordinates", &arguments->coordinates, kCoordinates,
+      "opengl: barycentric coordinates as floats, or from the thesis's texture of 256 x 256 texels of 8 "
+      "bits")
+      ->group(GroupTitle(OptionGroup::kStudies));
 }
 
 }  // namespace penumbra

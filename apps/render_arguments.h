@@ -63,13 +63,12 @@ struct RenderArguments {
   bool ByRays() const { return mode.method != RenderMethod::kTwoPass; }
 };
 
-bool IsExr(const std::string& path);
-bool IsPng(const std::string& path);
-
 // Whether a picture has a sample a pixel, or rays.
 bool HasOneSample(const RenderArguments& arguments);
 
 void AddPictureOptions(CLI::App& app, RenderArguments* arguments);
+// Those of a picture that only studies compare. REQUIRES: AddSolveOptions(), whose last group they join.
+void AddPictureStudies(CLI::App& app, RenderArguments* arguments);
 
 // What can be told before the work starts. Throws UsageError, and InputError where a file cannot be written.
 void CheckRenderArguments(const RenderArguments& arguments);

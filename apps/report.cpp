@@ -258,40 +258,47 @@ PipelineReport PipelineReportFrom(const Json& lasting) {
   return report;
 }
 
-std::string ReportTable(const RunReport& report) {
-  const PipelineReport& pipeline = report.pipeline;
+namespace {
+
+std::string PhaseTable(const RunReport& report) {
   std::string table = "Phase                seconds\n";
   double total = report.load_seconds;
   const auto add_phase = [&](const std::string& name, double seconds) {
     table += fmt::format("   {:<15} {:>9.3f}\n", name, seconds);
   };
   add_phase("load", report.load_seconds);
-  for (const Phase& phase : pipeline.phases) {
+  for (const Phase& phase : report.pipeline.phases) {
     add_phase(phase.name, phase.seconds);
     total += phase.seconds;
   }
   add_phase("total", total);
+  return table;
+}
 
+std::string CountTable(const PipelineReport& pipeline) {
   const PipelineReport::Counts& counts = pipeline.counts;
-  table += fmt::format(
+  std::string table = fmt::format(
       "Counts\n   {} patches, {} emitters; {} elements, {} leaves; {} links, {} of them partly blocked\n"
       "   {} discontinuities, {} DSets active; {} triangles, {} point evaluations\n",
       counts.patches, counts.emitters, counts.elements, counts.leaves, counts.links, counts.links_partial,
       counts.discontinuities, counts.dsets_active, counts.triangles, counts.point_evaluations);
-
   if (pipeline.quality.median_aspect > 0)  // measured
     table += fmt::format("   {}\n", TriangleQualityText(pipeline.quality));
-
   if (const auto& dense = pipeline.dense)
     table += fmt::format(
         "Dense system\n   {} unknowns; rows add up to {:.12g} ... {:.12g}, form factors within {:.2g}, "
         "reciprocity within {:.2g}\n",
         dense->unknowns, dense->closure.least_row_sum, dense->closure.largest_row_sum,
         dense->form_factor_error, dense->closure.reciprocity);
+  return table;
+}
 
+// Where the light goes: energy, form factors, iterations, bounces.
+std::string LightTable(const PipelineReport& pipeline) {
   const EnergyBalance& energy = pipeline.energy;
-  table += fmt::format("Energy [W]\n   emitted {:.6g}, absorbed {:.6g}, escaped {:.6g}; imbalance {:.2g}\n",
-                       energy.emitted, energy.absorbed, energy.escaped, energy.relative_imbalance);
+  std::string table =
+      fmt::format("Energy [W]\n   emitted {:.6g}, absorbed {:.6g}, escaped {:.6g}; imbalance {:.2g}\n",
+                  energy.emitted, energy.absorbed, energy.escaped, energy.relative_imbalance);
 
   const LinkDiagnostics& links = pipeline.links;
   table += fmt::format(
@@ -313,9 +320,12 @@ std::string ReportTable(const RunReport& report) {
       table += fmt::format("   {:>4} {:>12.6g} {:>12.6g} {:>12.6g}\n", k + 1, pipeline.bounces[k][0],
                            pipeline.bounces[k][1], pipeline.bounces[k][2]);
   }
+  return table;
+}
 
+std::string ErrorTable(const PipelineReport& pipeline) {
   const RepresentationError& error = pipeline.interpolant_error;
-  table += "Relative error\n";
+  std::string table = "Relative error\n";
   if (error.points > 0)
     table += fmt::format("   interpolants, at {} points: p99 {:.3g}, p95 {:.3g}, rms {:.3g}, max {:.3g}\n",
                          error.points, error.p99, error.p95, error.rms, error.max);
@@ -326,6 +336,13 @@ std::string ReportTable(const RunReport& report) {
       fmt::format("   asked for {:.3g}: {}\n", pipeline.error_asked, pipeline.error_met ? "met" : "not met");
   for (const std::string& line : pipeline.unmet) table += fmt::format("   {}\n", line);
   return table;
+}
+
+}  // namespace
+
+std::string ReportTable(const RunReport& report) {
+  return PhaseTable(report) + CountTable(report.pipeline) + LightTable(report.pipeline) +
+         ErrorTable(report.pipeline);
 }
 
 }  // namespace penumbra

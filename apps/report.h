@@ -1,6 +1,6 @@
 // apps/report.h
 //
-// What a solve took and reached, for programs and for people.
+// The report of a solve: its cost and its accuracy, as JSON and as a table.
 
 #pragma once
 
@@ -17,19 +17,19 @@ struct RunReport {
   PipelineReport pipeline;
 };
 
-// The text of REPORT.json; memory, threads and version are those of this process.
+// The report as JSON text. Memory, threads and version are those of the running program.
 std::string ReportJson(const RunReport& report);
 
-// What of it is the same on every run: no times, threads or memory, and not the options.
+// The part of the report that is the same in every run: no times, threads or memory, and no options.
 std::string LastingReportJson(const PipelineReport& report);
-// The same read back. Throws nlohmann::json::exception.
+// Reads what LastingReportJson() wrote. Throws nlohmann::json::exception.
 PipelineReport PipelineReportFrom(const nlohmann::ordered_json& lasting);
 
-// How well shaped the triangles are, as in REPORT.json, and in a line.
+// The shapes of the triangles, as in the JSON report, and as a line of text.
 nlohmann::ordered_json TriangleQualityJson(const TriangleQuality& quality);
 std::string TriangleQualityText(const TriangleQuality& quality);
 
-// Phases with their seconds, counts, energy and error, a line each.
+// The report as a table: phases with their seconds, counts, energy and error.
 std::string ReportTable(const RunReport& report);
 
 }  // namespace penumbra

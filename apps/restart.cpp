@@ -9,6 +9,7 @@
 
 #include "apps/commands.h"
 #include "mesh/pipeline/link_options.h"
+#include "mesh/pipeline/option_table.h"
 #include "mesh/pipeline/solution_check.h"
 #include "solver/base/check.h"
 #include "solver/scene/geometry_difference.h"
@@ -17,20 +18,17 @@ namespace penumbra {
 namespace {
 
 LoadedScene LoadRestart(SceneArguments& arguments, const std::string& from) {
-  for (const char* name : kLinkOptions) {
-    const CLI::Option* option =
-        arguments.app ? arguments.app->get_option_no_throw(fmt::format("--{}", name)) : nullptr;
-    if (option && option->count() > 0)
+  for (const SolveOption& option : OptionTable())
+    if (option.links_depend && IsGiven(arguments, CommandLineName(option)))
       throw UsageError(fmt::format(
-          "--{} says how links are made, but --restart keeps those of '{}'; leave one of the two out", name,
-          from));
-  }
+          "{} says how links are made, but --restart keeps those of '{}'; leave one of the two out",
+          CommandLineName(option), from));
   LoadedScene loaded = LoadQuietly(arguments);
   PENUMBRA_CHECK(!loaded.stored);  // such options are refused beside a solution
   arguments.outputs.RefuseInput(from);
   LoadedScene solved = LoadSolution(from);
   StoredRun run = std::move(*solved.stored);
-  if (run.solving.dense)
+  if (run.solving.solver == "dense")
     throw InputError(
         fmt::format("{}: error: the dense solver made it, which keeps no links; solve the scene anew", from));
   if (run.state.report.iterations.empty())

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include "apps/load_scene.h"
 #include "apps/scene_arguments.h"
 
 namespace penumbra {
@@ -12,7 +13,8 @@ namespace penumbra {
 // LoadScene(), for who is going to solve. With --restart it reads that solution, too, whose links become
 // those of the scene: LoadedScene::restart. The options that say how links are made become those of the file.
 // Throws InputError if the file is no solution, has no links, or is of another geometry, and UsageError if
-// the arguments name a solution for a scene or say how to make links (kLinkOptions), for that is done.
+// the arguments name a solution for a scene or say how to make links (SolveOption::links_depend), for that is
+// done.
 LoadedScene LoadToSolve(SceneArguments& arguments);
 
 }  // namespace penumbra

@@ -1,6 +1,7 @@
 // apps/scene_warnings.h
 //
-// What in a scene may well be a mistake, though it can be computed: told by every command that reads it.
+// Warnings about likely mistakes in a scene that can be solved nevertheless. Every command that reads a scene
+// prints them.
 
 #pragma once
 
@@ -11,7 +12,8 @@
 
 namespace penumbra {
 
-// A sentence each. Where light plays no part in what is computed (`lit` is false), nothing is said of it.
+// The warnings, one sentence each. Without `lit`, omits warnings about light, for commands that do not use
+// light.
 std::vector<std::string> SceneWarnings(const Scene& scene, bool lit);
 
 }  // namespace penumbra

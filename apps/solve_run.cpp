@@ -9,6 +9,7 @@
 #include "apps/interruptible.h"
 #include "apps/messages.h"
 #include "apps/option_checks.h"
+#include "apps/options_used.h"
 #include "apps/output.h"
 #include "mesh/pipeline/solution_file.h"
 #include "solver/base/check.h"
@@ -113,16 +114,14 @@ void SolveRun::Run(std::optional<MeshKind> kind, bool measure) {
       pipeline_.SolveOverLinks(context);
     else if (!stored_)
       pipeline_.Solve(context);
-    // What interpolants show refines the sources, which are the same whatever is made of them.
-    const bool refines = !stored_ && RefinesLight(arguments_.solving);
-    if (refines && !context.Cancelled()) pipeline_.BuildMesh(MeshKind::kInterpolant, context);
-    const bool glances = !stored_ && !measure && !arguments_.solving.dense;
-    if (refines && glances && !context.Cancelled()) pipeline_.Glance(context);
+    if (!stored_ && !context.Cancelled()) pipeline_.RefineLight(context);
+    // What the light errs by is seen from interpolants, whatever is shown.
+    const bool glances = !stored_ && !measure && (pipeline_.RefinesLight() || kind == MeshKind::kInterpolant);
+    if (glances && !context.Cancelled()) pipeline_.BuildMesh(MeshKind::kInterpolant, context);
+    if (glances && !context.Cancelled()) pipeline_.Glance(context);
     // Where a limit has ended that, asking for the same once more would change nothing.
-    const bool is_made = refines && kind == MeshKind::kInterpolant;
+    const bool is_made = glances && kind == MeshKind::kInterpolant;
     if (!context.Cancelled() && kind && !is_made) pipeline_.BuildMesh(*kind, context);
-    if (!refines && glances && kind == MeshKind::kInterpolant && !context.Cancelled())
-      pipeline_.Glance(context);
     if (context.Cancelled() || !kind || !measure) return;
     if (stored_)
       pipeline_.Diagnose();  // its error was measured when it was solved

@@ -6,50 +6,50 @@
 #include <optional>
 #include <string>
 
+#include "apps/load_scene.h"
 #include "apps/report.h"
 #include "apps/scene_arguments.h"
 #include "mesh/pipeline/pipeline.h"
 
 namespace penumbra {
 
-// What a file keeps of the options of a solution that came from a file with `stored` options: those of
-// reading are the scene's there.
+// The options to store with a solution that was read from a file with the options `stored`. The options for
+// reading the scene are those of `stored`.
 nlohmann::ordered_json StoredOptions(const nlohmann::ordered_json& stored, const SceneArguments& arguments,
                                      const ResolvedOptions& resolved);
 
-// The bytes of a solution file, the same for every number of threads. REQUIRES: the pipeline is solved, has
-// interpolants, and is measured.
+// The bytes of a solution file, which do not depend on the number of threads. REQUIRES: the pipeline is
+// solved, has interpolants, and is measured.
 std::string SolutionFileOf(const Pipeline& pipeline, const nlohmann::ordered_json& options);
 
-// Whether the error asked for was missed, and what else fell short, in one sentence; empty if it was met, or
-// nothing says that it was not.
+// One sentence that says that the requested error was missed, and why; empty if it was met, or if no
+// measurement shows that it was missed.
 std::string WhatWasMissed(const PipelineReport& report);
 
-// A scene on its way through the pipeline, as commands drive it: options are told, progress is shown, an
-// interrupt ends it, the report is written.
+// Runs the pipeline for a command: prints options, shows progress, handles interrupts, and writes the report.
 class SolveRun {
  public:
-  // Prints the options used, with -v; `command_options` are those of the command itself. The scene and the
-  // arguments must outlive this object. What a solution file brought is taken out of `loaded`.
+  // With -v, prints the options used; `command_options` are the options of the command itself. The scene and
+  // the arguments must outlive this object. Moves the content of a solution file out of `loaded`.
   SolveRun(const SceneArguments& arguments, LoadedScene& loaded,
            const nlohmann::ordered_json& command_options = nlohmann::ordered_json::object());
 
-  // Solves, over the links of LoadedScene::restart if there are such, and builds the mesh, if one is wanted;
-  // measures it, too, where someone asked for a report. A stored solution is solved and measured already.
+  // Solves, over the links of LoadedScene::restart if it is set. Builds a mesh of this kind, if `kind` is
+  // set. Measures the error if `measure` is true. A solution from a file is solved and measured already.
   // Throws Interrupted.
   void Run(std::optional<MeshKind> kind, bool measure);
 
-  // Builds a flat mesh of the leaves there are, for what needs no light: nothing is solved. Throws
+  // Builds a flat mesh of the current leaves without solving, for pictures that show no light. Throws
   // Interrupted.
   void RunUnlit();
 
-  // Warns of what looks wrong in the scene and of what missed the target; writes the report to its file, if
-  // it was asked for, and the table to standard error, with -v.
+  // Prints warnings about the scene and about a missed error. Writes the report file if --report is given,
+  // and prints the table on standard error with -v.
   void Tell() const;
 
   const Pipeline& pipeline() const { return pipeline_; }
   RunReport report() const;
-  // The bytes of its solution file. REQUIRES: Run(MeshKind::kInterpolant, true).
+  // The bytes of the solution file. REQUIRES: Run(MeshKind::kInterpolant, true) was called.
   std::string SolutionFile() const;
 
  private:
@@ -60,7 +60,7 @@ class SolveRun {
   nlohmann::ordered_json options_;
 };
 
-// Whether anyone reads a report: --report or -v.
+// Whether a report is requested, by --report or -v.
 inline bool WantsReport(const SceneArguments& arguments) {
   return arguments.verbose || arguments.report.has_value();
 }

@@ -1,6 +1,6 @@
 // display/false_colour.h
 //
-// Values as colours, with a scale to read them off.
+// Shows values as colours, with a legend.
 
 #pragma once
 
@@ -13,23 +13,23 @@
 
 namespace penumbra {
 
-// A colour scale that is told apart in grey, too: black, blue, violet, orange, yellow, white. `x` is clamped
-// to [0, 1].
+// A colour scale of monotonically increasing lightness: black, blue, violet, orange, yellow, white. `x` is
+// clamped to [0, 1].
 ScreenColour FalseColour(double x);
 
-// Every surface pixel by the mean of its channels, `top` at the end of the scale [unit of the image];
-// emitters are white, the background a dark grey.
+// Colours every surface pixel by the mean of its channels. The value `top`, in the unit of the image, is the
+// end of the scale. Emitters are white, the background is dark grey.
 void PaintFalseColours(const RgbImage& image, std::span<const PixelKind> kinds, double top, Srgb8Image* out);
 
-// The values of a map in [0, 1]; larger ones are cut off.
+// A picture of the values of a map in false colours. Values are clamped to [0, 1].
 Srgb8Image FalseColours(const std::vector<float>& map, int width, int height);
 
-// The scale in the lower right corner, from 0 to `top`, with the unit above it. Left out where the picture is
-// smaller than kLegendWidth x kLegendHeight.
+// Paints a legend in the lower right corner: the scale from 0 to `top`, with the unit above it. Does nothing
+// if the picture is smaller than kLegendWidth x kLegendHeight.
 void PaintLegend(double top, const std::string& unit, Srgb8Image* picture);
 inline constexpr int kLegendWidth = 120, kLegendHeight = 160;  // [pixels]
 
-// Distinct neighbours get distinct colours: for pictures of numbers.
+// A colour for an id, for pictures of ids. Neighbouring numbers have different colours.
 ScreenColour ColourOfNumber(std::uint32_t number);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // display/glm_conversion.h
 //
-// Where the vectors of solver and mesh (Eigen, binary64) and those of the display (GLM) meet, and where
-// vectors and colours become floats. Nothing else converts one into the other.
+// Conversions between the vectors of the solver and the mesh (Eigen, double) and those of the display (GLM),
+// and from double to float. All of them are in this header.
 
 #pragma once
 
@@ -16,7 +16,7 @@ namespace penumbra {
 inline glm::dvec3 ToGlm(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 inline Vec3 ToEigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-// Rounded to the nearest floats: what the graphics system gets.
+// The nearest floats, for the graphics system.
 inline glm::vec3 ToFloats(const glm::dvec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
@@ -25,7 +25,7 @@ inline glm::vec4 ToFloats(const glm::dvec4& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(v.w)};
 }
 
-// A colour as a pixel holds it, rounded to the nearest floats: red, green, blue in x, y, z.
+// The nearest floats of a colour, as pixels hold it: red, green, blue in x, y, z.
 inline glm::vec3 ToPixel(const Rgb& colour) {
   return {static_cast<float>(colour[0]), static_cast<float>(colour[1]), static_cast<float>(colour[2])};
 }

@@ -1,6 +1,6 @@
 // display/image.h
 //
-// Pictures in memory. Rows run from the top, pixels from the left.
+// Pictures in memory. Rows are stored from top to bottom, pixels from left to right.
 
 #pragma once
 
@@ -12,7 +12,8 @@
 
 namespace penumbra {
 
-// Linear RGB, a plane a channel: radiosity [W/m^2], reflectance [1] or exposed values in [0, 1].
+// A picture in linear RGB, one array per channel: radiosity [W/m^2], reflectance [1] or exposed values in [0,
+// 1].
 struct RgbImage {
   int width = 0, height = 0;
   std::array<std::vector<float>, 3> channel;  // width * height values each
@@ -20,7 +21,7 @@ struct RgbImage {
   RgbImage() = default;
   RgbImage(int w, int h) { Resize(w, h); }
 
-  // Values are unspecified afterwards where the size changes; no memory is taken where it does not grow.
+  // If the size changes, the values are unspecified afterwards. Allocates memory only if the size grows.
   void Resize(int w, int h) {
     width = w;
     height = h;
@@ -43,7 +44,7 @@ struct RgbImage {
   void Set(int x, int y, const glm::vec3& rgb) { Set(Index(x, y), rgb); }
 };
 
-// What a screen shows: 8-bit sRGB, three bytes a pixel.
+// A picture for a screen: 8-bit sRGB, three bytes per pixel.
 struct Srgb8Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> pixels;
@@ -53,7 +54,7 @@ struct Srgb8Image {
     height = h;
     pixels.resize(3 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
   }
-  // Of a pixel: its bytes are at three times that.
+  // The index of a pixel. Its bytes begin at pixels[3 * Index(x, y)].
   std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
@@ -69,11 +70,11 @@ inline void SetPixel(Srgb8Image* image, std::size_t i, ScreenColour c) {
   image->pixels[3 * i + 2] = c.blue;
 }
 
-// What a pixel shows, for tone mapping.
+// The kind of surface that a pixel shows, for tone mapping.
 enum class PixelKind : std::uint8_t { kBackground, kSurface, kEmitter };
 
-// The mean of each block of `across` x `down` pixels: supersampling's box filter.
-// REQUIRES: across > 0 divides width, down > 0 height.
+// The mean of each block of `across` x `down` pixels: the box filter of supersampling. REQUIRES: across > 0
+// divides the width, down > 0 divides the height.
 RgbImage Downsample(const RgbImage& image, int across, int down);
 
 }  // namespace penumbra

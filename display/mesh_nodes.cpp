@@ -98,4 +98,8 @@ double MeterNodes(const Scene& scene, const IrradianceMesh& mesh, const MeshNode
   return metered > 0 && std::isfinite(exposure) ? exposure : 1;
 }
 
+double MeterMesh(const Scene& scene, const IrradianceMesh& mesh) {
+  return MeterNodes(scene, mesh, FindMeshNodes(scene, mesh));
+}
+
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // display/opengl_context.h
 //
-// A context of OpenGL without a window, by EGL, which is looked for when the first is made: a machine without
-// it lacks nothing but this.
+// An OpenGL context without a window, by EGL. EGL is loaded when the first context is made, so that the
+// program also runs on machines without it.
 
 #pragma once
 
@@ -12,14 +12,15 @@ namespace penumbra {
 
 class OpenGlContext {
  public:
-  // A context of OpenGL 3.3, core profile. Throws InputError, one line, if there is none.
+  // Makes an OpenGL 3.3 context, core profile. Throws InputError if the system provides none.
   OpenGlContext();
-  // Everything made in it goes with it.
+  // Destroys the context and all objects in it.
   ~OpenGlContext();
   OpenGlContext(const OpenGlContext&) = delete;
   OpenGlContext& operator=(const OpenGlContext&) = delete;
 
-  // Makes the context current in the calling thread while it lives; none is afterwards.
+  // Makes the context current in the calling thread during the lifetime of this object; afterwards no context
+  // is current.
   class Current {
    public:
     explicit Current(const OpenGlContext& context);
@@ -31,7 +32,7 @@ class OpenGlContext {
     const OpenGlContext& context_;
   };
 
-  // OpenGL's function of that name. Throws InputError if there is none.
+  // Sets `function` to the OpenGL function called `name`. Throws InputError if there is none.
   template <class Function>
   void Load(const char* name, Function* function) const {
     static_assert(std::is_pointer_v<Function>);

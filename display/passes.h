@@ -1,6 +1,6 @@
 // display/passes.h
 //
-// The two scratch images that a picture is made from (thesis 3.4.1 and 3.4.2), whoever draws them.
+// The interface of the two passes, which draw the two scratch images of a picture (thesis 3.4.1 and 3.4.2).
 
 #pragma once
 
@@ -21,14 +21,14 @@ class Passes {
  public:
   virtual ~Passes() = default;
 
-  // Pass 1: ids[y * width + x] is the index of the triangle that is visible in the centre of the pixel, or
-  // kNoTriangle. REQUIRES: ids.size() == width * height; 0 < width, height <= kMaxPictureSize.
+  // Pass 1: sets ids[y * width + x] to the index of the triangle that is visible at the centre of pixel (x,
+  // y), or to kNoTriangle. REQUIRES: ids.size() == width * height; 0 < width, height <= kMaxPictureSize.
   virtual void DrawTriangleIds(const PixelRays& rays, int width, int height,
                                std::span<std::uint32_t> ids) = 0;
 
-  // Pass 2: (s, t), the perspective-correct coordinates of vertices 1 and 2 of the triangles that pass 1
-  // found, with s, t >= 0 and s + t <= 1 to rounding. Unchanged where there is no triangle. REQUIRES: ids are
-  // those of the last DrawTriangleIds; spans of the same size.
+  // Pass 2: sets (s, t) of each pixel to the perspective-correct barycentric coordinates for vertices 1 and 2
+  // of the triangle that pass 1 found, with s, t >= 0 and s + t <= 1 to rounding. Pixels without a triangle
+  // are not changed. REQUIRES: ids are those of the last DrawTriangleIds(); spans of the same size.
   virtual void DrawBarycentrics(std::span<const std::uint32_t> ids, std::span<float> s,
                                 std::span<float> t) = 0;
 

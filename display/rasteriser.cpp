@@ -12,6 +12,7 @@
 #include "display/unit_vectors.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
+#include "solver/base/scratch.h"
 
 namespace penumbra {
 namespace {
@@ -419,8 +420,8 @@ void Rasteriser::DrawTileIds(std::size_t index, Tile* tile) const {
       for (int x = 0; x < kTileSize; ++x)
         if (tile->x + x >= impl.width || tile->y + y >= impl.height)
           tile->inverse_z[TileIndex(x, y) + x % kBlockSize] = std::numeric_limits<float>::max();
-  thread_local std::vector<std::pair<float, const Bin*>> order;  // keeps its memory
-  order.clear();
+  const Scratch<std::vector<std::pair<float, const Bin*>>> scratch;
+  std::vector<std::pair<float, const Bin*>>& order = *scratch;
   for (const Bin& bin : impl.bins)
     if (bin.first[index] < bin.first[index + 1]) order.emplace_back(-bin.nearest[index], &bin);
   std::sort(order.begin(), order.end());

@@ -1,8 +1,8 @@
 // display/ray_display.h
 //
-// Pictures by rays (thesis, B.3.3): several through each pixel, and irradiance where they meet a front. Slow,
-// and a reference: RayShade shows exact irradiance, LerpShade the interpolants that the two-pass display
-// shows, found another way.
+// Pictures by ray casting (thesis B.3.3): one or several rays through each pixel, and the irradiance where a
+// ray meets a front. A slow reference for the two-pass display: RayShade shows exact irradiance; LerpShade
+// shows the interpolants, found independently of the two passes.
 
 #pragma once
 
@@ -19,29 +19,30 @@
 
 namespace penumbra {
 
-// Where a ray meets the front of a patch.
+// The intersection of a ray with the front of a patch.
 struct RayPoint {
   PatchId patch = kNoPatch;
   Vec3 position = Vec3::Zero();  // [m], in the patch's plane
-  double uncertainty = 0;        // of the position [m]: the rounding of the ray and of the meeting
+  double uncertainty = 0;        // of the position [m]: rounding of the ray and of the intersection
 };
 
-// The irradiance that a picture shows there [W/m^2]. Called from several threads at once.
+// The irradiance that a picture shows at a point [W/m^2]. Several threads call it at once.
 using RayShader = std::function<Rgb(const RayPoint&)>;
 
-// What is given must outlive the shader. Exact irradiance.
+// A shader that shows exact irradiance. The arguments must outlive the shader.
 RayShader RayShade(const Scene& scene, const PointIrradiance& irradiance);
-// The interpolant of the mesh, not below 0, as the two-pass display shows it.
+// A shader that shows the interpolants of the mesh, clamped to values >= 0 as in the two-pass display. The
+// arguments must outlive the shader.
 RayShader LerpShade(const Scene& scene, const IrradianceMesh& mesh);
 
-// A picture of several samples a pixel.
+// A picture with several samples per pixel.
 struct SampledPicture {
-  int samples = 1;              // a pixel's samples are neighbours in a row
-  RgbImage linear;              // radiosity [W/m^2], emittance included; 0 where a ray meets nothing
-  std::vector<PixelKind> kind;  // one a sample
+  int samples = 1;              // per pixel; the samples of a pixel are neighbours in a row
+  RgbImage linear;              // radiosity with emittance [W/m^2]; 0 where a ray meets no front
+  std::vector<PixelKind> kind;  // per sample
 };
 
-// What one ray meets.
+// The result of one ray.
 struct RaySample {
   Rgb radiosity = Rgb::Zero();  // [W/m^2], emittance included
   PixelKind kind = PixelKind::kBackground;
@@ -52,14 +53,14 @@ class RayDisplay {
   // The scene must outlive the display.
   RayDisplay(const Scene& scene, RayShader shader, int samples);
 
-  // Casts `samples` rays through each pixel: the first through its centre, the others spread evenly over it.
-  // If the context is cancelled the rest of the picture is left out. The same bytes for every number of
-  // threads. Throws InputError if the camera cannot see (ValidateCamera).
+  // Casts `samples` rays through each pixel: the first through its centre, the others evenly distributed over
+  // it. If the context is cancelled, the rest of the picture is not computed. The bytes do not depend on the
+  // number of threads. Throws InputError for an invalid camera (ValidateCamera).
   const SampledPicture& Render(const Camera& camera, int width, int height, const ExecutionContext& context);
 
   const SampledPicture& picture() const { return picture_; }
 
-  // The ray through the point (x, y) of a picture. Safe from several threads at once.
+  // Casts the ray through the point (x, y) of a picture. Several threads may call it at once.
   RaySample Sample(const PixelRays& rays, double x, double y) const;
 
  private:

@@ -49,8 +49,8 @@ std::vector<double> InverseDepths(const RenderedFrame& frame, const PixelRays& r
 }  // namespace
 
 void PaintSplit(const RenderedFrame& frame, const PixelRays& rays, const IrradianceMesh& mesh,
-                const Srgb8Image& picture, int width, int height, Srgb8Image* out) {
-  const int w = QuarterSide(width), h = QuarterSide(height);
+                const Srgb8Image& picture, Srgb8Image* whole) {
+  const int w = QuarterSide(whole->width), h = QuarterSide(whole->height);
   PENUMBRA_CHECK(frame.width == w && frame.height == h && picture.width == w && picture.height == h);
   Srgb8Image ids, coordinates, depths;
   for (Srgb8Image* image : {&ids, &coordinates, &depths}) {
@@ -67,12 +67,11 @@ void PaintSplit(const RenderedFrame& frame, const PixelRays& rays, const Irradia
     const std::uint8_t grey = GreyCode(nearest > 0 ? inverse[i] / nearest : 0.0);
     SetPixel(&depths, i, {grey, grey, grey});
   }
-  out->Resize(width, height);
-  std::fill(out->pixels.begin(), out->pixels.end(), std::uint8_t{0});
-  Place(ids, 0, 0, out);
-  Place(coordinates, width - w, 0, out);
-  Place(depths, 0, height - h, out);
-  Place(picture, width - w, height - h, out);
+  std::fill(whole->pixels.begin(), whole->pixels.end(), std::uint8_t{0});
+  Place(ids, 0, 0, whole);
+  Place(coordinates, whole->width - w, 0, whole);
+  Place(depths, 0, whole->height - h, whole);
+  Place(picture, whole->width - w, whole->height - h, whole);
 }
 
 }  // namespace penumbra

@@ -11,11 +11,11 @@
 
 namespace penumbra {
 
-// Four quarters of a picture of width x height pixels: triangle ids, each in a colour of its own; barycentric
+// Fills `whole` with four quarters: triangle ids, each in a colour of its own; barycentric
 // coordinates, s red, t green, 1 - s - t blue; depths, the nearest white; and `picture`. The frame and the
-// picture are of the size of a quarter; the frame was drawn of the mesh with these rays.
+// picture are of the size of a quarter of `whole`; the frame was drawn of the mesh with these rays.
 void PaintSplit(const RenderedFrame& frame, const PixelRays& rays, const IrradianceMesh& mesh,
-                const Srgb8Image& picture, int width, int height, Srgb8Image* out);
+                const Srgb8Image& picture, Srgb8Image* whole);
 
 // A side of a quarter.
 inline constexpr int QuarterSide(int side) { return side < 2 ? 1 : side / 2; }

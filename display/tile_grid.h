@@ -1,6 +1,6 @@
 // display/tile_grid.h
 //
-// The tiles of a picture, and the way of values between them and images in rows.
+// The tiles of a picture, and the conversion between tiles and images stored in rows.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace penumbra {
 
 struct TileGrid {
-  int width = 0, height = 0;  // of the picture
+  int width = 0, height = 0;  // of the picture [pixels]
   int across = 0, down = 0;   // tiles
 
   TileGrid() = default;
@@ -24,8 +24,9 @@ struct TileGrid {
   int Y(std::size_t tile) const { return static_cast<int>(tile) / across * kTileSize; }
 };
 
-// Calls body(index in the tile, index in the picture, n) for the parts, n <= 4 pixels in a row, that the
-// first `height` rows of the tile at (x0, y0) and the picture share. So for a row of blocks.
+// Calls body(index in the tile, index in the picture, n) for runs of n <= 4 pixels in a row. Together the
+// runs cover those pixels of the first `height` rows of the tile at (x0, y0) that lie in the picture. Also
+// works for a row of blocks.
 template <class Body>
 void ForEachPart(const TileGrid& grid, int x0, int y0, int height, const Body& body) {
   const int rows = std::min(height, grid.height - y0), columns = std::min(kTileSize, grid.width - x0);
@@ -38,14 +39,16 @@ void ForEachPart(const TileGrid& grid, int x0, int y0, int height, const Body& b
   }
 }
 
-// Calls body(x, y) for the upper left pixels of the rows of blocks of a tile that lie in the picture.
+// Calls body(x, y) with the upper left pixel of each row of blocks of the tile, for rows that lie in the
+// picture.
 template <class Body>
 void ForEachBlockRow(const TileGrid& grid, std::size_t tile, const Body& body) {
   const int end = std::min(grid.Y(tile) + kTileSize, grid.height);
   for (int y = grid.Y(tile); y < end; y += kBlockSize) body(grid.X(tile), y);
 }
 
-// Whole parts, nearly all of them, are copied as one word.
+// Copies n values. The common case n == kBlockSize is separate, so that the compiler can copy them as one
+// word.
 template <class T>
 void CopyPart(const T* from, std::size_t n, T* to) {
   if (n == kBlockSize)

@@ -1,12 +1,12 @@
 // display/tone_mapping.h
 //
-// From linear radiosity to what a screen shows.
+// Converts linear radiosity to a picture for the screen.
 //
-// A pixel's radiosity [W/m^2] is multiplied by the exposure [m^2/W] and cut off at 1; emitters are white and
-// the background is a dark grey, so that unlit surfaces and places where nothing is are told apart. Then the
-// sRGB transfer (IEC 61966-2-1) and rounding to 8 bits, by default with an ordered dither of less than half a
-// code either way: the slow gradients of irradiance would otherwise show as bands. The dither is fixed to the
-// picture's grid, and values that are exact codes (black, white) are not touched by it.
+// A pixel's radiosity [W/m^2] is multiplied by the exposure [m^2/W] and clipped at 1. Emitters are white. The
+// background is dark grey, to distinguish it from unlit surfaces. Then follow the sRGB transfer (IEC
+// 61966-2-1) and rounding to 8 bits, by default with an ordered dither of less than half a code in either
+// direction; without dither the slow gradients of irradiance show as bands. The dither depends on the pixel's
+// position only, and does not change values that are exact codes (black, white).
 
 #pragma once
 
@@ -16,43 +16,44 @@
 
 namespace penumbra {
 
-// What pixels without a surface show, linear.
+// The linear value of background pixels.
 inline constexpr float kBackground = 0.012f;
 
-// The sRGB transfer of a linear value in [0, 1], exact to rounding, and its inverse.
+// The sRGB transfer function for a linear value in [0, 1], exact to rounding, and its inverse.
 double SrgbFromLinear(double linear);
 double LinearFromSrgb(double encoded);
 
 struct ToneMapping {
-  double exposure = 1;  // screen value in [0, 1] per unit of the image, e.g. [m^2/W]
+  double exposure = 1;  // screen value in [0, 1] per unit of the image; for radiosity [m^2/W]
   bool dither = true;   // false: round to the nearest code
 };
 
-// The exposure that brings a bright surface of the picture, kMeteredFraction of all surface pixels in order
-// of their largest channel, to kMeteredValue; emitters and background do not count. 1 if no surface pixel is
-// lit. REQUIRES: kinds.size() == image.PixelCount().
+// The exposure that maps the kMeteredFraction quantile of the surface pixels' largest channels to
+// kMeteredValue. Emitters and background do not count. 1 if no surface pixel is lit. REQUIRES: kinds.size()
+// == image.PixelCount().
 double MeterExposure(const RgbImage& image, std::span<const PixelKind> kinds);
 inline constexpr double kMeteredFraction = 0.97;
 inline constexpr double kMeteredValue = 0.9;
 
-// The image exposed, emitters white, background grey: linear, in [0, 1]. Supersampled pictures are averaged
-// here, between exposure and transfer, so that the edges of lights are smooth: then a pixel is the mean of
-// across x down, and no memory is taken for them. REQUIRES: across > 0 divides width, down > 0 height.
+// The exposed image, linear, in [0, 1], with white emitters and grey background. Each pixel is the mean of a
+// block of across x down pixels of `image`: supersampled pictures are averaged between exposure and transfer,
+// so that the edges of lights are smooth. REQUIRES: across > 0 divides the width, down > 0 divides the
+// height.
 RgbImage Expose(const RgbImage& image, std::span<const PixelKind> kinds, double exposure, int across = 1,
                 int down = 1);
 
-// The dither's 8 x 8 offsets in (0, 1), row by row: what is added to 255 times the encoded value before it is
-// rounded down. Pixel (x, y) takes row y % 8, column x % 8.
+// The 8 x 8 offsets of the dither in (0, 1), row by row. The offset in row y % 8, column x % 8 is added to
+// 255 * (encoded value of pixel (x, y)) before rounding down.
 const float* DitherOffsets();
 
-// An exposed image in 8-bit sRGB.
+// Converts an exposed image to 8-bit sRGB.
 void EncodeSrgb(const RgbImage& exposed, bool dither, Srgb8Image* out);
 
-// A screen with k x k pixels in the place of each, averaged in linear light. REQUIRES: k > 0 divides width
-// and height.
+// A picture in which each pixel is the mean of k x k pixels of `screen`, in linear light. REQUIRES: k > 0
+// divides width and height.
 Srgb8Image ShrinkScreen(const Srgb8Image& screen, int k);
 
-// Expose and EncodeSrgb in one go, reusing the memory of `out`.
+// Expose() and EncodeSrgb() in one pass; reuses the memory of `out`.
 void ToneMap(const RgbImage& image, std::span<const PixelKind> kinds, const ToneMapping& settings,
              Srgb8Image* out);
 

@@ -1,7 +1,7 @@
 // display/two_pass_display.h
 //
-// The online half (thesis 3.4): at every pixel the visible triangle, its barycentric coordinates there, and
-// the radiosity, interpolant x reflectance + emittance.
+// The online half (thesis 3.4). At every pixel it finds the visible triangle and the barycentric coordinates,
+// and evaluates the radiosity: interpolant * reflectance + emittance.
 
 #pragma once
 
@@ -20,11 +20,12 @@ namespace penumbra {
 
 enum class ShadingMode {
   kRadiosity,    // [W/m^2], emittance included
-  kReflectance,  // [1], emitters like any surface
+  kReflectance,  // [1]; emitters are treated as surfaces
 };
 
-// What the last frame took, milliseconds of wall clock. Where all is done tile by tile, each gets the part of
-// the frame that the threads spent in it, measured in some of the rows of blocks.
+// The times of the last frame, in milliseconds of wall clock. If a frame is drawn tile by tile, the time of
+// the frame is divided among the steps in proportion to the time that threads spend in each, measured for
+// some rows of blocks.
 struct FrameTimes {
   double triangle_ids = 0, barycentric = 0, evaluate = 0, tone_map = 0;
 
@@ -45,37 +46,37 @@ struct FrameTimes {
   }
 };
 
-// A picture with everything that was found on the way to it; arrays hold width * height values, rows from the
-// top.
+// A picture with its intermediate results. Arrays have width * height values, rows from the top.
 struct RenderedFrame {
   int width = 0, height = 0;
   std::vector<std::uint32_t> triangle;  // index in IrradianceMesh::triangles, or kNoTriangle
-  std::vector<float> s, t;              // barycentric coordinates in it; unspecified where there is none
-  RgbImage linear;                      // radiosity or reflectance, unexposed; 0 where there is no triangle
-  std::vector<PixelKind> kind;          // emitters count as such in kRadiosity only
-  Srgb8Image screen;                    // what ToneMap made of it
+  std::vector<float> s, t;              // barycentric coordinates; unspecified without a triangle
+  RgbImage linear;                      // radiosity or reflectance, unexposed; 0 without a triangle
+  std::vector<PixelKind> kind;          // kEmitter occurs in mode kRadiosity only
+  Srgb8Image screen;                    // result of ToneMap()
   FrameTimes ms;
 };
 
-// Draws an irradiance mesh from any camera. Memory is taken with the first frame of a size and kept.
+// Draws an irradiance mesh for any camera. Memory is allocated for the first frame of a size and reused.
 class TwoPassDisplay {
  public:
-  // Takes what it needs from both; neither is referred to afterwards. The passes are the rasteriser's.
-  // REQUIRES: a triangle and an interpolant each, patches of the scene.
+  // Copies what it needs from scene and mesh. The rasteriser draws the passes. REQUIRES: the mesh has an
+  // interpolant for each triangle, and its patches are patches of the scene.
   TwoPassDisplay(const Scene& scene, const IrradianceMesh& mesh);
-  // With passes that somebody else draws. REQUIRES: they draw the mesh's triangles.
+  // Uses the given passes. REQUIRES: they draw the triangles of the mesh.
   TwoPassDisplay(const Scene& scene, const IrradianceMesh& mesh, std::unique_ptr<Passes> passes);
 
-  // Fills everything of the frame but `screen`. The same bytes for every number of threads.
-  // Throws InputError if the camera cannot see (ValidateCamera).
+  // Computes all of the frame except `screen`. The bytes do not depend on the number of threads. Throws
+  // InputError for an invalid camera (ValidateCamera).
   const RenderedFrame& Render(const Camera& camera, int width, int height,
                               ShadingMode mode = ShadingMode::kRadiosity);
 
-  // Fills `screen` from the last Render.
+  // Computes `screen` from the last Render().
   const RenderedFrame& ToneMap(const ToneMapping& settings);
 
-  // What Render() and then ToneMap() would leave in `screen`, the same bytes, and nothing but that: each tile
-  // goes from the triangles to the screen while it is in the caches. For frames that nobody asks about.
+  // Computes only `screen`, with the same bytes as Render() and ToneMap(). Each tile is processed from
+  // triangles to screen while its data are in the caches. For frames whose intermediate results are not
+  // needed.
   const RenderedFrame& RenderScreen(const Camera& camera, int width, int height, ShadingMode mode,
                                     const ToneMapping& settings);
 
@@ -89,16 +90,16 @@ class TwoPassDisplay {
                  const Finish& finish);
 
   std::unique_ptr<Passes> passes_;
-  Rasteriser* rasteriser_;                  // passes_, if they can draw tile by tile; else null
+  Rasteriser* rasteriser_;                  // passes_ if they can draw tile by tile, else null
   std::vector<TriangleShade> radiosity_;    // per triangle
-  std::vector<TriangleShade> screen_;       // the same, emitters brighter than any screen
+  std::vector<TriangleShade> screen_;       // the same, with emitters above any white
   std::vector<TriangleShade> reflectance_;  // per triangle: constants that evaluate to the reflectance
   std::vector<PixelKind> kind_;             // per triangle
   std::vector<FrameTimes> tile_times_;
   RenderedFrame frame_;
 };
 
-// The rasteriser of a mesh's triangles.
+// A rasteriser for the triangles of a mesh.
 std::unique_ptr<Passes> SoftwarePasses(const IrradianceMesh& mesh);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // display/unit_vectors.h
 //
-// Unit vectors to the last digit. glm::normalize() multiplies by the inverse of the length, which rounds once
-// more, and it divides by zero.
+// Unit vectors. glm::normalize() multiplies by the inverse of the length, which rounds once more than a
+// division does, and it returns NaN for a zero vector.
 
 #pragma once
 
@@ -18,7 +18,7 @@ inline glm::dvec3 Normalized(const glm::dvec3& v) {
   return length > 0 ? v / length : v;
 }
 
-// The same for vectors whose length squared is beyond binary64, or below it.
+// The same, also for vectors whose squared length overflows or underflows.
 inline glm::dvec3 StableNormalized(const glm::dvec3& v) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   const glm::dvec3 scaled = v / largest;

@@ -1,10 +1,10 @@
 // display/vector_kernels.h
 //
-// The inner loops of the display over a tile of the picture, compiled for several instruction sets of which
-// the machine's best is chosen at run time. Element by element they do the same IEEE operations whatever the
-// vector width, so all of them give the same bytes.
+// The inner loops of the display over a tile of the picture, compiled for several instruction sets. The
+// program selects the best set at run time. All vector widths perform the same IEEE operations on each
+// element and give the same bytes.
 //
-// A tile's values lie block by block, 4 x 4 pixels together: a block is one vector, and most blocks show a
+// The values of a tile are stored in blocks of 4 x 4 pixels. A block fits one vector, and most blocks show a
 // single triangle.
 
 #pragma once
@@ -24,8 +24,8 @@ inline constexpr int kBlockPixels = kBlockSize * kBlockSize;
 inline constexpr int kBlocksAcross = kTileSize / kBlockSize;
 inline constexpr int kRowPixels = kBlocksAcross * kBlockPixels;  // of a row of blocks
 
-// Where the four pixels of a tile, or of a row of its blocks, that begin at column x, a multiple of 4, and
-// row y lie in its arrays.
+// The index, in the arrays of a tile or of a row of its blocks, of the four pixels that begin at column x, a
+// multiple of 4, in row y.
 inline constexpr int TileIndex(int x, int y) {
   return (y / kBlockSize * kBlocksAcross + x / kBlockSize) * kBlockPixels + y % kBlockSize * kBlockSize;
 }
@@ -38,8 +38,8 @@ struct Plane {
   Plane Scaled(double k) const { return {x * k, y * k, c * k}; }
 };
 
-// A triangle as one tile of the screen sees it. Values are affine in the column i and the row j of a pixel in
-// its tile: value = c + i x + j y.
+// A triangle in the coordinates of one tile. An affine function has the value c + i x + j y at the pixel in
+// column i and row j of the tile.
 struct TileTriangle {
   struct Affine {
     float x, y, c;
@@ -48,103 +48,105 @@ struct TileTriangle {
   Affine inverse_z;  // 1 / depth [1/m]
   float max_inverse_z;
   std::uint32_t id;
-  int column_begin, column_end, row_begin, row_end;  // its bounds in the tile
+  int column_begin, column_end, row_begin, row_end;  // bounds in the tile
 };
 
-// Where a pixel centre lies outside a triangle, yet by less than this [pixels], the triangle is drawn all the
-// same, a little deeper. This closes what rounding opens: T-vertices between patches, and vertices that lie
-// exactly in a pixel's centre. It is far above the rounding of the edge functions in a tile (below 2^-16) and
-// far below what can be seen.
+// A triangle also covers pixels whose centres lie outside of it by less than this distance [pixels]; these
+// are drawn slightly deeper. The fringe closes gaps that rounding causes, at T-vertices between patches and
+// at vertices that lie exactly in the centre of a pixel. The width of the fringe is far larger than the
+// rounding of the edge functions in a tile (below 2^-16), and far too small to be visible.
 inline constexpr float kFringe = 0x1p-10f;
 
-// What the display knows about a triangle's light, each value for red, green and blue.
+// The light of a triangle, for red, green and blue.
 struct TriangleShade {
-  float a[3], b2[3], c2[3], d[3], e2[3], f[3];  // the irradiance interpolant, QuadraticInterpolant [W/m^2]
+  float a[3], b2[3], c2[3], d[3], e2[3], f[3];  // coefficients of the QuadraticInterpolant [W/m^2]
   float reflectance[3];
   float emittance[3];  // [W/m^2]
 };
 
-// A tile whose triangles are being found.
+// A tile during pass one.
 struct Tile {
   int x = 0, y = 0;  // its upper left pixel in the picture
   alignas(64) std::uint32_t ids[kTilePixels];
-  alignas(64) float inverse_z[kTilePixels];  // 1 / depth, 0 where there is nothing
+  alignas(64) float inverse_z[kTilePixels];  // 1 / depth; 0 without a triangle
 };
 
-// The pixels of a block that show one triangle.
+// A triangle that is visible in a block of 4 x 4 pixels.
 struct BlockRun {
   std::uint32_t id;
   std::uint16_t block;
 };
 
-// A row of a tile's blocks on its way from the triangles to the screen: what a processor's first cache holds.
+// A row of a tile's blocks during pass two and tone mapping, of a size that fits the first-level cache.
 struct BlockRow {
   int x = 0, y = 0;  // its upper left pixel in the picture
   alignas(64) std::uint32_t ids[kRowPixels];
   alignas(64) float s[kRowPixels], t[kRowPixels];
   alignas(64) float rgb[3][kRowPixels];
-  alignas(64) std::uint32_t screen[kRowPixels];  // a pixel's codes: red + 2^8 green + 2^16 blue
+  alignas(64) std::uint32_t screen[kRowPixels];  // codes: red + 2^8 green + 2^16 blue
   int run_count = 0;
   BlockRun runs[kRowPixels];
 };
 
-// Nothing in the whole tile yet.
+// Marks all pixels of the tile as empty.
 void ClearTile(Tile* tile);
 
-// Draws the triangle into `inverse_z` and `ids`. A nearer triangle wins; of equally near ones the lower id:
-// the order does not matter.
+// Draws the triangle into `inverse_z` and `ids`. The nearest triangle wins, and of equally near ones the one
+// with the lowest id, so that the order of drawing does not matter.
 void DrawTileTriangle(const TileTriangle& triangle, Tile* tile);
 
-// Parts of a tile that know how far the farthest of their pixels is: what lies behind it all is not drawn.
+// Regions of a tile that store the depth of their farthest pixel. Triangles that lie behind the farthest
+// pixels of all regions that they could cover are not drawn.
 inline constexpr int kRegionSize = 16;  // pixels a side
 inline constexpr int kRegionsAcross = kTileSize / kRegionSize;
 using RegionDepths = std::array<float, kRegionsAcross * kRegionsAcross>;
 
-// The least `inverse_z` of each region.
+// Sets `farthest` to the smallest `inverse_z` of each region.
 void FindFarthest(const Tile& tile, RegionDepths* farthest);
 
-// Collects `runs` from `ids`.
+// Computes `runs` from `ids`.
 void FindRuns(BlockRow* row);
 
-// (s, t), the coordinates of vertices 1 and 2, inside the triangle in spite of rounding, where there is one.
-// planes[3 id + k] is proportional to the coordinate of vertex k. REQUIRES: FindRuns; the planes' values are
-// floats anywhere in the picture.
+// Computes (s, t), the barycentric coordinates for vertices 1 and 2, clamped to the triangle, for pixels with
+// a triangle. planes[3 id + k] is proportional to the coordinate of vertex k. REQUIRES: FindRuns() was
+// called; the values of the planes are in the range of floats everywhere in the picture.
 void FillBarycentrics(const Plane* planes, BlockRow* row);
 
-// rgb = max(irradiance(s, t), 0) x reflectance + emittance [W/m^2], and `background` where there is no
-// triangle. Irradiance is clamped since a quadratic through nonnegative samples may dip below 0 between them.
-// REQUIRES: FindRuns; s and t.
+// Computes rgb = max(irradiance(s, t), 0) * reflectance + emittance [W/m^2], and `background` for pixels
+// without a triangle. Irradiance is clamped because a quadratic through nonnegative samples may be negative
+// between them. REQUIRES: FindRuns() was called, and s and t are set.
 void EvaluateRadiosity(const TriangleShade* shades, float background, BlockRow* row);
 
-// The transfer of a linear value in [0, 1] to 8 bits. Dithered: 255 times the encoded value, an offset in
-// (0, 1) added, is within 1e-3 of the exact one before it is rounded down. Else: the nearest code, exactly.
+// The transfer of a linear value in [0, 1] to 8 bits. With dither: 255 * (encoded value) + offset, with an
+// offset in (0, 1), is computed to 1e-3 and rounded down. Without dither: the nearest code, exactly.
 struct ScreenTransfer {
-  // `dither`: 64 offsets, rows of 8; null: round to the nearest code.
+  // `dither`: 64 offsets in rows of 8, or null for the nearest code.
   ScreenTransfer(float exposure, float background, const float* dither);
 
-  float exposure;    // factor of the values, which are cut off at 1 afterwards
-  float background;  // what shows, linear, where a value is negative
+  float exposure;    // factor of the values, which are then clipped at 1
+  float background;  // linear value shown for negative values
   bool dithered;
-  // Of the pixels of two blocks side by side, in even rows of blocks and in odd ones: there the dither
-  // repeats.
+  // The offsets of two neighbouring blocks, in even and in odd rows of blocks: the dither repeats every 8 x 8
+  // pixels.
   alignas(64) float offset[2][2 * kBlockPixels] = {};
 };
 
-// `screen` from `rgb`.
+// Computes `screen` from `rgb`.
 void FillScreen(const ScreenTransfer& transfer, BlockRow* row);
 
-// min(max(exposure x value, 0), 1) of n values; emitters become 1, background `background`.
+// Computes min(max(exposure * value, 0), 1) for n values. Emitters become 1, background pixels `background`.
 void ExposeRow(const float* value, const PixelKind* kind, float exposure, float background, std::size_t n,
                float* exposed);
 
-// The codes of n exposed pixels of a row, as in Tile::screen. `dither`: 8 offsets in (0, 1), or null.
+// Computes the codes of n exposed pixels of a row, in the format of BlockRow::screen. `dither`: 8 offsets in
+// (0, 1), or null for the nearest codes.
 void EncodeRow(const float* red, const float* green, const float* blue, std::size_t n, const float* dither,
                std::uint32_t* codes);
 
-// Three bytes a pixel from n codes.
+// Converts n codes to three bytes per pixel.
 void PackRow(const std::uint32_t* codes, std::size_t n, std::uint8_t* bytes);
 
-// The same of the first n of row y of `screen`.
+// Converts the first n codes in pixel row y of row.screen to three bytes per pixel.
 void PackScreen(const BlockRow& row, int y, std::size_t n, std::uint8_t* bytes);
 
 }  // namespace penumbra

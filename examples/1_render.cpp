@@ -7,7 +7,7 @@
 #include <string>
 
 #include "display/camera.h"
-#include "display/image_io.h"
+#include "display/png_image.h"
 #include "display/tone_mapping.h"
 #include "display/two_pass_display.h"
 #include "mesh/pipeline/pipeline.h"
@@ -32,7 +32,8 @@ int main(int argc, char** argv) try {
   pipeline.Solve(context);
 
   // 4. Make the mesh that is shown: triangles cut along the edges of shadows, with a quadratic function for
-  //    the irradiance over each of them.
+  //    the irradiance over each of them. Before that, a first mesh refines the light.
+  pipeline.RefineLight(context);
   pipeline.BuildMesh(MeshKind::kInterpolant, context);
   fmt::print("{} links, {} triangles\n", pipeline.report().counts.links, pipeline.mesh().triangles.size());
 

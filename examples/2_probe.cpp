@@ -28,6 +28,7 @@ int main() try {
   options.error = 0.05;
   Pipeline pipeline(scene, options);
   pipeline.Solve(context);
+  pipeline.RefineLight(context);
   pipeline.BuildMesh(MeshKind::kInterpolant, context);
 
   // 2. Ask for irradiance on a surface. Patch 0 is the plane z = 0, for it is the first face of the scene.

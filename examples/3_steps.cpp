@@ -60,7 +60,8 @@ int main(int argc, char** argv) try {
   PrintRow(pipeline, "correct");
 
   // 4. Build the mesh: find the lines where shadows begin and end, triangulate, and fit the interpolants.
-  //    They refine the light once more, until the error that was asked for is met.
+  //    Before that, a first mesh refines the light, until the error that was asked for is met.
+  pipeline.RefineLight(context);
   pipeline.BuildMesh(MeshKind::kInterpolant, context);
   PrintRow(pipeline, "build mesh");
   const PipelineReport::Counts& counts = pipeline.report().counts;

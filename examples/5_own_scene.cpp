@@ -8,7 +8,7 @@
 #include <array>
 #include <string>
 
-#include "display/image_io.h"
+#include "display/png_image.h"
 #include "display/tone_mapping.h"
 #include "display/two_pass_display.h"
 #include "mesh/pipeline/pipeline.h"
@@ -90,6 +90,7 @@ int main(int argc, char** argv) try {
   options.error = 0.1;
   Pipeline pipeline(scene, options);
   pipeline.Solve(context);
+  pipeline.RefineLight(context);
   pipeline.BuildMesh(MeshKind::kInterpolant, context);
   pipeline.Diagnose(context);
   const EnergyBalance& energy = pipeline.report().energy;

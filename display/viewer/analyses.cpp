@@ -1,6 +1,7 @@
 #include "display/viewer/analyses.h"
 
 #include "display/viewer/mesh_tools.h"
+#include "display/viewer/overlays.h"
 
 namespace penumbra::viewer {
 
@@ -18,7 +19,7 @@ Analyses::Analyses()
           const auto top = static_cast<ElementId>(key.selection.index);
           triangles = TrianglesOf(*key.light, key.mesh->mesh(), {&top, 1});
         }
-        return MakeGraph(*key.light, key.mesh->mesh(), triangles, key.density, key.dynamic, key.exact,
+        return MakeGraph(*key.light, key.mesh->mesh(), triangles, {key.density, key.dynamic, key.exact},
                          context);
       }),
       error_map_([](const MeshKey& key, const ExecutionContext& context) {
@@ -36,13 +37,13 @@ AnalysisResults Analyses::Update(const Snapshot& snapshot, const std::shared_ptr
   AnalysisResults results;
   if (!snapshot.light) return results;
   const OverlaySettings& overlays = view.overlays;
-  if (overlays.discontinuities || view.selection.kind == SelectionKind::kDiscontinuity)
+  const OverlayNeeds needs = NeedsOf(overlays);
+  if (needs.discontinuities || view.selection.kind == SelectionKind::kDiscontinuity)
     results.discontinuities = discontinuities_.Get(snapshot.light);
-  const bool graphs = overlays.analytic_graph || overlays.interpolated_graph || overlays.error_graph;
-  if (graphs &&
+  if (needs.graph &&
       (view.selection.kind == SelectionKind::kElement || view.selection.kind == SelectionKind::kTriangle))
     results.graph = graph_.Get({snapshot.light, tools, view.selection, overlays.grid_density,
-                                overlays.dynamic_grid, overlays.analytic_graph || overlays.error_graph});
+                                overlays.dynamic_grid, needs.exact_graph});
   const std::shared_ptr<const MeshState>& interpolants = snapshot.Mesh(MeshKind::kInterpolant);
   if (view.error_map && interpolants) results.error_map = error_map_.Get({snapshot.light, interpolants});
   if (view.probe) results.probe = probe_.Get({snapshot.light, interpolants, *view.probe});

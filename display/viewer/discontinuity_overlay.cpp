@@ -1,14 +1,16 @@
-// All potential discontinuities, violet (thesis B.4.4).
-
-#include "display/viewer/overlay.h"
+#include "display/viewer/discontinuity_overlay.h"
 
 namespace penumbra::viewer {
 namespace {
 
 class DiscontinuityOverlay final : public Overlay {
  public:
+  std::vector<OverlaySwitch> Switches() const override {
+    return {{"discontinuities", "All discontinuities", "Discontinuities", "x", {.discontinuities = true}}};
+  }
+  int Layer() const override { return 2; }
   void Draw(const OverlayContext& context, OverlayDrawing* drawing) const override {
-    if (!context.settings.discontinuities || !context.results.discontinuities) return;
+    if (!context.settings.Shows("discontinuities") || !context.results.discontinuities) return;
     if (context.Isolates(SelectionKind::kDiscontinuity)) return;  // the selection draws it
     const DiscontinuityList& list = *context.results.discontinuities;
     const bool one = context.selection.kind == SelectionKind::kElement && context.snapshot.light;
@@ -25,6 +27,10 @@ class DiscontinuityOverlay final : public Overlay {
 
 }  // namespace
 
-std::unique_ptr<Overlay> MakeDiscontinuityOverlay() { return std::make_unique<DiscontinuityOverlay>(); }
+OverlayRegistry::Method DiscontinuityOverlayMethod() {
+  return {"discontinuities", "all potential discontinuities", {}, [] {
+            return std::make_unique<const DiscontinuityOverlay>();
+          }};
+}
 
 }  // namespace penumbra::viewer

@@ -1,15 +1,41 @@
-// The elements of the global solution, down to a level (thesis B.4.2).
+#include "display/viewer/element_mesh_overlay.h"
 
+#include <algorithm>
+
+#include "display/viewer/menu.h"
 #include "display/viewer/mesh_tools.h"
-#include "display/viewer/overlay.h"
+#include "display/viewer/settings.h"
 
 namespace penumbra::viewer {
 namespace {
 
+// One level less deep than all is no deeper than this: deeper elements are too small to be seen.
+constexpr int kDeepestSeen = 8;
+
 class ElementMeshOverlay final : public Overlay {
  public:
+  std::vector<OverlaySwitch> Switches() const override {
+    return {{"element-mesh", "Element mesh", "Element mesh", "m", {}}};
+  }
+  void AddSettings(OverlaySettings* values, Settings* settings) const override {
+    settings->Integer("mesh-depth", Group(), "Mesh depth", &values->mesh_depth, 0, kMaxLevel);
+  }
+  void AddMenuItems(OverlaySettings* values, Menu* menu) const override {
+    int& depth = values->mesh_depth;
+    menu->Add({"Visualisation/Mesh one level deeper",
+               ".",
+               "Mesh depth",
+               [&depth] { depth = std::min(depth + 1, kMaxLevel); },
+               {}});
+    menu->Add({"Visualisation/Mesh one level less deep",
+               ",",
+               "Mesh depth",
+               [&depth] { depth = std::max(std::min(depth, kDeepestSeen) - 1, 0); },
+               {}});
+  }
+  int Layer() const override { return 0; }
   void Draw(const OverlayContext& context, OverlayDrawing* drawing) const override {
-    if (!context.settings.element_mesh) return;
+    if (!context.settings.Shows("element-mesh")) return;
     if (!context.snapshot.light) {
       for (const Patch& patch : context.snapshot.scene->patches)
         drawing->Outline(patch.Vertices(), colour::kGrey);
@@ -31,6 +57,10 @@ class ElementMeshOverlay final : public Overlay {
 
 }  // namespace
 
-std::unique_ptr<Overlay> MakeElementMeshOverlay() { return std::make_unique<ElementMeshOverlay>(); }
+OverlayRegistry::Method ElementMeshOverlayMethod() {
+  return {"element-mesh", "the elements of the solution, down to a level", {"mesh-depth"}, [] {
+            return std::make_unique<const ElementMeshOverlay>();
+          }};
+}
 
 }  // namespace penumbra::viewer

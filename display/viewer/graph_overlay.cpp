@@ -1,19 +1,37 @@
-// Graphs of the irradiance over triangles: analytic white, interpolated blue, their difference red (thesis
-// B.4.7); and the samples of the interpolants, yellow (B.4.8).
+#include "display/viewer/graph_overlay.h"
 
+#include "display/viewer/menu.h"
 #include "display/viewer/mesh_tools.h"
-#include "display/viewer/overlay.h"
+#include "display/viewer/settings.h"
 
 namespace penumbra::viewer {
 namespace {
 
-Vec3 NormalOf(const OverlayContext& context, std::uint32_t triangle) {
-  const PatchId patch = context.mesh.mesh().triangles[triangle].patch;
-  return context.snapshot.scene->patches[static_cast<std::size_t>(patch)].normal;
-}
+constexpr const char *kAnalytic = "analytic-graph", *kInterpolated = "interpolated-graph",
+                     *kError = "error-graph", *kDynamicGridHelp = "Dynamic grid density";
 
 class GraphOverlay final : public Overlay {
  public:
+  std::string Group() const override { return "Graphs"; }
+  std::vector<OverlaySwitch> Switches() const override {
+    const OverlayNeeds shown{.triangles = true, .graph = true},
+        exact{.triangles = true, .graph = true, .exact_graph = true};
+    return {{kAnalytic, "Analytic irradiance", "Analytic irradiance", "g", exact},
+            {kInterpolated, "Interpolated irradiance", "Interpolated irradiance", "b", shown},
+            {kError, "Error surface", "Error surface", "j", exact}};
+  }
+  void AddSettings(OverlaySettings* values, Settings* settings) const override {
+    settings->Number("graph-scale", Group(), "Graph height scale [m per W/m^2]", &values->graph_scale, 1e-9,
+                     1e6, true);
+    settings->Integer("grid-density", Group(), "Grid density", &values->grid_density, 1, 200);
+    settings->Toggle("dynamic-grid", Group(), kDynamicGridHelp, &values->dynamic_grid);
+  }
+  void AddMenuItems(OverlaySettings* values, Menu* menu) const override {
+    bool& dynamic = values->dynamic_grid;
+    menu->Add({"Visualisation/Dynamic grid density", "", kDynamicGridHelp, [&dynamic] { dynamic = !dynamic; },
+               [&dynamic] { return dynamic; }});
+  }
+  int Layer() const override { return 5; }
   void Draw(const OverlayContext& context, OverlayDrawing* drawing) const override {
     const OverlaySettings& settings = context.settings;
     if (!context.results.graph) return;
@@ -22,10 +40,10 @@ class GraphOverlay final : public Overlay {
         return context.mesh.mesh().irradiance[sheet.triangle].At(s, t).max(0.0).mean();
       };
       const auto exact = [&](std::size_t k, double, double) { return sheet.exact[k].mean(); };
-      if (settings.interpolated_graph) DrawSheet(context, sheet, shown, colour::kBlue, drawing);
+      if (settings.Shows(kInterpolated)) DrawSheet(context, sheet, shown, colour::kBlue, drawing);
       if (sheet.exact.empty()) continue;
-      if (settings.analytic_graph) DrawSheet(context, sheet, exact, colour::kWhite, drawing);
-      if (settings.error_graph)
+      if (settings.Shows(kAnalytic)) DrawSheet(context, sheet, exact, colour::kWhite, drawing);
+      if (settings.Shows(kError))
         DrawSheet(
             context, sheet,
             [&](std::size_t k, double s, double t) { return shown(k, s, t) - exact(k, s, t); }, colour::kRed,
@@ -38,7 +56,8 @@ class GraphOverlay final : public Overlay {
   template <class Height>
   static void DrawSheet(const OverlayContext& context, const GraphSheet& sheet, const Height& height,
                         Colour shown, OverlayDrawing* drawing) {
-    const Vec3 up = context.settings.graph_scale * NormalOf(context, sheet.triangle);
+    const Vec3 up =
+        context.settings.graph_scale * NormalOf(*context.snapshot.scene, context.mesh.mesh(), sheet.triangle);
     const int n = sheet.cells;
     std::vector<Vec3> node;
     for (int j = 0; j <= n; ++j)
@@ -60,42 +79,13 @@ class GraphOverlay final : public Overlay {
   }
 };
 
-class SamplePointOverlay final : public Overlay {
- public:
-  void Draw(const OverlayContext& context, OverlayDrawing* drawing) const override {
-    if (!context.settings.sample_points) return;
-    const IrradianceMesh& mesh = context.mesh.mesh();
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-      if (!Selected(context, i)) continue;
-      const Vec3 up = context.settings.graph_scale * NormalOf(context, i);
-      for (const auto& [s, t] : kSampleAt) {
-        const Vec3 at = PointInTriangle(mesh, i, s, t);
-        drawing->points.push_back({at, colour::kYellow, 2.0F});
-        // Values as heights only over what is selected: elsewhere they would be a forest.
-        if (!context.selection) continue;
-        const Vec3 top = at + mesh.irradiance[i].At(s, t).max(0.0).mean() * up;
-        drawing->Line(at, top, colour::kYellow, 1.0F);
-        drawing->points.push_back({top, colour::kYellow, 3.0F});
-      }
-    }
-  }
-
- private:
-  static bool Selected(const OverlayContext& context, std::uint32_t triangle) {
-    const Selection& selection = context.selection;
-    if (selection.kind == SelectionKind::kTriangle)
-      return selection.index == static_cast<std::int64_t>(triangle);
-    if (selection.kind != SelectionKind::kElement || !context.snapshot.light) return true;
-    const LightState& light = *context.snapshot.light;
-    const auto top = static_cast<ElementId>(selection.index);
-    return context.mesh.mesh().triangles[triangle].patch == light.solution().forest[top].patch &&
-           IsBelow(light.solution().forest, LeafOf(light, context.mesh.mesh(), triangle), top);
-  }
-};
-
 }  // namespace
 
-std::unique_ptr<Overlay> MakeGraphOverlay() { return std::make_unique<GraphOverlay>(); }
-std::unique_ptr<Overlay> MakeSamplePointOverlay() { return std::make_unique<SamplePointOverlay>(); }
+OverlayRegistry::Method GraphOverlayMethod() {
+  return {"graphs",
+          "graphs of the irradiance over what is selected",
+          {"graph-scale", "grid-density", "dynamic-grid"},
+          [] { return std::make_unique<const GraphOverlay>(); }};
+}
 
 }  // namespace penumbra::viewer

@@ -9,7 +9,7 @@
 namespace penumbra::viewer {
 
 IrradianceGraph MakeGraph(const LightState& light, const IrradianceMesh& mesh,
-                          std::span<const std::uint32_t> triangles, int density, bool dynamic, bool exact,
+                          std::span<const std::uint32_t> triangles, const GraphOptions& options,
                           const ExecutionContext& context) {
   const ElementForest& forest = light.solution().forest;
   IrradianceGraph graph(triangles.size());
@@ -17,13 +17,14 @@ IrradianceGraph MakeGraph(const LightState& light, const IrradianceMesh& mesh,
     if (context.Cancelled()) return;
     GraphSheet& sheet = graph[k];
     sheet.triangle = triangles[k];
-    sheet.cells = density;
-    if (dynamic) {
+    sheet.cells = options.density;
+    if (options.dynamic) {
       const double share =
           TriangleArea(mesh, sheet.triangle) / forest[LeafOf(light, mesh, sheet.triangle)].area;
-      sheet.cells = std::max(1, static_cast<int>(std::lround(density * std::sqrt(std::min(share, 1.0)))));
+      sheet.cells =
+          std::max(1, static_cast<int>(std::lround(options.density * std::sqrt(std::min(share, 1.0)))));
     }
-    if (!exact) return;
+    if (!options.exact) return;
     sheet.exact.reserve(GraphSheet::Size(sheet.cells));
     for (int j = 0; j <= sheet.cells; ++j)
       for (int i = 0; i <= sheet.cells - j; ++i)

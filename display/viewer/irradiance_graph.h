@@ -27,10 +27,15 @@ struct GraphSheet {
 };
 using IrradianceGraph = std::vector<GraphSheet>;
 
-// Sheets over triangles. With a dynamic grid the number of cells follows the share of its leaf that a
-// triangle fills. Exact values cost time.
+struct GraphOptions {
+  int density = 1;       // cells along each side of a triangle, at most
+  bool dynamic = false;  // fewer where the triangle fills little of its leaf
+  bool exact = false;    // with exact values, which cost time
+};
+
+// Sheets over triangles.
 IrradianceGraph MakeGraph(const LightState& light, const IrradianceMesh& mesh,
-                          std::span<const std::uint32_t> triangles, int density, bool dynamic, bool exact,
+                          std::span<const std::uint32_t> triangles, const GraphOptions& options,
                           const ExecutionContext& context);
 
 }  // namespace penumbra::viewer

@@ -1,16 +1,33 @@
-// Links as arrows from source to receiver, coloured by class (thesis B.4.3).
+#include "display/viewer/link_overlay.h"
+
+#include <algorithm>
 
 #include "display/viewer/links.h"
-#include "display/viewer/overlay.h"
+#include "display/viewer/settings.h"
 
 namespace penumbra::viewer {
 namespace {
 
 class LinkOverlay final : public Overlay {
  public:
+  std::string Group() const override { return "Links"; }
+  std::vector<OverlaySwitch> Switches() const override {
+    return {{SwitchOf(LinkClass::kVisible), "Visible links", "Visible links", "l", {}},
+            {SwitchOf(LinkClass::kSplit), "Links split by a plane", "Links split by a plane", "k", {}},
+            {SwitchOf(LinkClass::kPartial), "Partial links", "Partial links", "p", {}}};
+  }
+  void AddSettings(OverlaySettings* values, Settings* settings) const override {
+    settings->Number("link-min-irradiance", Group(), "At least [W/m^2]", &values->link_min_irradiance, 0,
+                     1e12, false);
+    settings->Integer("link-limit", Group(), "The strongest", &values->link_limit, 0, 1'000'000);
+  }
+  int Layer() const override { return 3; }
   void Draw(const OverlayContext& context, OverlayDrawing* drawing) const override {
     const OverlaySettings& settings = context.settings;
-    if (!settings.visible_links && !settings.split_links && !settings.partial_links) return;
+    const std::vector<OverlaySwitch> switches = Switches();
+    if (std::none_of(switches.begin(), switches.end(),
+                     [&](const OverlaySwitch& part) { return settings.Shows(part.name); }))
+      return;
     if (!context.snapshot.light) return;
     // The selection draws the one that is left.
     if (context.Isolates(SelectionKind::kLink) || context.Isolates(SelectionKind::kTube)) return;
@@ -28,6 +45,11 @@ class LinkOverlay final : public Overlay {
 
 }  // namespace
 
-std::unique_ptr<Overlay> MakeLinkOverlay() { return std::make_unique<LinkOverlay>(); }
+OverlayRegistry::Method LinkOverlayMethod() {
+  return {"links",
+          "links as arrows from source to receiver, coloured by class",
+          {"link-min-irradiance", "link-limit"},
+          [] { return std::make_unique<const LinkOverlay>(); }};
+}
 
 }  // namespace penumbra::viewer

@@ -1,6 +1,7 @@
 #include "display/viewer/links.h"
 
 #include <algorithm>
+#include <array>
 
 #include "display/viewer/mesh_tools.h"
 
@@ -53,6 +54,18 @@ const char* NameOf(LinkClass link_class) {
   return "partial";
 }
 
+std::string SwitchOf(LinkClass link_class) {
+  switch (link_class) {
+    case LinkClass::kVisible:
+      return "visible-links";
+    case LinkClass::kSplit:
+      return "split-links";
+    case LinkClass::kPartial:
+      break;
+  }
+  return "partial-links";
+}
+
 double LinkIrradiance(const RadiositySolution& solution, const Link& link) {
   return link.form_factor * solution.radiosity[static_cast<std::size_t>(link.source)].maxCoeff();
 }
@@ -62,6 +75,9 @@ std::vector<std::uint32_t> ShownLinks(const RadiositySolution& solution, const O
   const ElementForest& forest = solution.forest;
   const std::vector<Link>& links = solution.links.links;
   std::vector<std::pair<double, std::uint32_t>> shown;
+  std::array<bool, 3> class_shown;
+  for (const LinkClass link_class : {LinkClass::kVisible, LinkClass::kSplit, LinkClass::kPartial})
+    class_shown[static_cast<std::size_t>(link_class)] = settings.Shows(SwitchOf(link_class));
   const auto touches = [&](ElementId element, ElementId top) {
     return IsBelow(forest, element, top) || IsBelow(forest, top, element);
   };
@@ -73,11 +89,7 @@ std::vector<std::uint32_t> ShownLinks(const RadiositySolution& solution, const O
     }
     const double strength = LinkIrradiance(solution, link);
     if (strength < settings.link_min_irradiance) continue;
-    const LinkClass link_class = ClassOf(solution, link);
-    if ((link_class == LinkClass::kVisible && !settings.visible_links) ||
-        (link_class == LinkClass::kSplit && !settings.split_links) ||
-        (link_class == LinkClass::kPartial && !settings.partial_links))
-      continue;
+    if (!class_shown[static_cast<std::size_t>(ClassOf(solution, link))]) continue;
     shown.emplace_back(-strength, i);
   }
   const std::size_t count =

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "display/viewer/overlay_drawing.h"
@@ -21,6 +22,8 @@ enum class LinkClass : std::uint8_t {
 LinkClass ClassOf(const RadiositySolution& solution, const Link& link);
 Colour ColourOf(LinkClass link_class);
 const char* NameOf(LinkClass link_class);
+// The switch that shows links of the class.
+std::string SwitchOf(LinkClass link_class);
 
 // What the link brings its receiver, largest channel [W/m^2].
 double LinkIrradiance(const RadiositySolution& solution, const Link& link);

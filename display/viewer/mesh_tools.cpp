@@ -13,6 +13,10 @@ double TriangleArea(const IrradianceMesh& mesh, std::uint32_t triangle) {
   return VectorArea(TriangleVertices(mesh, triangle)).norm();
 }
 
+Vec3 NormalOf(const Scene& scene, const IrradianceMesh& mesh, std::uint32_t triangle) {
+  return scene.patches[static_cast<std::size_t>(mesh.triangles[triangle].patch)].normal;
+}
+
 Vec3 PointInTriangle(const IrradianceMesh& mesh, std::uint32_t triangle, double s, double t) {
   const auto v = TriangleVertices(mesh, triangle);
   return v[0] + s * (v[1] - v[0]) + t * (v[2] - v[0]);

@@ -1,11 +1,12 @@
 // display/viewer/overlay.h
 //
-// Visualisations of the solver's inside (thesis B.4). A new one is a class and a line in AllOverlays().
+// Visualisations of the solver's inside (thesis B.4).
 
 #pragma once
 
 #include <memory>
-#include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "display/viewer/error_map.h"
@@ -15,8 +16,12 @@
 #include "display/viewer/snapshot.h"
 #include "display/viewer/view_state.h"
 #include "mesh/pipeline/discontinuity_list.h"
+#include "solver/base/registry.h"
 
 namespace penumbra::viewer {
+
+class Menu;
+class Settings;
 
 // What takes long to compute, as far as it is there.
 struct AnalysisResults {
@@ -40,24 +45,50 @@ struct OverlayContext {
   bool Isolates(SelectionKind kind) const { return isolated && selection.kind == kind; }
 };
 
+// What has to be computed for an overlay.
+struct OverlayNeeds {
+  bool triangles = false;        // of a mesh, where the drawing mode has none
+  bool discontinuities = false;  // all of them
+  bool graph = false;            // of the irradiance over what is selected
+  bool exact_graph = false;      // that of the exact irradiance, too
+};
+
+// Something that users switch on and off.
+struct OverlaySwitch {
+  std::string name;  // as in `set NAME on`
+  std::string help;  // a few words: what panels call it
+  std::string menu;  // its item in the menu `Visualisation`
+  std::string key;   // a chord, or empty
+  OverlayNeeds needs;
+};
+
+// The groups of panels that overlays may stand in.
+inline constexpr std::string_view kOverlayGroups[] = {"Visualisations", "Links", "Graphs"};
+
 class Overlay {
  public:
   virtual ~Overlay() = default;
-  // Adds what there is to see. Draws nothing unless it is switched on.
+
+  // The one of kOverlayGroups that its switches and settings stand in.
+  virtual std::string Group() const { return "Visualisations"; }
+  // Without switches, an overlay shows what a user selects or probes.
+  virtual std::vector<OverlaySwitch> Switches() const { return {}; }
+  // Adds what can be set beside the switches. The values outlive the settings.
+  virtual void AddSettings(OverlaySettings* /*values*/, Settings* /*settings*/) const {}
+  // Adds what the menu has beside the switches. The values outlive the menu.
+  virtual void AddMenuItems(OverlaySettings* /*values*/, Menu* /*menu*/) const {}
+
+  // Overlays are painted by layer, the lowest first; those of equal layer in the order of the registry. Those
+  // of the library have the layers 0 to 8.
+  virtual int Layer() const { return kTopLayer; }
+  // Adds what there is to see. Draws nothing that is not switched on.
   virtual void Draw(const OverlayContext& context, OverlayDrawing* drawing) const = 0;
+
+ protected:
+  static constexpr int kTopLayer = 100;
 };
 
-// In the order of painting.
-std::span<const std::unique_ptr<Overlay>> AllOverlays();
-
-std::unique_ptr<Overlay> MakeElementMeshOverlay();
-std::unique_ptr<Overlay> MakeTriangulationOverlay();
-std::unique_ptr<Overlay> MakeDiscontinuityOverlay();
-std::unique_ptr<Overlay> MakeLinkOverlay();
-std::unique_ptr<Overlay> MakeSamplePointOverlay();
-std::unique_ptr<Overlay> MakeGraphOverlay();
-std::unique_ptr<Overlay> MakeBackprojectionOverlay();
-std::unique_ptr<Overlay> MakeProbeOverlay();
-std::unique_ptr<Overlay> MakeSelectionOverlay();
+// Overlays() holds all overlays.
+using OverlayRegistry = Registry<const Overlay>;
 
 }  // namespace penumbra::viewer

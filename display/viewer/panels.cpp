@@ -54,7 +54,8 @@ constexpr float kGap = 8;
 // What the drawing control panel holds, and how wide its fields and those of the parameters are.
 constexpr std::string_view kControlGroups[] = {"Drawing", "Exposure", "Visualisations",
                                                "Links",   "Graphs",   "Viewing"};
-constexpr std::string_view kParameterGroups[] = {"Scene", "Solving"};
+constexpr std::string_view kStudies = GroupTitle(OptionGroup::kStudies);
+constexpr std::string_view kParameterGroups[] = {"Scene", GroupTitle(OptionGroup::kSolving), kStudies};
 constexpr float kControlField = 120, kParameterField = 150;
 
 // The menus of the bar stand side by side where they leave room for so much of what is being computed.
@@ -225,6 +226,50 @@ void Panels::EndEdit(Viewer& viewer) {
   if (!name.empty() && edit_ != unedited_) Try(viewer, [&] { viewer.Set(name, edit_); });
 }
 
+// A slider for a positive number. Returns what it has been moved to, else `value`.
+std::string Panels::Slider(const Setting& setting, const std::string& label, const std::string& value) {
+  std::string chosen = value;
+  // Sliders reach a thousandfold either way of where they are. While one is held its ends stay: they
+  // would run away from under the pointer.
+  auto number = static_cast<float>(NumberFrom(value, -1e30, 1e30));
+  float low = std::max(number / 1000, static_cast<float>(setting.low));
+  float high = std::min(number * 1000, static_cast<float>(setting.high));
+  if (slid_ == setting.name) {
+    low = slid_low_;
+    high = slid_high_;
+  }
+  if (ImGui::SliderFloat(label.c_str(), &number, low, high, "%.4g", ImGuiSliderFlags_Logarithmic))
+    chosen = TextOf(static_cast<double>(number));
+  if (ImGui::IsItemActive()) {
+    slid_ = setting.name;
+    slid_low_ = low;
+    slid_high_ = high;
+  } else if (slid_ == setting.name) {
+    slid_.clear();
+  }
+  return chosen;
+}
+
+// A field for text, which the viewer takes when the user leaves it.
+void Panels::Field(Viewer& viewer, const Setting& setting, const std::string& label,
+                   const std::string& value) {
+  // The field is the user's while he types, and shows the value otherwise.
+  char shown[sizeof edit_];
+  Copy(edited_ == setting.name ? std::string(edit_) : value, shown, sizeof shown);
+  ImGui::InputText(label.c_str(), shown, sizeof shown);
+  if (edited_ == setting.name) std::memcpy(edit_, shown, sizeof shown);
+  if (ImGui::IsItemActive()) {
+    if (edited_ != setting.name) {
+      EndEdit(viewer);  // of another field, which Tab leaves
+      edited_ = setting.name;
+      unedited_ = value;
+      std::memcpy(edit_, shown, sizeof shown);
+    }
+  } else if (edited_ == setting.name) {
+    EndEdit(viewer);
+  }
+}
+
 void Panels::Widget(Viewer& viewer, const Setting& setting) {
   const std::string value = setting.get();
   const std::string label = setting.help + "##" + setting.name;
@@ -244,46 +289,14 @@ void Panels::Widget(Viewer& viewer, const Setting& setting) {
       break;
     case SettingKind::kInteger:
     case SettingKind::kNumber:
-      if (setting.logarithmic && !setting.automatic) {
-        // Sliders reach a thousandfold either way of where they are. While one is held its ends stay: they
-        // would run away from under the pointer.
-        auto number = static_cast<float>(NumberFrom(value, -1e30, 1e30));
-        float low = std::max(number / 1000, static_cast<float>(setting.low));
-        float high = std::min(number * 1000, static_cast<float>(setting.high));
-        if (slid_ == setting.name) {
-          low = slid_low_;
-          high = slid_high_;
-        }
-        if (ImGui::SliderFloat(label.c_str(), &number, low, high, "%.4g", ImGuiSliderFlags_Logarithmic))
-          chosen = TextOf(static_cast<double>(number));
-        if (ImGui::IsItemActive()) {
-          slid_ = setting.name;
-          slid_low_ = low;
-          slid_high_ = high;
-        } else if (slid_ == setting.name) {
-          slid_.clear();
-        }
-        break;
-      }
-      [[fallthrough]];
-    case SettingKind::kText: {
-      // The field is the user's while he types, and shows the value otherwise.
-      char shown[sizeof edit_];
-      Copy(edited_ == setting.name ? std::string(edit_) : value, shown, sizeof shown);
-      ImGui::InputText(label.c_str(), shown, sizeof shown);
-      if (edited_ == setting.name) std::memcpy(edit_, shown, sizeof shown);
-      if (ImGui::IsItemActive()) {
-        if (edited_ != setting.name) {
-          EndEdit(viewer);  // of another field, which Tab leaves
-          edited_ = setting.name;
-          unedited_ = value;
-          std::memcpy(edit_, shown, sizeof shown);
-        }
-      } else if (edited_ == setting.name) {
-        EndEdit(viewer);
-      }
+      if (setting.logarithmic && !setting.automatic)
+        chosen = Slider(setting, label, value);
+      else
+        Field(viewer, setting, label, value);
       break;
-    }
+    case SettingKind::kText:
+      Field(viewer, setting, label, value);
+      break;
   }
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("set %s %s", setting.name.c_str(), value.c_str());
   if (chosen != value) Try(viewer, [&] { viewer.Set(setting.name, chosen); });
@@ -312,7 +325,8 @@ void Panels::Parameters(Viewer& viewer) {
   if (BeginPanel("Parameters", {beside, 30, PanelWidth(viewer, kParameterGroups, kParameterField), 360},
                  &viewer.panels().parameters)) {
     ImGui::PushItemWidth(kParameterField * Scale());
-    for (const std::string_view group : kParameterGroups) Group(viewer, group);
+    for (const std::string_view group : kParameterGroups)
+      if (group != kStudies || ImGui::CollapsingHeader(group.data())) Group(viewer, group);
     ImGui::PopItemWidth();
     ImGui::TextDisabled("The next iteration starts over where they differ.");
     for (const char* path : {"Iteration/Iterate", "Iteration/Iterate to convergence"}) {

@@ -37,6 +37,8 @@ class Panels {
   void Status(Viewer& viewer);
   void Group(Viewer& viewer, std::string_view group);
   void Widget(Viewer& viewer, const Setting& setting);
+  std::string Slider(const Setting& setting, const std::string& label, const std::string& value);
+  void Field(Viewer& viewer, const Setting& setting, const std::string& label, const std::string& value);
   void EndEdit(Viewer& viewer);
   void ControlPanel(Viewer& viewer);
   void Parameters(Viewer& viewer);

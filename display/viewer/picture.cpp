@@ -165,7 +165,8 @@ const Srgb8Image& PictureMaker::Make(const OverlayContext& context, const ViewSt
   depth_.emplace(rays, display_->frame(), drawn_->mesh());
   if (view.split) {
     Shade(context, view, &part_);
-    PaintSplit(display_->frame(), rays, drawn_->mesh(), part_, width, height, &screen_);
+    screen_.Resize(width, height);
+    PaintSplit(display_->frame(), rays, drawn_->mesh(), part_, &screen_);
     return screen_;
   }
   Shade(context, view, &screen_);

@@ -1,13 +1,11 @@
-// The irradiance at a probed point as a white stick (thesis B.4.9), and what its sources look like from it
-// (B.4.10).
-
-#include "display/viewer/overlay.h"
+#include "display/viewer/probe_overlay.h"
 
 namespace penumbra::viewer {
 namespace {
 
 class ProbeOverlay final : public Overlay {
  public:
+  int Layer() const override { return 7; }
   void Draw(const OverlayContext& context, OverlayDrawing* drawing) const override {
     if (!context.results.probe) return;
     const ProbeResult& probe = *context.results.probe;
@@ -18,21 +16,12 @@ class ProbeOverlay final : public Overlay {
   }
 };
 
-class BackprojectionOverlay final : public Overlay {
- public:
-  void Draw(const OverlayContext& context, OverlayDrawing* drawing) const override {
-    if (!context.results.backprojection) return;
-    for (const BackprojectedPatch& patch : *context.results.backprojection) {
-      for (const auto& triangle : patch.visible) drawing->Fill(triangle, colour::kWhite, 0.45F);
-      for (const auto& edge : patch.triangulation) drawing->Line(edge[0], edge[1], colour::kGreen, 1.0F);
-      for (const auto& edge : patch.blockers) drawing->Line(edge[0], edge[1], colour::kViolet, 1.6F);
-    }
-  }
-};
-
 }  // namespace
 
-std::unique_ptr<Overlay> MakeProbeOverlay() { return std::make_unique<ProbeOverlay>(); }
-std::unique_ptr<Overlay> MakeBackprojectionOverlay() { return std::make_unique<BackprojectionOverlay>(); }
+OverlayRegistry::Method ProbeOverlayMethod() {
+  return {"probe", "the irradiance at a probed point, as a stick", {}, [] {
+            return std::make_unique<const ProbeOverlay>();
+          }};
+}
 
 }  // namespace penumbra::viewer

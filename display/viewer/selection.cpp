@@ -8,6 +8,7 @@
 #include "display/glm_conversion.h"
 #include "display/viewer/links.h"
 #include "display/viewer/mesh_tools.h"
+#include "display/viewer/triangulation_overlay.h"
 
 namespace penumbra::viewer {
 namespace {
@@ -154,7 +155,7 @@ std::optional<ProbedPoint> PointAt(const Scene& scene, const IrradianceMesh& dra
 
 Selection SelectSurface(const OverlayContext& context, const ProbedPoint& at) {
   if (!context.snapshot.light) return {SelectionKind::kElement, ElementForest::Root(at.patch)};
-  if (context.settings.triangles || context.selection.kind == SelectionKind::kTriangle)
+  if (context.settings.Shows(kTrianglesSwitch) || context.selection.kind == SelectionKind::kTriangle)
     if (const auto place = context.mesh.Locator().Find(at.patch, at.position))
       return {SelectionKind::kTriangle, place->triangle};
   const ElementForest& forest = context.snapshot.light->solution().forest;

@@ -1,5 +1,4 @@
-// The outlines of what is selected (thesis B.4.6): an element; a link; its tube, with the blockers; a
-// triangle; a discontinuity, with source, blocker and receiver.
+#include "display/viewer/selection_overlay.h"
 
 #include "display/viewer/links.h"
 #include "display/viewer/mesh_tools.h"
@@ -10,6 +9,7 @@ namespace {
 
 class SelectionOverlay final : public Overlay {
  public:
+  int Layer() const override { return 8; }
   void Draw(const OverlayContext& context, OverlayDrawing* drawing) const override {
     if (!context.selection || !IsValid(context, context.selection)) return;
     switch (context.selection.kind) {
@@ -77,6 +77,10 @@ class SelectionOverlay final : public Overlay {
 
 }  // namespace
 
-std::unique_ptr<Overlay> MakeSelectionOverlay() { return std::make_unique<SelectionOverlay>(); }
+OverlayRegistry::Method SelectionOverlayMethod() {
+  return {"selection", "the outlines of what is selected", {}, [] {
+            return std::make_unique<const SelectionOverlay>();
+          }};
+}
 
 }  // namespace penumbra::viewer

@@ -34,11 +34,17 @@ const Setting* Settings::Find(const std::string& name) const {
 
 Setting& Settings::Toggle(const std::string& name, const std::string& group, const std::string& help,
                           bool* value) {
+  return Toggle(
+      name, group, help, [value] { return *value; }, [value](bool on) { *value = on; });
+}
+
+Setting& Settings::Toggle(const std::string& name, const std::string& group, const std::string& help,
+                          std::function<bool()> get, std::function<void(bool)> set) {
   Setting setting{name, group, help, SettingKind::kToggle, 0, 1, false, false, {"off", "on"}, {}, {}};
-  setting.get = [value] { return *value ? "on" : "off"; };
-  setting.set = [value](const std::string& text) {
+  setting.get = [get = std::move(get)] { return get() ? "on" : "off"; };
+  setting.set = [set = std::move(set)](const std::string& text) {
     if (text != "on" && text != "off") throw InputError(fmt::format("'{}' is neither on nor off", text));
-    *value = text == "on";
+    set(text == "on");
   };
   return Add(std::move(setting));
 }

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -42,6 +41,8 @@ struct Setting {
 class Settings {
  public:
   Setting& Toggle(const std::string& name, const std::string& group, const std::string& help, bool* value);
+  Setting& Toggle(const std::string& name, const std::string& group, const std::string& help,
+                  std::function<bool()> get, std::function<void(bool)> set);
   Setting& Number(const std::string& name, const std::string& group, const std::string& help, double* value,
                   double low, double high, bool logarithmic);
   Setting& Integer(const std::string& name, const std::string& group, const std::string& help, int* value,
@@ -63,14 +64,6 @@ class Settings {
     };
     return AddChoice(name, group, help, std::move(names), place,
                      [value, choices](std::size_t i) { *value = choices[i].second; });
-  }
-  // The same, with `auto` for nothing.
-  template <class Value>
-  Setting& OptionalChoice(const std::string& name, const std::string& group, const std::string& help,
-                          std::optional<Value>* value, const Named<std::type_identity_t<Value>>& choices) {
-    Named<std::optional<Value>> all = {{"auto", std::nullopt}};
-    for (const auto& [choice, meaning] : choices) all.emplace_back(choice, meaning);
-    return Choice(name, group, help, value, all);
   }
   Setting& Vector(const std::string& name, const std::string& group, const std::string& help,
                   std::function<Vec3()> get, std::function<void(const Vec3&)> set);

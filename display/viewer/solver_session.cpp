@@ -261,7 +261,7 @@ void SolverSession::DoLink(const ExecutionContext& context) {
   if (context.Cancelled()) return;
   pipeline_ = std::move(pipeline);
   stored_ = false;
-  settled_ = options.dense.has_value();
+  settled_ = !restart_ && !pipeline_->NextStep();
   visibility_ = std::make_shared<const PatchVisibility>(pipeline_->visibility());
   PublishLight(0);
 }
@@ -273,8 +273,8 @@ bool SolverSession::MustLink() const {
 
 void SolverSession::DoIterate(const ExecutionContext& context) {
   if (MustLink()) DoLink(context);
-  // A dense system is solved with its links, and those that were given are lit with the first step.
-  if (!pipeline_ || context.Cancelled() || pipeline_->options().dense || restart_) return;
+  // Links that were given are lit with the first step.
+  if (!pipeline_ || context.Cancelled() || restart_) return;
   context.Report("iterate", 0);
   const std::optional<IterationReport> report = pipeline_->Iterate(context);
   if (!report) return;
@@ -289,11 +289,14 @@ void SolverSession::DoConverge(const ExecutionContext& outer) {
   const bool must_link = MustLink();
   if (!must_link && settled_ && snapshot()->corrections > 0) return;  // done is done
   if (must_link) DoLink(context);
-  for (int i = 0; i < options.max_iterations && !context.Cancelled() && !options.dense && !restart_; ++i) {
-    if (pipeline_->Converged()) break;
-    DoIterate(context);
+  if (!context.Cancelled() && restart_) DoCorrect(context);
+  if (!context.Cancelled() && !restart_) {
+    pipeline_->Solve(context, [this](SolverStep step) {
+      if (step == SolverStep::kCorrect) return PublishLight(snapshot()->corrections + 1);
+      const bool links_split = pipeline_->report().iterations.back().links_split > 0;
+      PublishLight(links_split ? 0 : snapshot()->corrections);
+    });
   }
-  if (!context.Cancelled()) DoCorrect(context);
   if (!outer.Cancelled()) settled_ = true;
   if (const std::optional<std::string> limit = limits.Exceeded(); limit && context.Cancelled()) {
     const std::lock_guard lock(mutex_);
@@ -303,7 +306,7 @@ void SolverSession::DoConverge(const ExecutionContext& outer) {
 
 void SolverSession::DoCorrect(const ExecutionContext& context) {
   if (MustLink()) DoIterate(context);
-  if (!pipeline_ || context.Cancelled() || pipeline_->options().dense) return;
+  if (!pipeline_ || context.Cancelled()) return;
   context.Report("correct", 0);
   if (pipeline_->Correct(context)) PublishLight(snapshot()->corrections + 1);
 }
@@ -314,7 +317,7 @@ void SolverSession::DoBuildMesh(MeshKind kind, const ExecutionContext& context) 
   if (kind == MeshKind::kInterpolant) return DoInterpolants(context);
   MeshOptions mesh;
   mesh.discontinuities = pipeline_->resolved().discontinuities;
-  if (kind != MeshKind::kGouraudMesh) mesh.discontinuities.choice = DiscontinuityChoice::kNone;
+  if (kind != MeshKind::kGouraudMesh) mesh.discontinuities.choice = kNoDiscontinuities;
   mesh.order = InterpolantOrder::kLinear;
   MeshResult result = RunLocalPass(before->light->visibility(), before->light->solution(),
                                    SamplerOf(*before->light), mesh, context);
@@ -325,18 +328,22 @@ void SolverSession::DoBuildMesh(MeshKind kind, const ExecutionContext& context) 
   Publish(std::move(next));
 }
 
-// The pipeline's own: once the solver has settled, they may refine sources, and so the light, before they are
-// what is shown. What was stepped to stays as it is. A limit of time is one for the solve, and one for these.
+// The pipeline's own: once the solver has settled, its light is refined and shown before they are. What was
+// stepped to stays as it is. A limit of time is one for the solve, and one for these.
 void SolverSession::DoInterpolants(const ExecutionContext& context) {
   const std::shared_ptr<const Snapshot> before = snapshot();
   if (!pipeline_ || before->Mesh(MeshKind::kInterpolant)) return;
   pipeline_->CountLimits();
+  if (settled_ && pipeline_->RefinesLight()) {
+    pipeline_->RefineLight(context);
+    const std::shared_ptr<Snapshot> refined = NextLight(before->corrections);
+    refined->converged = before->converged;
+    Publish(refined);
+  }
+  if (context.Cancelled()) return;
   pipeline_->BuildMesh(MeshKind::kInterpolant, context, /*as_it_is=*/!settled_);
   if (context.Cancelled()) return;
-  const bool refined = settled_ && RefinesLight(pipeline_->options());
-  std::shared_ptr<Snapshot> next =
-      refined ? NextLight(before->corrections) : std::make_shared<Snapshot>(*before);
-  next->converged = before->converged;
+  const auto next = std::make_shared<Snapshot>(*snapshot());
   // Where a limit ended it, the leaves.
   next->mesh[static_cast<std::size_t>(*pipeline_->mesh_kind())] =
       std::make_shared<const MeshState>(before->scene, pipeline_->mesh());

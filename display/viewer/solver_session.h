@@ -43,7 +43,7 @@ class SolverSession {
   SessionStatus status() const;
 
   // Starts over with another scene, or goes on from a solution. Where the links are given, linking and
-  // iterating are lighting the scene over them; the options that say how links are made (kLinkOptions) have
+  // iterating are lighting the scene over them; the options that say how links are made (IsLinkOption) have
   // to be those of the links.
   void SetScene(const OpenedScene& opened);
   // For what is done from now on. Where options of the links change, the next iteration starts over.

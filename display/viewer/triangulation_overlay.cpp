@@ -1,18 +1,21 @@
-// The triangles of the irradiance mesh: discontinuity edges violet, others green (thesis B.4.5).
+#include "display/viewer/triangulation_overlay.h"
 
 #include <algorithm>
 #include <tuple>
 
 #include "display/viewer/mesh_tools.h"
-#include "display/viewer/overlay.h"
 
 namespace penumbra::viewer {
 namespace {
 
 class TriangulationOverlay final : public Overlay {
  public:
+  std::vector<OverlaySwitch> Switches() const override {
+    return {{std::string(kTrianglesSwitch), "Triangulation", "Triangles", "t", {.triangles = true}}};
+  }
+  int Layer() const override { return 1; }
   void Draw(const OverlayContext& context, OverlayDrawing* drawing) const override {
-    if (!context.settings.triangles) return;
+    if (!context.settings.Shows(kTrianglesSwitch)) return;
     const IrradianceMesh& mesh = context.mesh.mesh();
     std::vector<std::uint32_t> shown;
     if (context.selection.kind == SelectionKind::kElement && context.snapshot.light) {
@@ -49,6 +52,10 @@ class TriangulationOverlay final : public Overlay {
 
 }  // namespace
 
-std::unique_ptr<Overlay> MakeTriangulationOverlay() { return std::make_unique<TriangulationOverlay>(); }
+OverlayRegistry::Method TriangulationOverlayMethod() {
+  return {"triangulation", "the triangles of the irradiance mesh, discontinuity edges violet", {}, [] {
+            return std::make_unique<const TriangulationOverlay>();
+          }};
+}
 
 }  // namespace penumbra::viewer

@@ -5,8 +5,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <set>
+#include <string>
+#include <string_view>
 
 #include "display/opengl_passes.h"
 #include "mesh/pipeline/pipeline.h"
@@ -51,20 +55,16 @@ struct ProbedPoint {
 
 // What is drawn over the faces (thesis B.4).
 struct OverlaySettings {
-  bool element_mesh = false;
-  int mesh_depth = 20;  // deepest level of elements drawn
-  bool visible_links = false, split_links = false, partial_links = false;
-  double link_min_irradiance = 0;  // links that bring less are left out [W/m^2]
-  int link_limit = 5000;           // of the others, the strongest this many
-  bool discontinuities = false;
-  bool triangles = false;
-  bool sample_points = false;
-  bool analytic_graph = false, interpolated_graph = false, error_graph = false;
-  double graph_scale = 0.001;  // height of graphs and probes [m per W/m^2]
-  int grid_density = 12;       // cells along the side of a graph over a whole element
-  bool dynamic_grid = true;    // cells by the share of the element that a triangle fills
-  bool hidden_lines = false;   // draw what stands behind faces, too
+  std::set<std::string, std::less<>> shown;  // the switches of overlays that are on, by name
+  int mesh_depth = 20;                       // deepest level of elements drawn
+  double link_min_irradiance = 0;            // links that bring less are left out [W/m^2]
+  int link_limit = 5000;                     // of the others, the strongest this many
+  double graph_scale = 0.001;                // height of graphs and probes [m per W/m^2]
+  int grid_density = 12;                     // cells along the side of a graph over a whole element
+  bool dynamic_grid = true;                  // cells by the share of the element that a triangle fills
+  bool hidden_lines = false;                 // draw what stands behind faces, too
 
+  bool Shows(std::string_view name) const { return shown.contains(name); }
   bool operator==(const OverlaySettings&) const = default;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <new>
 
+#include "display/viewer/overlays.h"
 #include "display/viewer/selection.h"
 #include "display/viewer/walk.h"
 #include "mesh/pipeline/link_options.h"
@@ -74,9 +75,7 @@ void Viewer::Want(MeshKind kind) {
 // Meshes are built when the solver rests: the picture follows it with the leaves until then.
 void Viewer::AskForMeshes() {
   if (session_.status().busy || session_.snapshot() != snapshot_) return;
-  const OverlaySettings& o = view_.overlays;
-  const bool tools =
-      o.triangles || o.sample_points || o.analytic_graph || o.interpolated_graph || o.error_graph;
+  const bool tools = NeedsOf(view_.overlays).triangles;
   if (MeshOf(view_.mode) != MeshKind::kFlat) Want(MeshOf(view_.mode));
   if (view_.error_map || view_.probe || (tools && MeshOf(view_.mode) == MeshKind::kFlat))
     Want(MeshKind::kInterpolant);
@@ -162,7 +161,7 @@ const Srgb8Image& Viewer::Frame(int width, int height, double seconds) {
 void Viewer::DrawOverlays() {
   drawing_ = {};
   try {
-    for (const auto& overlay : AllOverlays()) overlay->Draw(Context(), &drawing_);
+    drawing_ = viewer::DrawOverlays(Context());
   } catch (const std::bad_alloc&) {
     drawing_ = {};
     Complain(kNoMemory);
@@ -191,7 +190,7 @@ void Viewer::Set(const std::string& name, const std::string& value) {
   fresh_ = false;
   const Setting* setting = settings_.Find(name);
   if (!setting) throw InputError(fmt::format("there is no option '{}'; --help-script lists them", name));
-  if (own_links_ && std::find(kLinkOptions.begin(), kLinkOptions.end(), name) != kLinkOptions.end())
+  if (own_links_ && IsLinkOption(name))
     throw InputError(
         fmt::format("{}: it says how links are made, but restart keeps those of a solution", name));
   try {

@@ -22,6 +22,7 @@
 #include "display/viewer/settings.h"
 #include "display/viewer/solver_session.h"
 #include "display/viewer/view_state.h"
+#include "mesh/pipeline/option_table.h"
 
 namespace penumbra::viewer {
 
@@ -98,9 +99,21 @@ class Viewer {
   // viewer_settings.cpp
   void AddViewSettings();
   void AddSolveSettings();
+  void AddSolveSetting(const SolveOption& option);
   void AddFileSettings();
   // viewer_menu.cpp
   void AddMenus();
+  void AddFileMenu();
+  void AddViewingMenu();
+  void AddDrawingMenu();
+  void AddOverlayMenu();
+  void AddIterationMenu();
+  void Item(const std::string& path, const std::string& key, const std::string& help,
+            std::function<void()> run);
+  void ToggleItem(const std::string& path, const std::string& key, const std::string& name);
+  void ChoiceItem(const std::string& path, const std::string& key, const std::string& name,
+                  const std::string& value);
+  void AskItem(const std::string& path, const std::string& key, const std::string& name);
   void AddCameraMenu();
   // viewer_input.cpp
   void KeyDown(const InputEvent& event);
@@ -141,7 +154,6 @@ class Viewer {
 
   ViewerOptions options_;
   std::optional<PipelineOptions> own_links_;  // while links are given: as one's own would be made
-  DenseOptions dense_;                        // of the dense solver, whether it is chosen or not
   SolverSession session_;
   std::shared_ptr<const Snapshot> snapshot_;
   std::shared_ptr<const MeshState> tools_;

@@ -5,19 +5,19 @@
 #include <utility>
 
 #include "display/false_colour.h"
-#include "display/image_io.h"
+#include "display/image_writers.h"
 #include "display/ray_display.h"
 #include "display/viewer/viewer.h"
 #include "mesh/pipeline/link_options.h"
 #include "solver/base/check.h"
+#include "solver/base/file_endings.h"
 #include "solver/scene/named_scene.h"
 
 namespace penumbra::viewer {
 namespace {
 
 void RequireName(const std::string& path) {
-  if (!path.ends_with(".png") && !path.ends_with(".exr"))
-    throw InputError(fmt::format("'{}' ends neither in .png nor in .exr", path));
+  if (!FindByEnding(ImageWriters(), path)) throw InputError(EndingError(path, ImageWriters().Names()));
 }
 
 // Lines and points that stay as wide once k x k pixels have become one.
@@ -30,7 +30,7 @@ OverlayDrawing Widened(OverlayDrawing drawing, int k) {
 void WriteWithLegend(const std::string& path, const PictureMaker& picture, Srgb8Image* screen) {
   if (picture.scale() != ColourScale::kNone)
     PaintLegend(picture.scale_top(), UnitOf(picture.scale()), screen);
-  WritePng(path, *screen);
+  WriteImageFile(path, *screen);
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ void Viewer::SavePicture(const std::string& path) {
   RequireName(path);
   if (!picture_.frame()) throw InputError("there is no picture yet");
   if (picture_.by_rays()) return SaveRayPicture(path);
-  if (path.ends_with(".exr")) return WriteExr(path, picture_.linear());
+  if (IsLinearImage(path)) return WriteImageFile(path, picture_.linear());
   const int k = view_.split ? 1 : view_.supersampling;
   if (k * std::max(size_.width, size_.height) > kMaxPictureSize)
     throw InputError("the picture would be too large; ask for less supersampling");
@@ -140,7 +140,7 @@ void Viewer::SaveRayPicture(const std::string& path) {
                            view.supersampling * view.supersampling);
         const SampledPicture& picture = display.Render(view.camera, size.width, size.height, context);
         if (context.Cancelled()) return;
-        if (path.ends_with(".exr")) return WriteExr(path, Downsample(picture.linear, picture.samples, 1));
+        if (IsLinearImage(path)) return WriteImageFile(path, Downsample(picture.linear, picture.samples, 1));
         Srgb8Image screen;
         if (view.false_colour) {
           std::vector<PixelKind> first;
@@ -151,7 +151,7 @@ void Viewer::SaveRayPicture(const std::string& path) {
         } else {
           EncodeSrgb(Expose(picture.linear, picture.kind, exposure, picture.samples), true, &screen);
         }
-        WritePng(path, screen);
+        WriteImageFile(path, screen);
       });
 }
 

@@ -3,30 +3,82 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <utility>
+#include <variant>
 
+#include "display/image_writers.h"
+#include "display/mesh_writers.h"
+#include "display/viewer/overlays.h"
 #include "display/viewer/viewer.h"
+#include "mesh/pipeline/option_table.h"
 #include "solver/base/check.h"
+#include "solver/base/file_endings.h"
 #include "solver/base/parallel.h"
+#include "solver/scene/scene_writers.h"
 
 namespace penumbra::viewer {
 namespace {
 
 constexpr std::uint64_t kMostThreads = 1024;  // as --threads
 
-// A setting of the solver that follows from others unless it is given.
-Setting Optional(const std::string& name, const std::string& help, std::optional<double>* value, double low,
-                 std::function<double()> otherwise, std::function<void()> changed) {
-  constexpr double kHigh = 1e12;
-  Setting setting{name, "Solving", help, SettingKind::kNumber, low, kHigh, true, true, {}, {}, {}};
-  setting.get = [value, otherwise = std::move(otherwise)] {
-    if (*value) return TextOf(**value);
-    return otherwise ? fmt::format("auto ({:.4g})", otherwise()) : std::string("none");
-  };
-  setting.set = [=, changed = std::move(changed)](const std::string& text) {
-    *value = text == "auto" || text == "none" ? std::nullopt : std::optional(NumberFrom(text, low, kHigh));
-    changed();
-  };
+// What leaves an option out, which then follows from others.
+bool LeavesOut(const SolveOption& option, const std::string& text) {
+  return option.field.optional &&
+         (text == "auto" || (text == "none" && option.field.kind != OptionKind::kChoice));
+}
+
+// What a panel shows of an option that is left out.
+std::string LeftOutText(const SolveOption& option, const Scene& scene, const PipelineOptions& solving) {
+  if (option.field.kind == OptionKind::kChoice) return "auto";
+  if (!option.resolved) return "none";
+  return fmt::format("auto ({:.4g})", std::get<double>(option.resolved(Resolve(scene, solving))));
+}
+
+// The setting of an option, as far as the table says it.
+Setting SettingOf(const SolveOption& option) {
+  Setting setting;
+  setting.name = SettingName(option);
+  const bool for_studies = option.group == OptionGroup::kStudies;
+  setting.group = GroupTitle(for_studies ? OptionGroup::kStudies : OptionGroup::kSolving);
+  setting.help = *option.unit ? fmt::format("{} [{}]", option.label, option.unit) : option.label;
+  const OptionField& field = option.field;
+  switch (field.kind) {
+    case OptionKind::kFlag:
+      setting.choices = field.choices();
+      setting.kind = setting.choices[1] == "on" ? SettingKind::kToggle : SettingKind::kChoice;
+      break;
+    case OptionKind::kInteger:
+      setting.kind = SettingKind::kInteger;
+      break;
+    case OptionKind::kNumber:
+      setting.kind = SettingKind::kNumber;
+      setting.low = field.numbers.low;
+      setting.high = field.numbers.high;
+      setting.logarithmic = field.numbers.low > 0 && !field.numbers.or_zero;
+      setting.automatic = field.optional;
+      break;
+    case OptionKind::kChoice:
+      setting.kind = SettingKind::kChoice;
+      setting.choices = field.choices();
+      if (field.optional) setting.choices.insert(setting.choices.begin(), "auto");
+      break;
+  }
   return setting;
+}
+
+std::string ExportHelp() {
+  std::vector<std::string> endings = Dotted(MeshWriters().Names());
+  for (const std::string& ending : Dotted(SceneWriters().Names())) endings.push_back(ending);
+  const std::string last = endings.back();
+  endings.pop_back();
+  return fmt::format("Export as {} or {}", fmt::join(endings, ", "), last);
+}
+
+std::string PictureHelp() {
+  std::vector<std::string> formats;
+  for (const ImageWriterRegistry::Method& format : ImageWriters().methods())
+    formats.push_back(fmt::format(".{}{}", format.name, format.make()->IsLinear() ? " in W/m^2" : ""));
+  return fmt::format("Save the picture as {}", fmt::join(formats, ", or "));
 }
 
 std::uint64_t WholeNumber(const std::string& text) {
@@ -70,26 +122,13 @@ void Viewer::AddViewSettings() {
            &view_.false_colour_max, 0, 1e12, false);
 
   OverlaySettings& o = view_.overlays;
-  s.Toggle("element-mesh", "Visualisations", "Element mesh", &o.element_mesh);
-  s.Integer("mesh-depth", "Visualisations", "Mesh depth", &o.mesh_depth, 0, kMaxLevel);
-  s.Toggle("discontinuities", "Visualisations", "All discontinuities", &o.discontinuities);
-  s.Toggle("triangles", "Visualisations", "Triangulation", &o.triangles);
-  s.Toggle("sample-points", "Visualisations", "Sample points", &o.sample_points);
+  AddOverlaySettings("Visualisations", &o, &s);
   s.Toggle("hidden-lines", "Visualisations", "Show hidden lines", &o.hidden_lines);
   s.Toggle("isolate", "Visualisations", "Draw only what is selected", &view_.isolate);
-  s.Toggle("visible-links", "Links", "Visible links", &o.visible_links);
-  s.Toggle("split-links", "Links", "Links split by a plane", &o.split_links);
-  s.Toggle("partial-links", "Links", "Partial links", &o.partial_links);
-  s.Number("link-min-irradiance", "Links", "At least [W/m^2]", &o.link_min_irradiance, 0, 1e12, false);
-  s.Integer("link-limit", "Links", "The strongest", &o.link_limit, 0, 1'000'000);
+  AddOverlaySettings("Links", &o, &s);
   s.Toggle("error-map", "Graphs", "Representation error as a map", &view_.error_map);
   s.Number("error-map-max", "Graphs", "Top of the map, relative", &view_.error_map_max, 1e-9, 1e9, true);
-  s.Toggle("analytic-graph", "Graphs", "Analytic irradiance", &o.analytic_graph);
-  s.Toggle("interpolated-graph", "Graphs", "Interpolated irradiance", &o.interpolated_graph);
-  s.Toggle("error-graph", "Graphs", "Error surface", &o.error_graph);
-  s.Number("graph-scale", "Graphs", "Graph height scale [m per W/m^2]", &o.graph_scale, 1e-9, 1e6, true);
-  s.Integer("grid-density", "Graphs", "Grid density", &o.grid_density, 1, 200);
-  s.Toggle("dynamic-grid", "Graphs", "Dynamic grid density", &o.dynamic_grid);
+  AddOverlaySettings("Graphs", &o, &s);
 
   s.Choice("navigation", "Viewing", "Viewing mode", &view_.navigation,
            {{"arcball", Navigation::kArcball}, {"walk", Navigation::kWalk}});
@@ -123,141 +162,16 @@ void Viewer::AddViewSettings() {
 }
 
 void Viewer::AddSolveSettings() {
-  Settings& s = settings_;
-  PipelineOptions& o = options_.solving;
-  const auto changed = [this] { SolvingChanged(); };
-  const auto also = [&](Setting& setting) {
-    setting.set = [set = setting.set, changed](const std::string& text) {
-      set(text);
-      changed();
-    };
+  const auto add = [this](auto wanted) {
+    for (const SolveOption& option : OptionTable())
+      if (wanted(option.group)) AddSolveSetting(option);
   };
-  also(s.Number("error", "Solving", "Error of what is shown, relative", &o.error, 1e-6, 10, true));
-  s.Add(Optional(
-      "eps", "Max error of a link [W/m^2]", &o.eps, 1e-12,
-      [this] { return Resolve(*snapshot_->scene, options_.solving).solver.eps; }, changed));
-  s.Add(Optional(
-      "min-area", "Min area of an element [m^2]", &o.min_area, 0,
-      [this] { return Resolve(*snapshot_->scene, options_.solving).solver.min_area; }, changed));
-  s.Add(Optional(
-      "min-discontinuity-weight", "Minimum discontinuity weight [W/m^2]", &o.min_discontinuity_weight, 0,
-      [this] { return Resolve(*snapshot_->scene, options_.solving).discontinuities.min_weight; }, changed));
-  s.Add(Optional(
-      "min-wanted-weight", "Minimum weight that refinement may want [W/m^2]", &o.min_wanted_weight, 0,
-      [this] { return Resolve(*snapshot_->scene, options_.solving).discontinuities.min_wanted_weight; },
-      changed));
-  also(s.Integer("corner-divisions", "Solving", "Divisions towards ends of contacts", &o.corner_divisions, 0,
-                 kMostCornerDivisions));
-  also(s.Choice("refine", "Solving", "Refine by", &o.refine,
-                {{"transport", RefineBy::kTransport},
-                 {"representation", RefineBy::kRepresentation},
-                 {"both", RefineBy::kBoth}}));
-  also(s.Choice("mesh-discontinuities", "Solving", "Discontinuities in the mesh", &o.discontinuities,
-                {{"ranked", DiscontinuityChoice::kRanked},
-                 {"adaptive", DiscontinuityChoice::kAdaptive},
-                 {"none", DiscontinuityChoice::kNone},
-                 {"random", DiscontinuityChoice::kRandom},
-                 {"all", DiscontinuityChoice::kAll}}));
-  also(s.OptionalChoice(
-      "weight", "Solving", "Weight of discontinuities", &o.weight,
-      {{"thesis", DiscontinuityWeight::kThesis}, {"irradiance", DiscontinuityWeight::kIrradiance}}));
-  also(s.Toggle("keep-hidden-discontinuities", "Solving", "Hidden discontinuities, too",
-                &o.keep_hidden_discontinuities));
-  also(s.Number("eee", "Solving", "Triple-edge discontinuities within [m], 0: none", &o.triple_edge_tolerance,
-                0, 1e12, false));
-  s.Add(Optional("source-error", "Error of sources cut by corrections, relative", &o.source_error, 1e-9, {},
-                 changed));
-  also(s.Integer("error-samples", "Solving", "Error samples a side of a triangle", &o.error_samples, 1, 100));
-  also(s.Integer("max-leaf-dsets", "Solving", "Max leaf discontinuity segments", &o.max_leaf_dsets, 0,
-                 1'000'000));
-  s.Add(Optional(
-      "relative-cutoff", "Relative error cutoff", &o.relative_cutoff, 1e-15,
-      [this] { return Resolve(*snapshot_->scene, options_.solving).solver.relative_cutoff; }, changed));
-  also(s.Integer("corrections", "Solving", "Corrections by exact irradiance", &o.max_corrections, 0, 100));
-  also(s.Integer("iterations", "Solving", "Most iterations", &o.max_iterations, 1, 1'000'000));
-  also(s.Choice("scheme", "Solving", "Sweeps", &o.scheme,
-                {{"jacobi", IterationScheme::kJacobi}, {"gauss-seidel", IterationScheme::kGaussSeidel}}));
-  also(s.Choice("acceleration", "Solving", "Guess ahead between sweeps", &o.acceleration,
-                {{"none", Acceleration::kNone}, {"anderson", Acceleration::kAnderson}}));
-  also(s.Choice("oracle", "Solving", "Refinement of links", &o.oracle,
-                {{"transport", OracleKind::kTransport},
-                 {"visibility", OracleKind::kVisibility},
-                 {"gradient", OracleKind::kGradient},
-                 {"thesis", OracleKind::kThesis}}));
-  also(s.Toggle("multigrid", "Solving", "Coarse links first", &o.multigrid));
-  also(s.Choice("form-factors", "Solving", "Form factors of links", &o.form_factors,
-                {{"cubature", LinkFormFactors::kCubature},
-                 {"exact", LinkFormFactors::kExact},
-                 {"disk", LinkFormFactors::kDisk}}));
-  s.Add(Optional("time-limit", "Time limit [s]", &o.time_limit, 1e-9, {}, changed));
-  s.Add(Optional("memory-limit", "Memory limit [bytes]", &o.memory_limit, 1, {}, changed));
-  also(s.Integer("bounces", "Solving", "Bounces that are reported", &o.bounces, 0, 1000));
-  Setting solver{"solver", "Solving", "Solver", SettingKind::kChoice,      0,
-                 1,        false,     false,    {"hierarchical", "dense"}, {},
-                 {}};
-  solver.get = [&o] { return o.dense ? "dense" : "hierarchical"; };
-  solver.set = [&o, dense = &dense_, changed](const std::string& text) {
-    if (text != "hierarchical" && text != "dense")
-      throw InputError(fmt::format("'{}' is neither hierarchical nor dense", text));
-    o.dense = text == "dense" ? std::optional(*dense) : std::nullopt;
-    changed();
-  };
-  s.Add(solver);
-  Setting& basis = s.Choice("basis", "Solving", "Dense: basis", &dense_.degree,
-                            {{"constant", BasisDegree::kConstant},
-                             {"linear", BasisDegree::kLinear},
-                             {"quadratic", BasisDegree::kQuadratic}});
-  basis.set = [&o, dense = &dense_, set = basis.set, changed](const std::string& text) {
-    set(text);
-    if (o.dense) o.dense = *dense;
-    changed();
-  };
-  Setting& divisions =
-      s.Integer("divisions", "Solving", "Dense: divisions of a patch's side", &o.divisions, 1, 64);
-  divisions.set = [set = divisions.set, &o, changed](const std::string& text) {
-    const int before = o.divisions;
-    set(text);
-    if ((o.divisions & (o.divisions - 1)) != 0) {
-      o.divisions = before;
-      throw InputError(fmt::format("'{}' is not a power of two", text));
-    }
-    changed();
-  };
-  also(s.Number("nudge", "Solving", "Nudge of points in contact [m]", &o.point.nudge, 0, 1e6, false));
-  also(s.Number("source-push-off", "Solving", "Push-off of sources [m]", &o.point.source_push_off, 0, 1e6,
-                false));
-  also(s.Number("min-backprojection-segment", "Solving", "Shortest segment of backprojections, 0: clip",
-                &o.point.min_backprojection_segment, 0, 1, false));
-  Setting points{"error-points",
-                 "Solving",
-                 "Points that measure the error",
-                 SettingKind::kText,
-                 0,
-                 1,
-                 false,
-                 false,
-                 {},
-                 {},
-                 {}};
-  points.get = [&o] { return std::to_string(o.error_points); };
-  points.set = [this, &o](const std::string& text) {
-    if (WholeNumber(text) > 100'000'000) throw InputError(fmt::format("'{}' are too many", text));
-    o.error_points = WholeNumber(text);
-    session_.SetErrorPoints(o.error_points);
-  };
-  s.Add(points);
-  Setting seed = points;
-  seed.name = "seed";
-  seed.help = "Seed of what is drawn at random";
-  seed.get = [&o] { return std::to_string(o.seed); };
-  seed.set = [&o, changed](const std::string& text) {
-    o.seed = WholeNumber(text);
-    changed();
-  };
-  s.Add(seed);
+  add([](OptionGroup group) { return group != OptionGroup::kRunning && group != OptionGroup::kStudies; });
+  add([](OptionGroup group) { return group == OptionGroup::kRunning; });
   // No part of the solution: whatever comes next is done by so many, and what there is stays.
-  Setting threads = points;
+  Setting threads;
   threads.name = "threads";
+  threads.group = GroupTitle(OptionGroup::kSolving);
   threads.help = "Threads, 0: all";
   threads.get = [] { return std::to_string(ThreadCount()); };
   threads.set = [](const std::string& text) {
@@ -265,7 +179,26 @@ void Viewer::AddSolveSettings() {
     if (count > kMostThreads) throw InputError(fmt::format("'{}' are too many", text));
     SetThreadCount(static_cast<int>(count));
   };
-  s.Add(threads);
+  settings_.Add(threads);
+  add([](OptionGroup group) { return group == OptionGroup::kStudies; });
+}
+
+void Viewer::AddSolveSetting(const SolveOption& option) {
+  Setting setting = SettingOf(option);
+  setting.get = [this, &option] {
+    const std::optional<OptionValue> value = option.field.get(options_.solving);
+    return value ? ValueText(option.field, *value) : LeftOutText(option, *snapshot_->scene, options_.solving);
+  };
+  setting.set = [this, &option](const std::string& text) {
+    std::optional<OptionValue> value;
+    if (!LeavesOut(option, text)) value = ParseValue(option.field, text);
+    option.field.set(value, &options_.solving);
+    if (option.measures_only)
+      session_.SetErrorPoints(options_.solving.error_points);
+    else
+      SolvingChanged();
+  };
+  settings_.Add(std::move(setting));
 }
 
 // Settings that are done rather than kept: dialogs and scripts name a file or a camera.
@@ -282,10 +215,8 @@ void Viewer::AddFileSettings() {
          [this](const std::string& v) { SaveSolved(v, options_.files.save_solution); });
   action("save-report", "Save the report, as JSON",
          [this](const std::string& v) { SaveSolved(v, options_.files.save_report); });
-  action("export", "Export as .vtu, .ply, .glb, .obj, .pbrt or .mgf",
-         [this](const std::string& v) { Export(v); });
-  action("save-picture", "Save the picture as .png, or .exr in W/m^2",
-         [this](const std::string& v) { SavePicture(v); });
+  action("export", ExportHelp(), [this](const std::string& v) { Export(v); });
+  action("save-picture", PictureHelp(), [this](const std::string& v) { SavePicture(v); });
   action("save-camera", "Name this camera", [this](const std::string& v) { SaveCamera(v); });
   action("camera", "Go to a camera", [this](const std::string& v) {
     for (const Camera& camera : cameras_)

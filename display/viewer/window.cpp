@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "display/image_io.h"
+#include "display/png_image.h"
 #include "display/viewer/panels.h"
 #include "solver/base/check.h"
 

@@ -28,6 +28,7 @@ void PeersBoxInGrey(benchmark::State& state) {
   for (auto _ : state) {
     Pipeline pipeline(test.scene, options);
     pipeline.Solve({});
+    pipeline.RefineLight({});
     pipeline.BuildMesh(MeshKind::kInterpolant, {});
     state.PauseTiming();
     errors = ReferenceErrors(test, [&](const ReceiverPoint& at) { return ShownAt(pipeline, at); });

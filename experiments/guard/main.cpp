@@ -69,7 +69,11 @@ std::vector<Work> Stages(const Scene& scene) {
   return {
       {"link and iterate", [=, &scene] { state->pipeline = std::make_unique<Pipeline>(scene, options); },
        [=] { state->pipeline->Solve({}); }},
-      {"mesh and interpolants", [] {}, [=] { state->pipeline->BuildMesh(MeshKind::kInterpolant, {}); }},
+      {"mesh and interpolants", [] {},
+       [=] {
+         state->pipeline->RefineLight({});
+         state->pipeline->BuildMesh(MeshKind::kInterpolant, {});
+       }},
       {"ten frames",
        [=, &scene] { state->display = std::make_unique<TwoPassDisplay>(scene, state->pipeline->mesh()); },
        [=] {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/base/scratch.h"
 #include "solver/scene/surface_points.h"
 
 namespace penumbra {
@@ -114,8 +115,8 @@ EmitterSample Emitters::Sample(const Vec3& at, const Vec3& normal, double u, dou
   if (emitters_.size() == 1) {
     if (Guess(emitters_[0], at, normal) > 0) chosen = &emitters_[0];
   } else {
-    thread_local std::vector<double> guess;
-    guess.clear();
+    const Scratch<std::vector<double>> guesses;
+    std::vector<double>& guess = *guesses;
     double total = 0;
     for (const Emitter& emitter : emitters_) total += guess.emplace_back(Guess(emitter, at, normal));
     double left = u * total;

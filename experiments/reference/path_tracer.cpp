@@ -64,9 +64,9 @@ struct PathTracer::Work {
 PathTracer::PathTracer(const Scene& scene, const PathTracerOptions& options)
     : scene_(scene), options_(options), rays_(scene), emitters_(scene) {}
 
-Rgb PathTracer::Direct(const Vec3& at, PlaneId plane, const Vec3& normal, double u, double v, double w,
+Rgb PathTracer::Direct(const Vec3& at, PlaneId plane, const Vec3& normal, const std::array<double, 3>& random,
                        std::uint64_t& rays) const {
-  const EmitterSample sample = emitters_.Sample(at, normal, u, v, w);
+  const EmitterSample sample = emitters_.Sample(at, normal, random[0], random[1], random[2]);
   if (sample.patch == kNoPatch) return Rgb::Zero();
   const PlaneId emitter = rays_.PlaneOf(sample.patch);
   if (emitter == plane) return Rgb::Zero();
@@ -103,7 +103,7 @@ Rgb PathTracer::Indirect(Work& work, int replicate) const {
     position = hit.position;
     plane = rays_.PlaneOf(hit.patch);
     const double c = next(), a = next(), b = next();
-    sum += carried * Direct(position, plane, patch.normal, c, a, b, work.rays);
+    sum += carried * Direct(position, plane, patch.normal, {c, a, b}, work.rays);
     frame = MakeFrame(position, patch.normal);
   }
 }
@@ -127,7 +127,7 @@ ReferenceIrradiance PathTracer::At(const IrradiancePoint& point, std::uint64_t s
     for (std::size_t r = 0; r < kCount; ++r)
       for (std::uint64_t i = 0; i < samples; ++i) {
         const ScrambledSobol::Point s = work.direct_points[r].Next();
-        direct.sum[r] += Direct(point.position, work.plane, point.normal, s[0], s[1], s[2], direct_rays);
+        direct.sum[r] += Direct(point.position, work.plane, point.normal, {s[0], s[1], s[2]}, direct_rays);
       }
     direct.samples += samples;
   };

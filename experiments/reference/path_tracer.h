@@ -59,7 +59,7 @@ class PathTracer {
 
  private:
   struct Work;
-  Rgb Direct(const Vec3& at, PlaneId plane, const Vec3& normal, double u, double v, double w,
+  Rgb Direct(const Vec3& at, PlaneId plane, const Vec3& normal, const std::array<double, 3>& random,
              std::uint64_t& rays) const;
   Rgb Indirect(Work& work, int replicate) const;
 

@@ -116,9 +116,8 @@ class CornerComparison {
     MeshReport report;
     const double begin = ProcessorSeconds();
     const std::vector<PatchTriangulation> triangulations =
-        TriangulatePatches(pipeline_.visibility(), pipeline_.solution(),
-                           BeginPlan(pipeline_.visibility(), pipeline_.solution(), discontinuities),
-                           discontinuities, {}, report);
+        PatchTriangulator(pipeline_.visibility(), pipeline_.solution(), discontinuities, {})
+            .Triangulate(BeginPlan(pipeline_.visibility(), pipeline_.solution(), discontinuities), report);
     const BuiltMesh built =
         BuildIrradianceMesh(scene_, triangulations, InterpolantOrder::kQuadratic, sampler, {});
     StudyRow row;

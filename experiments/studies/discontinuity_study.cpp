@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -25,22 +26,21 @@ namespace {
 
 struct Way {
   const char* name;
-  DiscontinuityChoice choice;
+  std::string_view choice;
   DiscontinuityWeight weight;
   bool split_crowded = false;
   double share = 1;  // of a random choice
 };
-constexpr Way kNone = {"none", DiscontinuityChoice::kNone, DiscontinuityWeight::kIrradiance};
-constexpr Way kAll = {"all", DiscontinuityChoice::kAll, DiscontinuityWeight::kIrradiance};
+constexpr Way kNone = {"none", "none", DiscontinuityWeight::kIrradiance};
+constexpr Way kAll = {"all", "all", DiscontinuityWeight::kIrradiance};
 // A random choice comes before those that are compared with it.
 constexpr std::array kBudgeted = {
-    Way{"random", DiscontinuityChoice::kRandom, DiscontinuityWeight::kIrradiance},
-    Way{"ranked, irradiance", DiscontinuityChoice::kRanked, DiscontinuityWeight::kIrradiance},
-    Way{"ranked, thesis", DiscontinuityChoice::kRanked, DiscontinuityWeight::kThesis},
-    Way{"adaptive", DiscontinuityChoice::kAdaptive, DiscontinuityWeight::kIrradiance},
-    Way{"random, crowded leaves split", DiscontinuityChoice::kRandom, DiscontinuityWeight::kIrradiance, true},
-    Way{"ranked, irradiance, crowded leaves split", DiscontinuityChoice::kRanked,
-        DiscontinuityWeight::kIrradiance, true}};
+    Way{"random", "random", DiscontinuityWeight::kIrradiance},
+    Way{"ranked, irradiance", "ranked", DiscontinuityWeight::kIrradiance},
+    Way{"ranked, thesis", "ranked", DiscontinuityWeight::kThesis},
+    Way{"adaptive", "adaptive", DiscontinuityWeight::kIrradiance},
+    Way{"random, crowded leaves split", "random", DiscontinuityWeight::kIrradiance, true},
+    Way{"ranked, irradiance, crowded leaves split", "ranked", DiscontinuityWeight::kIrradiance, true}};
 constexpr std::array kBudgets = {5, 10, 20};
 constexpr std::uint64_t kSeeds = 3;  // of random choices
 // What a random choice can do in less time than all that a budget allows: look at a part of the
@@ -94,10 +94,9 @@ class Measurement {
         MeasureRepresentationError(scene_, mesh.mesh, sampler, log_.quick() ? 200 : kPoints, 1);
     row.scene = name_;
     row.method = way.name;
-    row.setting =
-        budget > 0 && way.choice != DiscontinuityChoice::kAll ? fmt::format("{} a leaf", budget) : way.name;
+    row.setting = budget > 0 && way.choice != "all" ? fmt::format("{} a leaf", budget) : way.name;
     if (way.share < 1) row.setting += fmt::format(", {:g} of all", way.share);
-    if (way.choice == DiscontinuityChoice::kRandom) row.setting += fmt::format(", seed {}", seed);
+    if (way.choice == "random") row.setting += fmt::format(", seed {}", seed);
     row.parameter = budget;
     CopyErrors(error, &row);
     row.elements = mesh.report.counts.dsets_active;
@@ -173,8 +172,8 @@ void MeasureThesisMesh(StudyLog& log) {
   pipeline.Solve({});
   const RadiositySolution& solution = pipeline.solution();
   MeshReport report;
-  TriangulatePatches(pipeline.visibility(), solution, {solution.forest, {}},
-                     pipeline.resolved().discontinuities, {}, report);
+  PatchTriangulator(pipeline.visibility(), solution, pipeline.resolved().discontinuities, {})
+      .Triangulate({solution.forest, {}}, report);
   std::size_t leaves = 0;
   for (const Element& element : solution.forest.elements()) leaves += element.IsLeaf() ? 1 : 0;
   constexpr std::size_t kThesisLeaves = 1622, kThesisTriangles = 6576, kThesisMerged = 103;
@@ -231,7 +230,7 @@ void StudyDiscontinuities(StudyLog& log) {
     const StudyRow none = measurement.Measure(kNone, 0), all = measurement.Measure(kAll, 0);
     std::vector<StudyRow> random;
     for (const Way& way : kBudgeted) {
-      if (way.choice == DiscontinuityChoice::kRandom) {
+      if (way.choice == "random") {
         random = MeasureRandom(measurement, way, log.quick());
         random.push_back(none);  // it begins with no discontinuities, as all do
         continue;

@@ -67,6 +67,7 @@ class DisplayComparison {
         pipeline_(scene_, setting.options),
         log_(log) {
     pipeline_.Solve({});
+    pipeline_.RefineLight({});
     pipeline_.BuildMesh(MeshKind::kInterpolant, {});
     setting_.picture.camera = scene_.cameras.front();
   }

@@ -57,6 +57,7 @@ class Series {
     const double begin = ProcessorSeconds();
     Pipeline pipeline(scene, options_);
     pipeline.Solve(context);
+    if (whole_) pipeline.RefineLight(context);
     if (whole_) pipeline.BuildMesh(MeshKind::kInterpolant, context);
     StudyRow row;
     row.seconds = stopwatch.Seconds();
@@ -155,6 +156,7 @@ class OneScene {
     options_.error = error;
     Pipeline pipeline(scene_, options_);
     pipeline.Solve({});
+    pipeline.RefineLight({});
     pipeline.BuildMesh(MeshKind::kInterpolant, {});
     display_ = std::make_unique<TwoPassDisplay>(scene_, pipeline.mesh());
   }
@@ -203,6 +205,7 @@ class OneScene {
     solve.seconds = MedianSeconds(kSolves, [&] {
       Pipeline pipeline(scene_, options_);
       pipeline.Solve({});
+      pipeline.RefineLight({});
       pipeline.BuildMesh(MeshKind::kInterpolant, {});
     });
     log_->Add(solve);

@@ -26,13 +26,13 @@ struct Curve {
 
 struct OracleMethod {
   const char* name;
-  OracleKind oracle;
+  const char* oracle;
   bool multigrid;
 };
 constexpr OracleMethod kOracleMethods[] = {
-    {"transport", OracleKind::kTransport, false},   {"transport, multigrid", OracleKind::kTransport, true},
-    {"visibility", OracleKind::kVisibility, false}, {"gradient", OracleKind::kGradient, false},
-    {"thesis", OracleKind::kThesis, false},         {"thesis, multigrid", OracleKind::kThesis, true},
+    {"transport", "transport", false},   {"transport, multigrid", "transport", true},
+    {"visibility", "visibility", false}, {"gradient", "gradient", false},
+    {"thesis", "thesis", false},         {"thesis, multigrid", "thesis", true},
 };
 
 StudyRow SolveLinks(const ReferenceCase& test, const PipelineOptions& options, int repeats) {
@@ -89,8 +89,8 @@ Curve RunDense(StudyLog& log, const ReferenceCase& test, BasisDegree degree, con
   Curve curve;
   for (const int divisions : log.quick() ? std::vector<int>{1, 2} : std::vector<int>{1, 2, 4, 8}) {
     PipelineOptions options;
-    options.dense = DenseOptions{.degree = degree};
-    options.divisions = divisions;
+    options.solver = "dense";
+    options.dense = {.degree = degree, .divisions = divisions};
     options.refine = RefineBy::kTransport;
     StudyRow row = SolveLinks(test, options, 1);
     row.links.reset();

@@ -122,7 +122,7 @@ class OrderComparison {
     pipeline.Solve({});
     MeshOptions options;
     options.discontinuities = pipeline.resolved().discontinuities;
-    if (!meshed) options.discontinuities.choice = DiscontinuityChoice::kNone;
+    if (!meshed) options.discontinuities.choice = "none";
     options.order = InterpolantOrder::kConstant;
     const IrradianceMesh mesh =
         RunLocalPass(pipeline.visibility(), pipeline.solution(), {}, options, {}).mesh;

@@ -27,6 +27,7 @@ StudyRow Measure(const Scene& scene, const Offsets& offsets, double error, std::
   Pipeline pipeline(scene, options);
   const Stopwatch stopwatch;
   pipeline.Solve({});
+  pipeline.RefineLight({});
   pipeline.BuildMesh(MeshKind::kInterpolant, {});
 
   StudyRow row;

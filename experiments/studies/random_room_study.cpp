@@ -111,6 +111,7 @@ StudyRow MeasureRoom(const Scene& scene, std::size_t points, bool* told) {
   Pipeline pipeline(scene, options);
   const double begin = ProcessorSeconds();
   pipeline.Solve({});
+  pipeline.RefineLight({});
   pipeline.BuildMesh(MeshKind::kInterpolant, {});
   StudyRow row;
   row.seconds = ProcessorSeconds() - begin;
@@ -125,6 +126,7 @@ StudyRow MeasureRoom(const Scene& scene, std::size_t points, bool* told) {
   options.error = kFinerThan * kAsked;
   Pipeline finer(scene, options);
   finer.Solve({});
+  finer.RefineLight({});
   finer.BuildMesh(MeshKind::kInterpolant, {});
   const RepresentationError error = MeasureRepresentationError(
       scene, pipeline.mesh(),

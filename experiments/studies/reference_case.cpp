@@ -73,6 +73,7 @@ Measured MeasurePipeline(const ReferenceCase& test, const PipelineOptions& optio
     pipeline = std::make_unique<Pipeline>(test.scene, options);
     const double begin = ProcessorSeconds();
     pipeline->Solve({});
+    pipeline->RefineLight({});
     pipeline->BuildMesh(MeshKind::kInterpolant, {});
     seconds.push_back(ProcessorSeconds() - begin);
   }

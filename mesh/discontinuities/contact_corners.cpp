@@ -9,9 +9,9 @@ namespace penumbra {
 namespace {
 
 // Divides towards one end of a contact after the other.
-class Divider {
+class CornerDivider {
  public:
-  Divider(PatchId patch, int divisions, double min_area, ElementForest& forest)
+  CornerDivider(PatchId patch, int divisions, double min_area, ElementForest& forest)
       : normal_(forest.scene().patches[static_cast<std::size_t>(patch)].normal),
         snap_(SnapDistance(forest.scene().patches[static_cast<std::size_t>(patch)])),
         divisions_(divisions),
@@ -62,7 +62,7 @@ void DivideTowards(std::span<const Vec2> ends, int divisions, double min_area, P
                    ElementForest& forest) {
   if (divisions == 0 || ends.empty()) return;
   const Frame frame = PolygonFrame(forest.scene().patches[static_cast<std::size_t>(patch)].Vertices());
-  Divider divider(patch, divisions, min_area, forest);
+  CornerDivider divider(patch, divisions, min_area, forest);
   for (const Vec2& end : ends) divider.Divide(frame.FromPlane(end), ElementForest::Root(patch));
   forest.Balance(patch);
 }

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>
 
+#include "mesh/discontinuities/discontinuity_choices.h"
 #include "mesh/discontinuities/leaf_lines.h"
 #include "mesh/discontinuities/line_jumps.h"
 #include "solver/base/check.h"
-#include "solver/base/random.h"
 #include "solver/scene/tolerances.h"
 
 namespace penumbra {
@@ -112,12 +112,10 @@ class Activator {
       : patch_(patch),
         found_(found),
         options_(options),
+        choice_(DiscontinuityChoices().Make(options.choice)),
         filter_(filter),
         at_place_(at_place),
-        lines_(forest, patch,
-               options.choice == DiscontinuityChoice::kAll
-                   ? std::numeric_limits<std::size_t>::max()
-                   : static_cast<std::size_t>(options.max_leaf_dsets)),
+        lines_(forest, patch, choice_->MostLines(options)),
         grouped_(GroupCollinear(found, SnapDistance(forest.scene().patches[patch]))),
         number_(grouped_.lines.size(), -1),
         tried_(found.size()) {
@@ -135,18 +133,12 @@ class Activator {
   bool IsContact(std::size_t i) const { return found_[i].kind == DiscontinuityKind::kContact; }
 
   Order Rank() {
-    const bool all = options_.choice == DiscontinuityChoice::kAll;
-    double least = all ? 0 : options_.min_weight;
+    if (std::optional<DiscontinuityRanks> ranks = choice_->Rank(patch_, found_, options_))
+      return {std::move(ranks->rank), ranks->least, {}};
+    const double least = options_.min_weight;
     std::vector<double> weight(found_.size());
     Order::Weigh weigh;
-    if (options_.choice == DiscontinuityChoice::kRandom) {
-      least = 1 - options_.random_share;
-      Random random(options_.seed, static_cast<std::uint64_t>(patch_));
-      for (std::size_t i = 0; i < weight.size(); ++i) {
-        const double place = random.Uniform();
-        weight[i] = IsContact(i) ? kInfiniteWeight : place;
-      }
-    } else if (all || options_.weight == DiscontinuityWeight::kThesis) {
+    if (options_.weight == DiscontinuityWeight::kThesis) {
       for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = found_[i].weight;
     } else {
       const LineJumps jumps(found_, grouped_.line_of, grouped_.lines);
@@ -214,7 +206,7 @@ class Activator {
 
   // Makes the line one of the leaves' that it meets; true if any took it.
   bool Join(std::size_t i, std::int32_t line) {
-    const bool leaf_by_leaf = options_.choice == DiscontinuityChoice::kAdaptive && !IsContact(i);
+    const bool leaf_by_leaf = filter_ && !IsContact(i);
     const std::span<const Impinged> impinged = lines_.Meet(found_[i]);
     std::vector<ElementId> full;
     std::size_t room = 0;
@@ -275,6 +267,7 @@ class Activator {
   const PatchId patch_;
   const std::span<const Discontinuity> found_;
   const DiscontinuityOptions& options_;
+  const std::unique_ptr<const DiscontinuityChoiceMethod> choice_;
   const LeafFilter& filter_;
   const PlaceScale& at_place_;
   LeafLines lines_;
@@ -293,7 +286,6 @@ PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
                                    const LeafFilter& filter, const ErrorScale& scale,
                                    const PlaceScale& at_place) {
   PENUMBRA_CHECK(options.max_leaf_dsets >= 0);
-  PENUMBRA_CHECK(options.choice != DiscontinuityChoice::kAdaptive || filter);
   if (!options.enabled()) found = {};
   return Activator(forest, patch, found, options, filter, scale, at_place).Run();
 }

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "mesh/discontinuities/discontinuity.h"
+#include "mesh/discontinuities/discontinuity_choice.h"
 #include "mesh/discontinuities/discontinuity_line.h"
 #include "mesh/discontinuities/mesh_options.h"
 #include "mesh/discontinuities/omission_cost.h"
@@ -48,9 +49,6 @@ struct PatchDSets {
   std::vector<OmittedDiscontinuity> omitted;
 };
 
-// True if the discontinuity may become an edge of the leaf; asked for contacts never.
-using LeafFilter = std::function<bool(const Discontinuity&, ElementId)>;
-
 // How many times an error on a leaf counts; once without.
 using ErrorScale = std::function<double(ElementId)>;
 // The same at a place in a leaf, in the frame of the patch [m].
@@ -65,10 +63,11 @@ using PlaceScale = std::function<double(ElementId, const Vec2&)>;
 //  (2) At most options.max_leaf_dsets lines run through the inside of any leaf. Those along a leaf's border
 //  add no edge and do not count.
 //  (3) The heaviest come first; of equal weight, the one found first.
-// DiscontinuityChoice changes this: kRandom takes options.random_share for (1) and puts (3) in a random
-// order, kAll knows no (1) and (2), and kAdaptive activates in each leaf that the filter lets pass what fits
-// there, whatever becomes of other leaves. REQUIRES: the patch's quadtree is balanced; `found` are
-// discontinuities on this patch; a filter for kAdaptive.
+// options.choice may change this: its method may put other ranks in place of the weights of (1) and (3), and
+// another number in place of that of (2). If there is a filter, each leaf that the filter lets pass takes
+// what has room there, whatever becomes of other leaves. REQUIRES: the patch's quadtree is balanced; `found`
+// are discontinuities on this patch; the filter is that of the method (DiscontinuityChoiceMethod::FilterOf).
+// Throws InputError if there is no such choice.
 PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
                                    std::span<const Discontinuity> found, const DiscontinuityOptions& options,
                                    const LeafFilter& filter = {}, const ErrorScale& scale = {},

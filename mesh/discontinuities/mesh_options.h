@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string>
 
 namespace penumbra {
 
@@ -16,21 +17,15 @@ enum class DiscontinuityWeight : std::uint8_t {
   kIrradiance,  // the error that a leaf's quadratic would make without the edge (after the thesis's 8.2)
 };
 
-// Which discontinuities become edges of the mesh.
-enum class DiscontinuityChoice : std::uint8_t {
-  kRanked,    // the heaviest, as many as a leaf may have (thesis 5.5.7)
-  kAdaptive,  // those that cross a leaf whose corners see different parts of the source (Stuerzlinger 1994)
-  kNone,      // the leaves alone
-  kRandom,    // in random order, as many as a leaf may have: to compare with ranking
-  kAll,       // all, however many a leaf gets
-};
+// The DiscontinuityOptions::choice that makes no discontinuity an edge.
+inline constexpr const char* kNoDiscontinuities = "none";
 
 // Of DiscontinuityOptions::corner_divisions.
 inline constexpr int kMostCornerDivisions = 20;
 
 // Which discontinuities become edges of the mesh (thesis 5.2, Appendix A).
 struct DiscontinuityOptions {
-  DiscontinuityChoice choice = DiscontinuityChoice::kRanked;
+  std::string choice = "ranked";  // of DiscontinuityChoices()
   DiscontinuityWeight weight = DiscontinuityWeight::kThesis;
   double min_weight = 0;  // Tree::minDiscontWeight [W/m^2]
   // Ranked by the irradiance weight, refinement may ask for lighter ones that cost at least this on some leaf
@@ -51,10 +46,10 @@ struct DiscontinuityOptions {
   // none beyond the same area.
   int corner_divisions = 0;
 
-  bool enabled() const { return choice != DiscontinuityChoice::kNone; }
-  bool ranks_by_error() const {
-    return choice == DiscontinuityChoice::kRanked && weight == DiscontinuityWeight::kIrradiance;
-  }
+  // Whether the choice takes any. This and what follows throw InputError if no choice has its name.
+  bool enabled() const;
+  // Whether what leaving it out would cost decides alone about a discontinuity.
+  bool ranks_by_error() const;
   bool can_want() const { return ranks_by_error() && min_wanted_weight < min_weight; }
   // Of what may become an edge, if refinement asks for it.
   double LeastWeight() const { return can_want() ? min_wanted_weight : min_weight; }

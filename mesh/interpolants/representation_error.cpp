@@ -18,6 +18,9 @@ constexpr std::size_t kPointsATask = 16;
 // and so many at least. A part that seems to err by too much gets more: what few points see may be bad luck.
 constexpr std::size_t kPartPoints = 20, kAllPartPoints = 160, kFewestPartPoints = 4, kSuspectPoints = 300;
 
+// The share of values that a 99th percentile has below it and above it.
+constexpr double kP99 = 0.99, kAboveP99 = 0.01;
+
 // What is found at some points.
 struct Values {
   std::vector<SurfacePoint> at;
@@ -67,11 +70,11 @@ RepresentationError Summarise(const Scene& scene, std::span<const SurfacePoint> 
   error.points = 1;
   for (std::size_t i = 1; i < errors.size(); ++i)
     error.points += errors[i].point != errors[i - 1].point ? 1 : 0;
-  error.p99 = Quantile(errors, 0.99);
-  const double deviation = std::sqrt(0.99 * 0.01 / static_cast<double>(error.points));
-  error.p99_at_most = Quantile(errors, std::min(0.99 + deviation, 1.0));
+  error.p99 = Quantile(errors, kP99);
+  const double deviation = std::sqrt(kP99 * kAboveP99 / static_cast<double>(error.points));
+  error.p99_at_most = Quantile(errors, std::min(kP99 + deviation, 1.0));
   error.p99_at_least =
-      Quantile(errors, std::max(0.0, 0.99 - deviation - 1 / static_cast<double>(error.points)));
+      Quantile(errors, std::max(0.0, kP99 - deviation - 1 / static_cast<double>(error.points)));
   error.p95 = Quantile(errors, 0.95);
   error.rms = std::sqrt(squares / static_cast<double>(errors.size()));
   return error;
@@ -192,8 +195,8 @@ double Quantile(std::span<const ValueError> values, double q) {
 }
 
 MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
-                           std::span<const IrradianceSampler> better, std::size_t points, std::uint64_t seed,
-                           double bound) {
+                           std::span<const IrradianceSampler> better, const ErrorMeasurement& measurement) {
+  const auto [points, seed, bound] = measurement;
   MeasuredError error;
   if (scene.patches.empty() || points == 0) return error;
   const std::vector<double> areas = SeenAreas(scene);
@@ -225,7 +228,7 @@ MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const
 RepresentationError MeasureRepresentationError(const Scene& scene, const IrradianceMesh& mesh,
                                                const IrradianceSampler& sampler, std::size_t points,
                                                std::uint64_t seed) {
-  return MeasureError(scene, mesh, sampler, {}, points, seed, 0).interpolant;
+  return MeasureError(scene, mesh, sampler, {}, {points, seed, 0}).interpolant;
 }
 
 }  // namespace penumbra

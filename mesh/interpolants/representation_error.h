@@ -75,13 +75,19 @@ struct MeasuredError {
   std::vector<PartError> by_part;  // of the latter: parts that are seen
 };
 
-// Measures at `points` random points that spread evenly by area over the fronts that are seen (SeenAreas),
+// At which points errors are measured.
+struct ErrorMeasurement {
+  std::size_t points = 0;
+  std::uint64_t seed = 0;
+  double bound = 0;  // of errors: MeasuredError::above counts what is above it
+};
+
+// Measures at so many random points that spread evenly by area over the fronts that are seen (SeenAreas),
 // and at further ones in each part of the scene, so that no large one speaks for a small one. The same seed
 // gives the same points. Points are offset from all interpolation nodes with probability one. Without
 // `better` sources the others are left empty.
 MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
-                           std::span<const IrradianceSampler> better, std::size_t points, std::uint64_t seed,
-                           double bound);
+                           std::span<const IrradianceSampler> better, const ErrorMeasurement& measurement);
 
 // The first of these.
 RepresentationError MeasureRepresentationError(const Scene& scene, const IrradianceMesh& mesh,

@@ -14,7 +14,7 @@
 namespace penumbra {
 namespace {
 
-constexpr std::size_t kPointsATask = 32;
+constexpr std::size_t kEvaluationsATask = 32;
 
 Vec3 Corner(const IrradianceMesh& mesh, std::uint32_t t, int k) {
   return mesh.positions[mesh.triangles[t].vertex[static_cast<std::size_t>(k % 3)]];
@@ -50,10 +50,10 @@ Eigen::Matrix3d GradientAt(const IrradianceMesh& mesh, std::uint32_t t, double s
 }  // namespace
 
 MeasuredTriangles MeasureTriangles(const Scene& scene, const IrradianceMesh& mesh,
-                                   std::span<const std::uint32_t> triangles, int samples, const Rgb& mean,
+                                   std::span<const std::uint32_t> triangles, const TriangleSampling& sampling,
                                    const IrradianceSampler& sampler, SampleCache* cache) {
-  PENUMBRA_CHECK(samples >= 1);
-  const std::vector<std::array<double, 2>> places = PlacesOfSamples(samples);
+  PENUMBRA_CHECK(sampling.samples >= 1);
+  const std::vector<std::array<double, 2>> places = PlacesOfSamples(sampling.samples);
   std::vector<ReceiverPoint> at(triangles.size() * places.size());
   std::vector<Rgb> truth(at.size());
   std::vector<std::size_t> unknown;
@@ -70,7 +70,7 @@ MeasuredTriangles MeasureTriangles(const Scene& scene, const IrradianceMesh& mes
     else
       unknown.push_back(i);
   }
-  ParallelFor(unknown.size(), kPointsATask, [&](std::size_t k) {
+  ParallelFor(unknown.size(), kEvaluationsATask, [&](std::size_t k) {
     const std::size_t i = unknown[k];
     truth[i] = sampler(patch_of(i), at[i]).irradiance;
   });
@@ -88,7 +88,7 @@ MeasuredTriangles MeasureTriangles(const Scene& scene, const IrradianceMesh& mes
     for (int c = 0; c < 3; ++c) {
       const double difference = std::abs(shown[c] - truth[i][c]);
       if (difference == 0) continue;
-      const double relative = difference / std::max(truth[i][c], kErrorFloor * mean[c]);
+      const double relative = difference / std::max(truth[i][c], kErrorFloor * sampling.mean[c]);
       error.max = std::max(error.max, relative);
       error.rms += relative * relative;
     }

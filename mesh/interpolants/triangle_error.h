@@ -25,12 +25,16 @@ struct MeasuredTriangles {
   std::size_t point_evaluations = 0;
 };
 
+struct TriangleSampling {
+  int samples = 1;  // along each side of a triangle
+  Rgb mean;         // the channels' mean irradiance [W/m^2]
+};
+
 // At samples x samples points of each triangle named: the centroids of what lines parallel to two of its
 // sides cut it into, each half of a parallelogram counted by its area (SAMPLES of the thesis, Appendix A).
-// `mean` is the channels' mean irradiance. Points that the cache knows are not evaluated again.
-// REQUIRES: samples >= 1.
+// Points that the cache knows are not evaluated again. REQUIRES: samples >= 1.
 MeasuredTriangles MeasureTriangles(const Scene& scene, const IrradianceMesh& mesh,
-                                   std::span<const std::uint32_t> triangles, int samples, const Rgb& mean,
+                                   std::span<const std::uint32_t> triangles, const TriangleSampling& sampling,
                                    const IrradianceSampler& sampler, SampleCache* cache = nullptr);
 
 // What the interpolants alone tell, at no evaluation: where the irradiance is smooth its gradient is, too, so

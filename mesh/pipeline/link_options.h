@@ -1,19 +1,18 @@
 // mesh/pipeline/link_options.h
 //
-// The options of a solve that say how links are made. Who goes on from the links of another solve keeps that
-// one's.
+// The options of a solve that say how links are made (SolveOption::links_depend). Whoever goes on from the
+// links of another solve keeps that one's.
 
 #pragma once
 
-#include <array>
+#include <string_view>
 
 #include "mesh/pipeline/pipeline.h"
 
 namespace penumbra {
 
-// In the words of the command line, without its dashes.
-inline constexpr auto kLinkOptions = std::to_array<const char*>(
-    {"eps", "iterations", "oracle", "multigrid", "form-factors", "solver", "basis", "divisions"});
+// Whether `name`, in the words of the command line without its dashes, is one of them.
+bool IsLinkOption(std::string_view name);
 
 // Gives `to` these options of `from`.
 void TakeLinkOptions(const PipelineOptions& from, PipelineOptions* to);

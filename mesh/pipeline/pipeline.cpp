@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "mesh/refinement/shown_mesh.h"
 #include "solver/base/check.h"
 #include "solver/base/stopwatch.h"
+#include "solver/transport/solvers/light_solvers.h"
 
 namespace penumbra {
 namespace {
@@ -66,33 +68,31 @@ struct Pipeline::Impl {
   PipelineOptions options;
   ResolvedOptions resolved;
   PatchVisibility visibility;
-  std::unique_ptr<HierarchicalSolver> solver;         // null until the roots are linked
+  std::unique_ptr<LightSolver> solver;                // null until Link()
   std::optional<RunLimits::Clock::time_point> begun;  // when Solve() did: its limits count from there
   std::optional<RadiositySolution> stored;            // that another one made, until a step begins anew
   std::optional<MeshKind> mesh_kind;                  // of a mesh of the present solution
   bool mesh_unrefined = false;                        // for that was not asked for then
+  bool light_refined = false;                         // RefineLight() came to its end with this light
   std::unique_ptr<MeshLocator> locator;
   PipelineReport report;
   CurrentIrradiance irradiance;  // from the present solution
   ShownMesh shown;
 
-  // What is cancelled leaves no solver.
-  void SolveDenseSystem(const ExecutionContext& context) {
+  // Makes the solver, which goes on from a solution if there is one.
+  void MakeSolver(RadiositySolution* from, const ExecutionContext& context) {
     const Stopwatch stopwatch;
-    const ElementForest forest = UniformForest(scene, options.divisions);
-    const std::size_t unknowns = CountUnknowns(forest, options.dense->degree);
-    if (unknowns > kMostDenseUnknowns)
-      throw InputError(
-          fmt::format("{}: error: the dense solver would have {} unknowns and can take {}; ask for "
-                      "fewer divisions or a basis of lower degree",
-                      scene.name, unknowns, kMostDenseUnknowns));
-    const DenseSystem system = AssembleDense(forest, visibility, *options.dense, context);
-    if (context.Cancelled()) return;
-    solver = std::make_unique<HierarchicalSolver>(scene, visibility, resolved.solver,
-                                                  ToRadiositySolution(system, SolveDense(system)));
-    report.dense = {system.size(), MeasureClosure(system), system.form_factor_error};
-    AddPhase("iterate", stopwatch.Seconds());
+    solver = LightSolvers().Make(options.solver, {scene, visibility, from}, {resolved.solver, options.dense},
+                                 context);
+    // What is solved as it is made has no steps left.
+    AddPhase(solver->Ready() && !solver->Next() ? "iterate" : "link", stopwatch.Seconds());
+    TakeReport();
     Count();
+  }
+
+  void TakeReport() {
+    report.iterations = solver->report().iterations;
+    report.dense = solver->report().dense;
   }
 
   // Adds to the phase of that name.
@@ -139,43 +139,54 @@ struct Pipeline::Impl {
     return true;
   }
 
-  // Makes the mesh of that kind, from the solution as it is; for interpolants refines what they show, unless
-  // that is cancelled or not asked for. False if it was cancelled before there was a mesh.
-  bool MakeMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is) {
+  MeshOptions OptionsOf(MeshKind kind) const {
     MeshOptions mesh_options;
     mesh_options.discontinuities = resolved.discontinuities;
     if (kind != MeshKind::kGouraudMesh && kind != MeshKind::kInterpolant)
-      mesh_options.discontinuities.choice = DiscontinuityChoice::kNone;
+      mesh_options.discontinuities.choice = kNoDiscontinuities;
     mesh_options.order = kind == MeshKind::kFlat          ? InterpolantOrder::kConstant
                          : kind == MeshKind::kInterpolant ? InterpolantOrder::kQuadratic
                                                           : InterpolantOrder::kLinear;
+    return mesh_options;
+  }
+
+  // Makes the mesh of that kind, from the solution as it is; of interpolants refines the leaves, unless that
+  // is cancelled or not asked for. False if it was cancelled before there was a mesh.
+  bool MakeMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is) {
     const bool refines =
         kind == MeshKind::kInterpolant && solver && options.refine != RefineBy::kTransport && !as_it_is;
-    return refines ? shown.MakeRefined(*solver, mesh_options, RefinesLight(options), context)
-                   : shown.Make(Solution(), mesh_options, context);
+    return refines ? shown.MakeRefined(Solution(), OptionsOf(kind), context)
+                   : shown.Make(Solution(), OptionsOf(kind), context);
   }
 
-  // Runs one step of the solver, which says whether it was done, and counts what it left.
-  template <class Step>
-  bool Run(const ExecutionContext& context, const Step& step) {
-    const Stopwatch stopwatch;
-    const bool done = step(*solver, context);
-    if (done) Forget();
-    AddPhase("iterate", stopwatch.Seconds());
+  // After a step of the solver, or of what is left of one, that took so many seconds: what was made of the
+  // light before is dropped, if the light `changed`.
+  void EndStep(double seconds, bool changed) {
+    if (changed) Forget();
+    AddPhase("iterate", seconds);
+    TakeReport();
     Count();
-    return done;
   }
 
-  // The same for a step that says what it did, which the report keeps.
-  template <class Step>
-  std::optional<IterationReport> RunIteration(const ExecutionContext& context, const Step& step) {
-    std::optional<IterationReport> done;
-    Run(context, [&](HierarchicalSolver& of, const ExecutionContext& running) {
-      done = step(of, running);
-      return done.has_value();
-    });
-    if (done) report.iterations.push_back(*done);
-    return done;
+  // Says what the iterations left undone.
+  void TellUnmetIterations() {
+    if (solver->report().full)
+      report.unmet.push_back(
+          fmt::format("iterate: links are not refined to the end: they would be more than {} million",
+                      resolved.solver.max_links / 1'000'000));
+    const double residual = report.iterations.empty() ? INFINITY : report.iterations.back().residual;
+    if (!solver->Converged() && solver->Next() != SolverStep::kIterate)
+      report.unmet.push_back(fmt::format("iterate: {} iterations left a residual of {:.2g}",
+                                         report.iterations.size(), residual));
+  }
+
+  // The time that meshes took since this was last called.
+  void AddMeshPhases() {
+    const MeshSeconds seconds = shown.TakeSeconds();
+    if (seconds.sources > 0) AddPhase("iterate", seconds.sources);
+    AddPhase("discontinuities", seconds.mesh.discontinuities);
+    AddPhase("triangulate", seconds.mesh.triangulate);
+    AddPhase("interpolate", seconds.mesh.interpolate);
   }
 
   // What was missed before is told again if it is missed again.
@@ -186,7 +197,9 @@ struct Pipeline::Impl {
   // What was made of a solution that is no more.
   void Forget() {
     irradiance.Reset();
+    shown.Forget();
     mesh_kind.reset();
+    light_refined = false;
   }
 
   // The solution that another one made, which a step begins with or drops; what that one told is gone.
@@ -233,60 +246,48 @@ Pipeline::Pipeline(const Scene& scene, const PipelineOptions& options, PipelineS
 Pipeline::~Pipeline() = default;
 
 void Pipeline::Link(const ExecutionContext& context) {
-  if (impl_->solver && impl_->solver->Linked()) return;
+  if (impl_->solver && impl_->solver->Ready()) return;
   context.Report("link", 0);
   const Stopwatch linking;
   if (impl_->stored) impl_->TakeStored();
   impl_->shown.ForgetVisibility();
   if (impl_->solver) impl_->Forget();  // of a linking that was cancelled
   impl_->visibility = PatchVisibility(impl_->scene, context);
-  if (impl_->options.dense) {
-    impl_->AddPhase("link", linking.Seconds());
-    impl_->SolveDenseSystem(context);
-    if (impl_->solver) return;
-  }
-  impl_->solver =
-      std::make_unique<HierarchicalSolver>(impl_->scene, impl_->visibility, impl_->resolved.solver, context);
   impl_->AddPhase("link", linking.Seconds());
-  impl_->Count();
+  impl_->MakeSolver(nullptr, context);
+}
+
+bool Pipeline::Step(SolverStep step, const ExecutionContext& context) {
+  Link(context);
+  const Stopwatch stopwatch;
+  const bool done = impl_->solver->Step(step, context);
+  // Of corrections that were cancelled some passes may have been made.
+  impl_->EndStep(stopwatch.Seconds(), done || step == SolverStep::kCorrect);
+  return done;
 }
 
 std::optional<IterationReport> Pipeline::Iterate(const ExecutionContext& context) {
-  Link(context);
-  return impl_->RunIteration(context, [](HierarchicalSolver& solver, const ExecutionContext& running) {
-    return solver.Iterate(running);
-  });
+  const std::size_t before = impl_->report.iterations.size();
+  if (!Step(SolverStep::kIterate, context) || impl_->report.iterations.size() == before) return std::nullopt;
+  return impl_->report.iterations.back();
 }
 
 bool Pipeline::Converged() const { return impl_->solver && impl_->solver->Converged(); }
 
-bool Pipeline::Correct(const ExecutionContext& context) {
-  Link(context);
-  const bool done = impl_->Run(context, [this](HierarchicalSolver& solver, const ExecutionContext& running) {
-    return solver.CorrectAll(running, /*but_the_last=*/RefinesLight(impl_->options));
-  });
-  if (!done) impl_->Forget();  // some passes may have been made
-  return done;
-}
-
-bool Pipeline::SubdivideLeaves(std::span<const ElementId> leaves, const ExecutionContext& context) {
-  Link(context);
-  return impl_->Run(context, [&](HierarchicalSolver& solver, const ExecutionContext& running) {
-    return solver.SubdivideLeaves(leaves, running);
-  });
+std::optional<SolverStep> Pipeline::NextStep() const {
+  return impl_->solver ? impl_->solver->Next() : std::nullopt;
 }
 
 std::optional<IterationReport> Pipeline::Relight(const ExecutionContext& context) {
   if (impl_->stored) {
-    const Stopwatch linking;
-    impl_->solver = std::make_unique<HierarchicalSolver>(impl_->scene, impl_->visibility,
-                                                         impl_->resolved.solver, impl_->TakeStored());
-    impl_->AddPhase("link", linking.Seconds());
+    RadiositySolution solution = impl_->TakeStored();
+    impl_->MakeSolver(&solution, context);
   }
   Link(context);
-  return impl_->RunIteration(context, [](HierarchicalSolver& solver, const ExecutionContext& running) {
-    return solver.Relight(running);
-  });
+  const Stopwatch stopwatch;
+  const bool done = impl_->solver->Relight(context);
+  impl_->EndStep(stopwatch.Seconds(), done);
+  return done ? std::optional(impl_->report.iterations.back()) : std::nullopt;
 }
 
 void Pipeline::SolveOverLinks(const ExecutionContext& context) {
@@ -304,41 +305,48 @@ void Pipeline::SolveOverLinks(const ExecutionContext& context) {
                                               relit ? "lit anew" : "with the light of before"));
 }
 
-void Pipeline::Solve(const ExecutionContext& context) {
+void Pipeline::Solve(const ExecutionContext& context, const StepObserver& observer) {
   impl_->BeginLimits();
   const RunLimits limits = impl_->LimitsSinceSolve(context);
   const ExecutionContext& running = limits.context();
   Link(running);
-  if (!impl_->solver->Linked()) {
+  LightSolver& solver = *impl_->solver;
+  if (!solver.Ready()) {
     if (const std::optional<std::string> limit = limits.Exceeded())
       impl_->report.unmet.push_back(
           fmt::format("link: ended by {}: nothing is linked, and dark but for what it emits", *limit));
     return;
   }
-  if (impl_->options.dense) return;
-  const int most = impl_->resolved.solver.max_iterations;
-  for (int i = 0; i < most && !Converged() && !running.Cancelled(); ++i) {
-    running.Report("iterate", static_cast<double>(i) / most);
-    Iterate(running);
-    if (IsStuck(impl_->report.iterations)) break;
-  }
-  if (impl_->solver->Full())
-    impl_->report.unmet.push_back(
-        fmt::format("iterate: links are not refined to the end: they would be more than {} million",
-                    impl_->resolved.solver.max_links / 1'000'000));
+  Stopwatch stopwatch;
+  const bool whole = SolveStepByStep(solver, running, [&](SolverStep step) {
+    impl_->EndStep(stopwatch.Seconds(), true);
+    if (observer) observer(step);
+    stopwatch = Stopwatch();
+  });
+  if (!whole) impl_->EndStep(stopwatch.Seconds(), true);
+  impl_->TellUnmetIterations();
   const std::vector<IterationReport>& iterations = impl_->report.iterations;
-  const double residual = iterations.empty() ? INFINITY : iterations.back().residual;
-  if (!Converged() && !running.Cancelled())
+  if (const std::optional<std::string> limit = limits.Exceeded(); limit && !whole)
     impl_->report.unmet.push_back(
-        fmt::format("iterate: {} iterations left a residual of {:.2g}", iterations.size(), residual));
-  const bool corrected = Correct(running);
-  if (const std::optional<std::string> limit = limits.Exceeded(); limit && (!Converged() || !corrected))
-    impl_->report.unmet.push_back(fmt::format("iterate: ended by {} after {} iterations, {} and {}", *limit,
-                                              iterations.size(), Converged() ? "converged" : "not converged",
-                                              corrected ? "corrected" : "not corrected to the end"));
+        fmt::format("iterate: ended by {} after {} iterations, {} and not corrected to the end", *limit,
+                    iterations.size(), Converged() ? "converged" : "not converged"));
 }
 
 void Pipeline::CountLimits() { impl_->begun = RunLimits::Clock::now(); }
+
+bool Pipeline::RefinesLight() const {
+  return impl_->resolved.refine_light && impl_->solver && impl_->solver->TakesLight();
+}
+
+void Pipeline::RefineLight(const ExecutionContext& context) {
+  if (!RefinesLight()) return;
+  if (impl_->light_refined) return;
+  const RunLimits limits = impl_->LimitsSinceSolve(context);
+  impl_->light_refined =
+      impl_->shown.RefineLight(*impl_->solver, impl_->OptionsOf(MeshKind::kInterpolant), limits.context());
+  impl_->mesh_kind.reset();
+  impl_->AddMeshPhases();
+}
 
 void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is) {
   if (impl_->mesh_kind == kind && (as_it_is || !impl_->mesh_unrefined)) return;
@@ -362,11 +370,8 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context, bool as
   impl_->mesh_unrefined = as_it_is;
   impl_->locator = std::make_unique<MeshLocator>(impl_->scene, impl_->shown.mesh());
 
+  impl_->AddMeshPhases();
   const MeshReport& report = impl_->shown.report();
-  if (impl_->shown.seconds_of_sources() > 0) impl_->AddPhase("iterate", impl_->shown.seconds_of_sources());
-  impl_->AddPhase("discontinuities", report.seconds.discontinuities);
-  impl_->AddPhase("triangulate", report.seconds.triangulate);
-  impl_->AddPhase("interpolate", report.seconds.interpolate);
   PipelineReport::Counts& counts = impl_->report.counts;
   counts.discontinuities = report.counts.discontinuities;
   counts.dsets_active = report.counts.dsets_active;
@@ -433,7 +438,7 @@ void Pipeline::Measure(const ExecutionContext& context) {
   const IrradianceSampler truths[] = {WhileGoing(NearSampler(*better, tolerance), running),
                                       WhileGoing(NearSampler(*shown, tolerance), running)};
   const auto measure = [&](std::size_t at) {
-    return MeasureError(impl_->scene, mesh, sampler, truths, at, seed, report.error_asked);
+    return MeasureError(impl_->scene, mesh, sampler, truths, {at, seed, report.error_asked});
   };
   MeasuredError error = measure(std::min(points, kFewSourcePoints));
   if (points > kFewSourcePoints && error.above > kClearlyMet && error.above < kClearlyMissed)
@@ -453,8 +458,8 @@ void Pipeline::Measure(const ExecutionContext& context) {
 void Pipeline::Glance(const ExecutionContext& context) {
   PENUMBRA_CHECK(impl_->mesh_kind.has_value());
   const RunLimits limits = impl_->LimitsSinceSolve(context);
-  if (*impl_->mesh_kind != MeshKind::kInterpolant || !impl_->solver || limits.context().Cancelled() ||
-      !impl_->solver->SeenFromLeaves(limits.context()))
+  if (*impl_->mesh_kind != MeshKind::kInterpolant || !impl_->solver || !impl_->solver->TakesLight() ||
+      limits.context().Cancelled() || !impl_->solver->SeenFromLeaves(limits.context()))
     return;
   context.Report("measure", 0);
   PipelineReport& report = impl_->report;

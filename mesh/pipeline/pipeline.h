@@ -23,10 +23,9 @@
 #include "solver/scene/scene.h"
 #include "solver/transport/links/solution.h"
 #include "solver/transport/points/point_irradiance.h"
-#include "solver/transport/solvers/dense_solver.h"
 #include "solver/transport/solvers/diagnostics.h"
 #include "solver/transport/solvers/energy.h"
-#include "solver/transport/solvers/hierarchical_solver.h"
+#include "solver/transport/solvers/light_solver.h"
 #include "solver/visibility/pair/patch_visibility.h"
 
 namespace penumbra {
@@ -48,7 +47,7 @@ struct PipelineOptions {
   int max_leaf_dsets = 10;                         // Appendix A, 5
   // Which discontinuities the mesh gets. The weight is the thesis's where its minimum is given, for that is
   // on its scale; else the irradiance weight.
-  DiscontinuityChoice discontinuities = DiscontinuityChoice::kRanked;
+  std::string discontinuities = "ranked";  // DiscontinuityOptions::choice
   std::optional<DiscontinuityWeight> weight;
   bool keep_hidden_discontinuities = false;
   double triple_edge_tolerance = 0;       // DiscontinuityOptions::triple_edge_tolerance [m]
@@ -60,11 +59,11 @@ struct PipelineOptions {
   // SolverOptions::source_error. Where it is given, sources are not cut by the interpolants.
   std::optional<double> source_error;
   int max_iterations = 100;
-  LinkFormFactors form_factors = LinkFormFactors::kCubature;  // SolverOptions::form_factors
   // SolverOptions of these names.
+  std::string form_factors = "cubature";
   IterationScheme scheme = IterationScheme::kJacobi;
   Acceleration acceleration = Acceleration::kAnderson;
-  OracleKind oracle = OracleKind::kTransport;
+  std::string oracle = "transport";
   bool multigrid = false;
   // Limits to Solve(), which then ends with the last whole step: in the dark, where that was not even
   // linking. They go on for BuildMesh(), which leaves out refining by what is shown, or where there was no
@@ -80,27 +79,21 @@ struct PipelineOptions {
   PointIrradianceOptions point;     // Appendix A, 9 and 10
   std::size_t error_points = 1000;  // random points that measure the interpolants' error; 0 leaves it out
   std::uint64_t seed = 1;
-  // Solves the dense system of a uniform mesh directly instead. Linear and quadratic elements hand on their
-  // means.
-  std::optional<DenseOptions> dense;
-  int divisions = 4;  // of each patch's sides for that: a power of two
+  std::string solver = "hierarchical";  // its name in LightSolvers()
+  DenseOptions dense;                   // of the solver `dense`
 };
-
-// Unknowns that a dense solve may have: 4 GB with the copy that is factored.
-inline constexpr std::size_t kMostDenseUnknowns = 16'000;
 
 // The values that a solve works with.
 struct ResolvedOptions {
   SolverOptions solver;
   DiscontinuityOptions discontinuities;
+  // Interpolants, once they are made of a solution, refine its light where the solver lets them
+  // (Pipeline::RefinesLight). What --refine transport asks for stays as the links made it, and corrections by
+  // --source-error stay as they cut it.
+  bool refine_light = true;
 };
+// Throws InputError if a method is named that does not exist.
 ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options);
-
-// Whether interpolants, once they are made of a solution, refine its light: cut its sources by what they show
-// and give them their means, which then is the last correction. The light of a dense solve stays as it was
-// solved, that of --refine transport as its links made it, and that of corrections by --source-error as these
-// cut it. Everything that may change the light asks here.
-bool RefinesLight(const PipelineOptions& options);
 
 // How the interpolants of a mesh are made.
 enum class MeshKind {
@@ -124,12 +117,7 @@ struct PipelineReport {
                 interpolants = 0, point_evaluations = 0;
   } counts;
   std::vector<IterationReport> iterations;
-  struct Dense {
-    std::size_t unknowns = 0;
-    DenseClosure closure;
-    double form_factor_error = 0;  // DenseSystem::form_factor_error
-  };
-  std::optional<Dense> dense;
+  std::optional<SolverReport::Dense> dense;
   EnergyBalance energy;
   LinkDiagnostics links;
   ViewDiagnostics views;
@@ -169,11 +157,10 @@ class Pipeline {
   const PipelineOptions& options() const;
   const ResolvedOptions& resolved() const;
 
-  // Stages link and iterate: Link(), Iterate() until Converged() or the most iterations, Correct(). Goes on
-  // from wherever the steps below have led. Cancelled, it leaves the solution of the last whole step. Dense
-  // systems are assembled and solved in the first of them, and have no others. Throws InputError if such a
-  // system is too large.
-  void Solve(const ExecutionContext& context);
+  // Stages link and iterate: Link(), and the solver's steps until it has none left (SolveStepByStep). Goes on
+  // from wherever the steps below have led. Cancelled, it leaves the solution of the last whole step. The
+  // observer, if any, is told of each step. Throws InputError if a dense system is too large.
+  void Solve(const ExecutionContext& context, const StepObserver& observer = {});
 
   // The same step by step, for who wants to look at what each one made. A step that is cancelled leaves
   // solution and report as they were before it, unless it says otherwise.
@@ -181,16 +168,18 @@ class Pipeline {
   // What sees what, and the links between the roots: dark but for what surfaces emit. The other steps begin
   // with this one where it was left out, or was cancelled, which leaves that darkness without links.
   void Link(const ExecutionContext& context);
-  // One iteration: gather until the light settles, refine, gather. Nothing if it was cancelled.
+  // LightSolver::Step(). False if it was cancelled.
+  bool Step(SolverStep step, const ExecutionContext& context);
+  // One iteration: gather until the light settles, refine, gather. Nothing if it was cancelled, or if the
+  // solver makes none.
   std::optional<IterationReport> Iterate(const ExecutionContext& context);
   // The last iteration refined nothing and left a residual below the cut-off.
   bool Converged() const;
+  // The step that would come next; nothing before Link(), or if the solver has come to its end.
+  std::optional<SolverStep> NextStep() const;
   // The passes of exact irradiance over the leaves, as many as the options say. False if it was cancelled,
   // which keeps the passes that were made.
-  bool Correct(const ExecutionContext& context);
-  // Splits the leaves, keeps all others, links the new ones, and lights them from the present light
-  // (HierarchicalSolver::SubdivideLeaves). Takes corrections back. False if it was cancelled.
-  bool SubdivideLeaves(std::span<const ElementId> leaves, const ExecutionContext& context);
+  bool Correct(const ExecutionContext& context) { return Step(SolverStep::kCorrect, context); }
   // Lights the scene anew after its emittances or reflectances were changed, over the links there are, those
   // of a state that the pipeline began with too. Takes corrections back. Nothing if it was cancelled.
   std::optional<IterationReport> Relight(const ExecutionContext& context);
@@ -198,11 +187,19 @@ class Pipeline {
   // factors. No link is judged or refined.
   void SolveOverLinks(const ExecutionContext& context);
 
+  // Whether RefineLight() would do anything: the options ask for it, and the solver takes light.
+  bool RefinesLight() const;
+  // Stage refine light: a first mesh shows the light, whose sources are cut by what it shows and get its
+  // means, in turns, until the light stands still. This is the last correction, and the only stage after the
+  // solver that changes the solution. Nothing where RefinesLight() is false. REQUIRES: Link() or what begins
+  // with it.
+  void RefineLight(const ExecutionContext& context);
+
   // Stages discontinuities, triangulate, interpolate, for what a display mode needs, from the solution as it
-  // is. For interpolants, unless transport alone is asked for, they then refine the solution's sources, and
-  // the mesh (RefineMesh), until the error asked for is met; not where the solution is to stay `as_it_is`,
-  // after a step that is to be looked at. Nothing is done where it is there already.
-  // REQUIRES: Link() or what begins with it.
+  // is, which they leave so. For interpolants, unless transport alone is asked for, they then refine the mesh
+  // (RefineMesh) until the error asked for is met; not where the mesh is to stay `as_it_is`, after a step
+  // that is to be looked at. Nothing is done where it is there already. REQUIRES: Link() or what begins with
+  // it.
   void BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is = false);
   // The limits of what is done from here on begin anew, as Solve() begins them: for those who do its steps.
   void CountLimits();

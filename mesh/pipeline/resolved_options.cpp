@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "mesh/discontinuities/discontinuity_choices.h"
 #include "mesh/pipeline/pipeline.h"
+#include "solver/transport/links/link_form_factor_methods.h"
+#include "solver/transport/links/refinement_oracles.h"
 
 namespace penumbra {
 namespace {
@@ -47,10 +50,6 @@ SceneTotals Total(const Scene& scene) {
 
 }  // namespace
 
-bool RefinesLight(const PipelineOptions& options) {
-  return options.refine != RefineBy::kTransport && !options.dense && !options.source_error;
-}
-
 ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   const SceneTotals totals = Total(scene);
   // What the walls would receive if all light stayed in and spread evenly.
@@ -64,13 +63,15 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   resolved.solver.max_corrections = options.max_corrections;
   resolved.solver.correction_tolerance = kCorrectionOfError * options.error;
   resolved.solver.source_error = options.source_error.value_or(0);
-  resolved.solver.form_factors = options.form_factors;
+  resolved.solver.form_factors = LinkFormFactorMethods().Find(options.form_factors).name;
   resolved.solver.scheme = options.scheme;
   resolved.solver.acceleration = options.acceleration;
-  resolved.solver.oracle = options.oracle;
+  resolved.solver.oracle = RefinementOracles().Find(options.oracle).name;
   resolved.solver.multigrid = options.multigrid;
+  resolved.refine_light = options.refine != RefineBy::kTransport && !options.source_error;
+  resolved.solver.last_correction_elsewhere = resolved.refine_light;
   DiscontinuityOptions& mesh = resolved.discontinuities;
-  mesh.choice = options.discontinuities;
+  mesh.choice = DiscontinuityChoices().Find(options.discontinuities).name;
   mesh.weight = options.weight.value_or(options.min_discontinuity_weight ? DiscontinuityWeight::kThesis
                                                                          : DiscontinuityWeight::kIrradiance);
   const double from_error =

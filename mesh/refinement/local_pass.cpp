@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "mesh/discontinuities/contact_corners.h"
+#include "mesh/discontinuities/discontinuity_choices.h"
 #include "mesh/discontinuities/dset.h"
-#include "mesh/discontinuities/shadow_crossing.h"
-#include "mesh/interpolants/leaf_light.h"
-#include "mesh/interpolants/light_beside.h"
 #include "mesh/triangulation/weld.h"
 #include "solver/base/parallel.h"
 #include "solver/base/stopwatch.h"
 
 namespace penumbra {
+
 std::vector<double> SourceStrengths(const RadiositySolution& solution) {
   std::vector<double> strength(solution.forest.scene().patches.size(), 0.0);
   for (std::size_t i = 0; i < solution.forest.size(); ++i) {
@@ -25,39 +23,6 @@ std::vector<double> SourceStrengths(const RadiositySolution& solution) {
 }
 
 namespace {
-
-PatchDSets Activate(const ElementForest& forest, const PatchVisibility& visibility, PatchId patch,
-                    std::span<const Discontinuity> found, const DiscontinuityOptions& options,
-                    const LightBeside& light, LeafLight* places = nullptr) {
-  const auto scale = [&](ElementId leaf) { return light.ScaleOf(forest, leaf); };
-  PlaceScale at_place;
-  if (places) {
-    const Frame frame = PolygonFrame(forest.scene().patches[static_cast<std::size_t>(patch)].Vertices());
-    at_place = [&light, places, frame](ElementId leaf, const Vec2& place) {
-      return light.ScaleIn(places->At(leaf, frame.FromPlane(place)));
-    };
-  }
-  if (options.choice != DiscontinuityChoice::kAdaptive)
-    return ActivateDiscontinuities(forest, patch, found, options, {}, scale, at_place);
-  ShadowCrossing crossing(forest, visibility, patch);
-  const auto crosses = [&](const Discontinuity& d, ElementId leaf) {
-    return crossing.Crosses(d.source, leaf);
-  };
-  return ActivateDiscontinuities(forest, patch, found, options, crosses, scale);
-}
-
-// The discontinuities on the patch that may become edges, those of the plan marked.
-std::vector<Discontinuity> FindOnPatch(PatchId patch, std::span<const double> strength,
-                                       const LightBeside& light, const MeshPlan& plan,
-                                       const DiscontinuityOptions& options, LocalPassCache* cache,
-                                       const ExecutionContext& context) {
-  std::vector<Discontinuity> found =
-      cache->discontinuities.Find(patch, strength, light.ToFindOn(patch, options), context);
-  if (static_cast<std::size_t>(patch) >= plan.wanted.size()) return found;
-  for (const Discontinuity& wanted : plan.wanted[static_cast<std::size_t>(patch)])
-    for (Discontinuity& d : found) d.wanted |= SameTrace(d, wanted);
-  return found;
-}
 
 // Splits the crowded leaves of the patch, and what balance asks for. Returns how many were crowded.
 std::size_t SplitCrowded(ElementForest& forest, PatchId patch, std::span<const ElementId> crowded,
@@ -87,97 +52,156 @@ MeshPlan BeginPlan(const PatchVisibility& visibility, const RadiositySolution& s
   return plan;
 }
 
-std::vector<PatchTriangulation> TriangulatePatches(
-    const PatchVisibility& visibility, const RadiositySolution& solution, const MeshPlan& plan,
-    const DiscontinuityOptions& options, const ExecutionContext& context, MeshReport& report,
-    LocalPassCache* cache, std::vector<OmittedOfPatch>* omitted, const IrradianceSampler& sampler) {
-  const Scene& scene = solution.forest.scene();
-  const std::size_t count = scene.patches.size();
-  if (omitted) omitted->clear();
+// What one call of Triangulate() works on.
+struct PatchTriangulator::Work {
+  const MeshPlan& plan;
+  MeshReport& report;
+  DiscontinuityOptions activating;
+  ElementForest forest;                           // crowded leaves are split in quadtrees of the mesh's own
+  std::vector<std::vector<Discontinuity>> found;  // by patch
+  std::vector<PatchDSets> dsets;                  // by patch
+};
 
-  context.Report("discontinuities", 0);
-  Stopwatch finding;
-  std::vector<PatchDSets> dsets(count);
-  std::vector<std::vector<Discontinuity>> found(count);
-  const LightBeside light(solution, options.weight);
-  const std::vector<double> strength = SourceStrengths(solution);
-  std::optional<LocalPassCache> own;
-  if (!cache) cache = &own.emplace(scene, visibility);
-  const DiscontinuityCache::Counts before = cache->discontinuities.counts();
-  ParallelFor(count, 1, [&](std::size_t p) {
-    if (options.enabled() && !context.Cancelled())
-      found[p] = FindOnPatch(static_cast<PatchId>(p), strength, light, plan, options, cache, context);
+PatchTriangulator::PatchTriangulator(const PatchVisibility& visibility, const RadiositySolution& solution,
+                                     const DiscontinuityOptions& options, const ExecutionContext& context,
+                                     LocalPassCache* cache)
+    : visibility_(visibility),
+      solution_(solution),
+      options_(options),
+      context_(context),
+      cache_(cache ? *cache : own_cache_.emplace(solution.forest.scene(), visibility)),
+      light_(solution, options.weight),
+      strength_(SourceStrengths(solution)) {}
+
+// The discontinuities on the patch that may become edges, those of the plan marked.
+std::vector<Discontinuity> PatchTriangulator::FindOn(PatchId patch, const MeshPlan& plan) const {
+  std::vector<Discontinuity> found =
+      cache_.discontinuities.Find(patch, strength_, light_.ToFindOn(patch, options_), context_);
+  if (static_cast<std::size_t>(patch) >= plan.wanted.size()) return found;
+  for (const Discontinuity& wanted : plan.wanted[static_cast<std::size_t>(patch)])
+    for (Discontinuity& d : found) d.wanted |= SameTrace(d, wanted);
+  return found;
+}
+
+void PatchTriangulator::FindAll(Work& work) const {
+  const DiscontinuityCache::Counts before = cache_.discontinuities.counts();
+  ParallelFor(work.found.size(), 1, [&](std::size_t p) {
+    if (options_.enabled() && !context_.Cancelled())
+      work.found[p] = FindOn(static_cast<PatchId>(p), work.plan);
   });
-  report.counts.pairs_traced += cache->discontinuities.counts().traced - before.traced;
-  report.counts.pairs_kept += cache->discontinuities.counts().kept - before.kept;
-  DiscontinuityOptions activating = options;
-  if (!omitted) activating.min_wanted_weight = activating.min_weight;  // nobody asks what was left out
-  // Crowded leaves are split in quadtrees of the mesh's own.
-  ElementForest forest = plan.forest;
-  std::vector<std::size_t> patches_to_do(count);
+  work.report.counts.pairs_traced += cache_.discontinuities.counts().traced - before.traced;
+  work.report.counts.pairs_kept += cache_.discontinuities.counts().kept - before.kept;
+}
+
+PatchDSets PatchTriangulator::Activate(const Work& work, std::size_t p, LeafLight* places) const {
+  const auto patch = static_cast<PatchId>(p);
+  const ElementForest& forest = work.forest;
+  const auto scale = [&](ElementId leaf) { return light_.ScaleOf(forest, leaf); };
+  PlaceScale at_place;
+  if (places) {
+    const Frame frame = PolygonFrame(forest.scene().patches[p].Vertices());
+    at_place = [this, places, frame](ElementId leaf, const Vec2& place) {
+      return light_.ScaleIn(places->At(leaf, frame.FromPlane(place)));
+    };
+  }
+  const LeafFilter filter =
+      DiscontinuityChoices().Make(options_.choice)->FilterOf(forest, visibility_, patch);
+  return ActivateDiscontinuities(forest, patch, work.found[p], work.activating, filter, scale, at_place);
+}
+
+// Activates on all patches, and again where crowded leaves were split.
+void PatchTriangulator::ActivateAll(Work& work) const {
+  std::vector<std::size_t> patches_to_do(work.dsets.size());
   std::iota(patches_to_do.begin(), patches_to_do.end(), std::size_t{0});
-  for (int round = 0; !patches_to_do.empty() && !context.Cancelled(); ++round) {
+  for (int round = 0; !patches_to_do.empty() && !context_.Cancelled(); ++round) {
     ParallelFor(patches_to_do.size(), 1, [&](std::size_t i) {
-      if (context.Cancelled()) return;
-      const std::size_t p = patches_to_do[i];
-      dsets[p] = Activate(forest, visibility, static_cast<PatchId>(p), found[p], activating, light);
+      if (context_.Cancelled()) return;
+      work.dsets[patches_to_do[i]] = Activate(work, patches_to_do[i]);
     });
-    if (round == options.crowded_splits) break;
+    if (round == options_.crowded_splits) break;
     std::vector<std::size_t> again;
     for (const std::size_t p : patches_to_do) {
       const std::size_t split =
-          SplitCrowded(forest, static_cast<PatchId>(p), dsets[p].crowded, options.min_split_area);
-      report.counts.leaves_split += split;
+          SplitCrowded(work.forest, static_cast<PatchId>(p), work.dsets[p].crowded, options_.min_split_area);
+      work.report.counts.leaves_split += split;
       if (split > 0) again.push_back(p);
     }
     patches_to_do.swap(again);
   }
-  // Where some were refused, it matters which: those in the dark count most.
-  if (sampler && activating.ranks_by_error()) {
-    std::vector<std::size_t> evaluations(count);
-    ParallelFor(count, 1, [&](std::size_t p) {
-      if (dsets[p].refused == 0 || context.Cancelled()) return;
-      LeafLight places(forest, static_cast<PatchId>(p), sampler);
-      dsets[p] = Activate(forest, visibility, static_cast<PatchId>(p), found[p], activating, light, &places);
-      evaluations[p] = places.evaluations();
-    });
-    report.counts.point_evaluations +=
-        std::accumulate(evaluations.begin(), evaluations.end(), std::size_t{0});
-  }
+}
+
+// Where some were refused, it matters which: those in the dark count most.
+void PatchTriangulator::ActivateByPlaces(Work& work) const {
+  if (!sampler_ || !*sampler_ || !work.activating.ranks_by_error()) return;
+  std::vector<std::size_t> evaluations(work.dsets.size());
+  ParallelFor(work.dsets.size(), 1, [&](std::size_t p) {
+    if (work.dsets[p].refused == 0 || context_.Cancelled()) return;
+    LeafLight places(work.forest, static_cast<PatchId>(p), *sampler_);
+    work.dsets[p] = Activate(work, p, &places);
+    evaluations[p] = places.evaluations();
+  });
+  work.report.counts.point_evaluations +=
+      std::accumulate(evaluations.begin(), evaluations.end(), std::size_t{0});
+}
+
+std::vector<PatchTriangulation> PatchTriangulator::TriangulateAll(const Work& work) const {
+  const std::size_t count = work.dsets.size();
+  std::vector<PatchTriangulation> patches(count);
+  if (context_.Cancelled()) return patches;
+  std::vector<PatchBorders> borders(count);
+  ParallelFor(count, 1, [&](std::size_t p) {
+    if (!context_.Cancelled()) borders[p] = PatchBorders(work.forest, static_cast<PatchId>(p), work.dsets[p]);
+  });
+  if (!context_.Cancelled()) WeldOutlines(work.forest.scene(), borders);
+  ParallelFor(count, 1, [&](std::size_t p) {
+    if (context_.Cancelled()) return;
+    patches[p] = TriangulateLeaves(work.forest, static_cast<PatchId>(p), work.dsets[p], std::move(borders[p]),
+                                   own_cache_ ? nullptr : &cache_.leaves[p]);
+  });
+  return patches;
+}
+
+void PatchTriangulator::Count(const Work& work, const PatchTriangulation& triangulated,
+                              std::size_t patch) const {
+  MeshReport& report = work.report;
+  const double scale = light_.LargestScale(static_cast<PatchId>(patch));
+  for (const Discontinuity& d : work.found[patch])
+    if (d.wanted || scale * d.weight >= options_.min_weight) ++report.counts.discontinuities;
+  const PatchDSets& dsets = work.dsets[patch];
+  report.counts.activated += dsets.activated;
+  report.counts.dsets_active += dsets.dsets_active;
+  report.counts.refused += dsets.refused;
+  report.counts.refused_contacts += dsets.refused_contacts;
+  report.counts.most_merged = std::max(report.counts.most_merged, dsets.most_merged);
+  report.counts.dropped_segments += triangulated.dropped_segments;
+  report.counts.leaves_made += triangulated.leaves_made;
+  report.counts.leaves_kept += triangulated.leaves_kept;
+  report.counts.triangles += triangulated.triangles.size();
+}
+
+std::vector<PatchTriangulation> PatchTriangulator::Triangulate(const MeshPlan& plan, MeshReport& report,
+                                                               std::vector<OmittedOfPatch>* omitted) {
+  const std::size_t count = solution_.forest.scene().patches.size();
+  if (omitted) omitted->clear();
+  context_.Report("discontinuities", 0);
+  const Stopwatch finding;
+  Work work{plan, report, options_, plan.forest, {}, {}};
+  work.found.resize(count);
+  work.dsets.resize(count);
+  if (!omitted) work.activating.min_wanted_weight = options_.min_weight;  // nobody asks what was left out
+  FindAll(work);
+  ActivateAll(work);
+  ActivateByPlaces(work);
   report.seconds.discontinuities += finding.Seconds();
 
-  Stopwatch triangulating;
-  std::vector<PatchTriangulation> patches(count);
-  std::vector<PatchBorders> borders;
-  context.Report("triangulate", 0);
-  if (!context.Cancelled()) {
-    borders.resize(count);
-    ParallelFor(count, 1, [&](std::size_t p) {
-      if (!context.Cancelled()) borders[p] = PatchBorders(forest, static_cast<PatchId>(p), dsets[p]);
-    });
-    if (!context.Cancelled()) WeldOutlines(scene, borders);
-    ParallelFor(count, 1, [&](std::size_t p) {
-      if (context.Cancelled()) return;
-      patches[p] = TriangulateLeaves(forest, static_cast<PatchId>(p), dsets[p], std::move(borders[p]),
-                                     own ? nullptr : &cache->leaves[p]);
-    });
-  }
-  for (std::size_t p = 0; p < count && !context.Cancelled(); ++p) {
+  const Stopwatch triangulating;
+  context_.Report("triangulate", 0);
+  std::vector<PatchTriangulation> patches = TriangulateAll(work);
+  for (std::size_t p = 0; p < count && !context_.Cancelled(); ++p) {
     for (ElementId& leaf : patches[p].leaves)
-      while (static_cast<std::size_t>(leaf) >= plan.forest.size()) leaf = forest[leaf].parent;
-    const double scale = light.LargestScale(static_cast<PatchId>(p));
-    for (const Discontinuity& d : found[p])
-      if (d.wanted || scale * d.weight >= options.min_weight) ++report.counts.discontinuities;
-    report.counts.activated += dsets[p].activated;
-    report.counts.dsets_active += dsets[p].dsets_active;
-    report.counts.refused += dsets[p].refused;
-    report.counts.refused_contacts += dsets[p].refused_contacts;
-    report.counts.most_merged = std::max(report.counts.most_merged, dsets[p].most_merged);
-    report.counts.dropped_segments += patches[p].dropped_segments;
-    report.counts.leaves_made += patches[p].leaves_made;
-    report.counts.leaves_kept += patches[p].leaves_kept;
-    report.counts.triangles += patches[p].triangles.size();
-    if (omitted) omitted->push_back({std::move(found[p]), std::move(dsets[p].omitted)});
+      while (static_cast<std::size_t>(leaf) >= plan.forest.size()) leaf = work.forest[leaf].parent;
+    Count(work, patches[p], p);
+    if (omitted) omitted->push_back({std::move(work.found[p]), std::move(work.dsets[p].omitted)});
   }
   report.seconds.triangulate += triangulating.Seconds();
   return patches;
@@ -189,9 +213,9 @@ MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySoluti
   MeshResult result;
   result.plan = BeginPlan(visibility, solution, options.discontinuities);
   const bool constant = options.order == InterpolantOrder::kConstant;
-  result.triangulations =
-      TriangulatePatches(visibility, solution, result.plan, options.discontinuities, context, result.report,
-                         cache, nullptr, constant ? IrradianceSampler() : sampler);
+  PatchTriangulator triangulator(visibility, solution, options.discontinuities, context, cache);
+  if (!constant) triangulator.RankWith(sampler);
+  result.triangulations = triangulator.Triangulate(result.plan, result.report);
   if (context.Cancelled()) return result;
   const std::vector<PatchTriangulation>& patches = result.triangulations;
   Stopwatch interpolating;

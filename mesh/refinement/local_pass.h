@@ -6,6 +6,7 @@
 
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "mesh/discontinuities/discontinuity.h"
@@ -14,6 +15,8 @@
 #include "mesh/discontinuities/mesh_options.h"
 #include "mesh/interpolants/irradiance_mesh.h"
 #include "mesh/interpolants/irradiance_mesh_builder.h"
+#include "mesh/interpolants/leaf_light.h"
+#include "mesh/interpolants/light_beside.h"
 #include "mesh/triangulation/leaf_triangulation.h"
 #include "solver/base/progress.h"
 #include "solver/transport/links/element_forest.h"
@@ -60,18 +63,46 @@ struct OmittedOfPatch {
 MeshPlan BeginPlan(const PatchVisibility& visibility, const RadiositySolution& solution,
                    const DiscontinuityOptions& options);
 
-// Triangulates all patches along the leaves of the plan; counts and seconds are added to the report. The mesh
-// may split leaves further: the `leaves` of a triangulation name for each of its leaves that of the plan that
-// it is part of. `omitted`, if it is asked for, gets one for each patch, unless this was cancelled. Ranking
-// by the irradiance weight asks the sampler, if there is one, how dark it is where discontinuities compete
-// for the room in a leaf (LeafLight). REQUIRES: the quadtrees are balanced.
-std::vector<PatchTriangulation> TriangulatePatches(const PatchVisibility& visibility,
-                                                   const RadiositySolution& solution, const MeshPlan& plan,
-                                                   const DiscontinuityOptions& options,
-                                                   const ExecutionContext& context, MeshReport& report,
-                                                   LocalPassCache* cache = nullptr,
-                                                   std::vector<OmittedOfPatch>* omitted = nullptr,
-                                                   const IrradianceSampler& sampler = {});
+// Triangulates the patches of a scene, as often as leaves are divided.
+class PatchTriangulator {
+ public:
+  // Everything must outlive the object. Without a cache it has one of its own.
+  PatchTriangulator(const PatchVisibility& visibility, const RadiositySolution& solution,
+                    const DiscontinuityOptions& options, const ExecutionContext& context,
+                    LocalPassCache* cache = nullptr);
+
+  // From here on ranking by the irradiance weight asks the sampler how dark it is where discontinuities
+  // compete for the room in a leaf (LeafLight). The sampler must outlive the object.
+  void RankWith(const IrradianceSampler& sampler) { sampler_ = &sampler; }
+
+  // Triangulates all patches along the leaves of the plan; counts and seconds are added to the report. The
+  // mesh may split leaves further: the `leaves` of a triangulation name for each of its leaves that of the
+  // plan that it is part of. `omitted`, if it is asked for, gets one for each patch, unless this was
+  // cancelled. REQUIRES: the quadtrees are balanced.
+  std::vector<PatchTriangulation> Triangulate(const MeshPlan& plan, MeshReport& report,
+                                              std::vector<OmittedOfPatch>* omitted = nullptr);
+
+ private:
+  struct Work;
+
+  std::vector<Discontinuity> FindOn(PatchId patch, const MeshPlan& plan) const;
+  void FindAll(Work& work) const;
+  PatchDSets Activate(const Work& work, std::size_t patch, LeafLight* places = nullptr) const;
+  void ActivateAll(Work& work) const;
+  void ActivateByPlaces(Work& work) const;
+  std::vector<PatchTriangulation> TriangulateAll(const Work& work) const;
+  void Count(const Work& work, const PatchTriangulation& triangulated, std::size_t patch) const;
+
+  const PatchVisibility& visibility_;
+  const RadiositySolution& solution_;
+  DiscontinuityOptions options_;
+  const ExecutionContext& context_;
+  const IrradianceSampler* sampler_ = nullptr;
+  std::optional<LocalPassCache> own_cache_;
+  LocalPassCache& cache_;
+  LightBeside light_;
+  std::vector<double> strength_;  // SourceStrengths()
+};
 
 // The whole local pass. The sampler is not called for constant interpolants. A cancelled run returns an empty
 // mesh. REQUIRES: the quadtrees are balanced.

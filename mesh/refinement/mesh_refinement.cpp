@@ -33,13 +33,13 @@ std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& opt
   for (std::uint32_t t = 0; t < guess.size(); ++t)
     if (guess[t] > kSuspicion * options.error) suspects.push_back(t);
   MeasuredTriangles measured =
-      MeasureTriangles(scene, refined->mesh, suspects, options.samples, mean, sampler, samples);
+      MeasureTriangles(scene, refined->mesh, suspects, {options.samples, mean}, sampler, samples);
   refined->errors = std::move(measured.errors);
   std::vector<std::uint32_t> doubtful;
   for (const std::uint32_t t : suspects)
     if (refined->errors[t].max <= options.error && guess[t] > kDoubt * options.error) doubtful.push_back(t);
   const MeasuredTriangles finer =
-      MeasureTriangles(scene, refined->mesh, doubtful, options.samples + 1, mean, sampler, samples);
+      MeasureTriangles(scene, refined->mesh, doubtful, {options.samples + 1, mean}, sampler, samples);
   for (const std::uint32_t t : doubtful)
     if (finer.errors[t].max > refined->errors[t].max) refined->errors[t] = finer.errors[t];
   return measured.point_evaluations + finer.point_evaluations;
@@ -152,37 +152,38 @@ void Take(std::span<const RefinementStep> chosen, std::span<const OmittedOfPatch
 
 }  // namespace
 
-RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolution& solution,
-                       const IrradianceSampler& sampler, const MeshOptions& mesh_options,
+RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options,
                        const MeshRefinementOptions& options, const ExecutionContext& context,
-                       LocalPassCache* local_pass, const MeshPlan* start, SampleCache* samples) {
+                       const RefinementMemory& memory) {
   PENUMBRA_CHECK(mesh_options.order != InterpolantOrder::kConstant);
-  const Scene& scene = solution.forest.scene();
+  const Scene& scene = light.solution.forest.scene();
   const std::vector<Population> populations = FindPopulations(scene, options.error);
   SampleCache own_samples;
-  if (!samples) samples = &own_samples;
-  std::optional<LocalPassCache> own;
-  if (!local_pass) local_pass = &own.emplace(scene, visibility);
+  SampleCache* const samples = memory.samples ? memory.samples : &own_samples;
+  std::optional<LocalPassCache> own;  // from round to round
+  LocalPassCache* const local_pass =
+      memory.local_pass ? memory.local_pass : &own.emplace(scene, light.visibility);
+  PatchTriangulator triangulator(light.visibility, light.solution, mesh_options.discontinuities, context,
+                                 local_pass);
   RefinedMesh refined;
-  refined.plan = start ? *start : BeginPlan(visibility, solution, mesh_options.discontinuities);
+  refined.plan = memory.start ? *memory.start
+                              : BeginPlan(light.visibility, light.solution, mesh_options.discontinuities);
   MeshReport::Seconds seconds;
   std::size_t evaluations = 0;
   for (int round = 0;; ++round) {
     refined.report = {};
     std::vector<OmittedOfPatch> omitted;
-    refined.triangulations =
-        TriangulatePatches(visibility, solution, refined.plan, mesh_options.discontinuities, context,
-                           refined.report, local_pass, &omitted);
+    refined.triangulations = triangulator.Triangulate(refined.plan, refined.report, &omitted);
     seconds.discontinuities += refined.report.seconds.discontinuities;
     seconds.triangulate += refined.report.seconds.triangulate;
     const Stopwatch interpolating;
     if (context.Cancelled()) return {};
-    BuiltMesh built =
-        BuildIrradianceMesh(scene, refined.triangulations, mesh_options.order, sampler, context, samples);
+    BuiltMesh built = BuildIrradianceMesh(scene, refined.triangulations, mesh_options.order, light.sampler,
+                                          context, samples);
     if (context.Cancelled()) return {};
     refined.mesh = std::move(built.mesh);
     evaluations += built.point_evaluations;
-    evaluations += MeasureSuspects(scene, options, sampler, samples, &refined);
+    evaluations += MeasureSuspects(scene, options, light.sampler, samples, &refined);
     if (context.Cancelled()) return {};
     seconds.interpolate += interpolating.Seconds();
 

@@ -48,15 +48,26 @@ struct RefinedMesh {
   std::vector<ElementId> unmet;  // leaves that err by more than asked and cannot be divided
 };
 
+// The light that a mesh is to show.
+struct LightToShow {
+  const PatchVisibility& visibility;
+  const RadiositySolution& solution;
+  IrradianceSampler sampler;
+};
+
+// What refinement takes over from an earlier one, as far as there is any.
+struct RefinementMemory {
+  LocalPassCache* local_pass = nullptr;
+  const MeshPlan* start = nullptr;  // what it begins with; BeginPlan() if it is null
+  SampleCache* samples = nullptr;   // what was evaluated, with the same sampler
+};
+
 // Refines until the share is small enough, nothing is left to do, or the most rounds are done. A round takes
 // those steps that promise most for what they cost, and no more than it takes: leaves are divided, and
-// discontinuities too light for the mesh become edges. Cancelled, it returns an empty mesh. Begins with the
-// plan `start`; with BeginPlan() if it is null. `samples` keeps what was evaluated, for a call with
-// the same sampler. REQUIRES: the leaves are balanced.
-RefinedMesh RefineMesh(const PatchVisibility& visibility, const RadiositySolution& solution,
-                       const IrradianceSampler& sampler, const MeshOptions& mesh_options,
+// discontinuities too light for the mesh become edges. Cancelled, it returns an empty mesh.
+// REQUIRES: the leaves are balanced.
+RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options,
                        const MeshRefinementOptions& options, const ExecutionContext& context,
-                       LocalPassCache* local_pass = nullptr, const MeshPlan* start = nullptr,
-                       SampleCache* samples = nullptr);
+                       const RefinementMemory& memory = {});
 
 }  // namespace penumbra

@@ -9,6 +9,7 @@
 #include "mesh/interpolants/representation_error.h"
 #include "mesh/refinement/source_cut.h"
 #include "solver/base/stopwatch.h"
+#include "solver/transport/solvers/hierarchical_solver.h"
 
 namespace penumbra {
 namespace {
@@ -48,6 +49,7 @@ ShownMesh::ShownMesh(const Scene& scene, const PatchVisibility& visibility, Curr
 void ShownMesh::Begin() {
   report_ = {};
   seconds_of_sources_ = 0;
+  has_looked_ = false;
   unmet_.reset();
 }
 
@@ -57,19 +59,48 @@ bool ShownMesh::Make(const RadiositySolution& solution, const MeshOptions& optio
   return FirstLook(solution, options, kNearShare * options_.error, context);
 }
 
-bool ShownMesh::MakeRefined(HierarchicalSolver& solver, const MeshOptions& options, bool light_too,
+namespace {
+
+// What the leaves are shown with at first, before refinement asks for lighter edges.
+MeshOptions ToBeginWith(const MeshOptions& options) {
+  MeshOptions last = options;
+  if (options.discontinuities.can_want()) last.discontinuities.min_weight *= kWeightToBegin;
+  return last;
+}
+
+// What looks before the last one are made with.
+MeshOptions ForSources(const MeshOptions& options) {
+  MeshOptions first = ToBeginWith(options);
+  first.discontinuities.min_weight *= kFirstWeight;
+  if (!options.discontinuities.can_want())
+    first.discontinuities.min_wanted_weight = first.discontinuities.min_weight;
+  return first;
+}
+
+}  // namespace
+
+bool ShownMesh::RefineLight(LightSolver& solver, const MeshOptions& options,
                             const ExecutionContext& context) {
   Begin();
-  const bool can_want = options.discontinuities.can_want();
-  MeshOptions last = options;
-  if (can_want) last.discontinuities.min_weight *= kWeightToBegin;
-  MeshOptions first = last;
-  first.discontinuities.min_weight *= kFirstWeight;
-  if (!can_want) first.discontinuities.min_wanted_weight = first.discontinuities.min_weight;
+  const MeshOptions first = ForSources(options);
   if (!FirstLook(solver.solution(), first, options_.solver.correction_tolerance, context)) return false;
-  if (mesh_.triangles.empty()) return true;
-  if (!light_too || SettleSources(solver, first, context)) RefineLeaves(solver.solution(), last, context);
+  has_looked_ = true;
+  return mesh_.triangles.empty() || SettleSources(solver, first, context);
+}
+
+bool ShownMesh::MakeRefined(const RadiositySolution& solution, const MeshOptions& options,
+                            const ExecutionContext& context) {
+  if (!std::exchange(has_looked_, false)) {
+    Begin();
+    if (!FirstLook(solution, ForSources(options), options_.solver.correction_tolerance, context))
+      return false;
+  }
+  if (!mesh_.triangles.empty()) RefineLeaves(solution, ToBeginWith(options), context);
   return true;
+}
+
+MeshSeconds ShownMesh::TakeSeconds() {
+  return {std::exchange(seconds_of_sources_, 0), std::exchange(report_.seconds, {})};
 }
 
 void ShownMesh::Take(IrradianceMesh mesh) {
@@ -84,8 +115,7 @@ std::unique_ptr<const PointIrradiance> ShownMesh::BetterIrradiance(const Radiosi
   const SourceCells cells = Cells(solution, context);
   if (context.Cancelled()) return nullptr;
   HierarchicalSolver better(scene_, visibility_, options_.solver, solution, context);
-  if (!better.CorrectTo(cells.LeafIrradiance(), cells.Fragments(cells.Cut(0), /*whole_leaves=*/true),
-                        context))
+  if (!better.SetLight(cells.LeafIrradiance(), cells.Fragments(cells.Cut(0), /*whole_leaves=*/true), context))
     return nullptr;
   return std::make_unique<const PointIrradiance>(
       irradiance_.Get()->WithSources(SourceSet::FromSolution(better.solution())));
@@ -100,7 +130,7 @@ std::unique_ptr<const PointIrradiance> ShownMesh::ShownIrradiance(const Radiosit
 }
 
 SourceCells ShownMesh::Cells(const RadiositySolution& solution, const ExecutionContext& context) {
-  return SourceCells(solution, plan_.forest, triangulations_, mesh_, *irradiance_.Get(),
+  return SourceCells(solution, {plan_.forest, triangulations_, mesh_}, *irradiance_.Get(),
                      kFinestScore * options_.error, context);
 }
 
@@ -144,7 +174,7 @@ bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& 
 
 // Refines the sources by what they show and shows them anew, in turns, until the light stands still: what
 // is left to change comes back by the bounces between walls that face each other. False if it was cancelled.
-bool ShownMesh::SettleSources(HierarchicalSolver& solver, const MeshOptions& options,
+bool ShownMesh::SettleSources(LightSolver& solver, const MeshOptions& options,
                               const ExecutionContext& context) {
   std::optional<double> score;
   double before = 0, ratio_before = 0;  // the change of the last pass, and what it left of the one before
@@ -170,7 +200,7 @@ bool ShownMesh::SettleSources(HierarchicalSolver& solver, const MeshOptions& opt
 // Gives the leaves the means of the interpolants, and cuts those whose light varies too much for where it
 // arrives: by the score, which is chosen where there is none. Returns how far the means were from the
 // leaves' (SourceCells::Change); nothing if it was cancelled.
-std::optional<double> ShownMesh::RefineSources(HierarchicalSolver& solver, std::optional<double>& score,
+std::optional<double> ShownMesh::RefineSources(LightSolver& solver, std::optional<double>& score,
                                                const ExecutionContext& context) {
   const Stopwatch stopwatch;
   context.Report("refine sources", 0);
@@ -178,11 +208,13 @@ std::optional<double> ShownMesh::RefineSources(HierarchicalSolver& solver, std::
   if (context.Cancelled()) return std::nullopt;
   const double change = cells.Change();
   if (!score)
-    score = ChooseSourceCut(solver.solution(), cells, *irradiance_.Get(), kFinestScore * options_.error,
-                            kSourceShare * options_.error, kCutPoints, options_.seed + 1, context)
+    score = ChooseSourceCut(
+                solver.solution(), cells, *irradiance_.Get(),
+                {kFinestScore * options_.error, kSourceShare * options_.error, kCutPoints, options_.seed + 1},
+                context)
                 .score;
-  const bool done = solver.CorrectTo(cells.LeafIrradiance(),
-                                     cells.Fragments(cells.Cut(*score), /*whole_leaves=*/false), context);
+  const bool done = solver.SetLight(cells.LeafIrradiance(),
+                                    cells.Fragments(cells.Cut(*score), /*whole_leaves=*/false), context);
   irradiance_.Reset();
   seconds_of_sources_ += stopwatch.Seconds();
   return done ? std::optional(change) : std::nullopt;
@@ -239,8 +271,8 @@ std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, 
   refinement.error = error;
   refinement.min_area = options_.solver.min_area;
   refinement.samples = options_.error_samples;
-  RefinedMesh refined = RefineMesh(visibility_, solution, Sampler(tolerance, context), options, refinement,
-                                   context, &LocalPass(), &plan_, samples);
+  RefinedMesh refined = RefineMesh({visibility_, solution, Sampler(tolerance, context)}, options, refinement,
+                                   context, {&LocalPass(), &plan_, samples});
   if (context.Cancelled()) return std::nullopt;
   mesh_ = std::move(refined.mesh);
   triangulations_ = std::move(refined.triangulations);

@@ -24,7 +24,7 @@
 #include "mesh/triangulation/leaf_triangulation.h"
 #include "solver/base/progress.h"
 #include "solver/transport/links/solution.h"
-#include "solver/transport/solvers/hierarchical_solver.h"
+#include "solver/transport/solvers/light_solver.h"
 #include "solver/visibility/pair/patch_visibility.h"
 
 namespace penumbra {
@@ -36,6 +36,12 @@ struct ShownMeshOptions {
   SolverOptions solver;  // those that the solution was made with
 };
 
+// What was spent on sources, and on meshes.
+struct MeshSeconds {
+  double sources = 0;
+  MeshReport::Seconds mesh;
+};
+
 class ShownMesh {
  public:
   // All must outlive it. `irradiance` is that of the solutions that meshes are made of.
@@ -44,10 +50,17 @@ class ShownMesh {
 
   // Makes the mesh of the solution's leaves. False if it was cancelled, which leaves the mesh before.
   bool Make(const RadiositySolution& solution, const MeshOptions& options, const ExecutionContext& context);
-  // The same, and then refines it: the solver's sources, if the light is to be refined too, and leaves. What
-  // is cancelled once there is a mesh leaves the last whole one, and true.
-  bool MakeRefined(HierarchicalSolver& solver, const MeshOptions& options, bool light_too,
+  // Refines the light of a solver: makes a first mesh of its leaves, cuts its sources by what that shows, and
+  // gives them the means of the interpolants, in turns, until the light stands still. False if it was
+  // cancelled, which leaves the last whole light. REQUIRES: solver.TakesLight().
+  bool RefineLight(LightSolver& solver, const MeshOptions& options, const ExecutionContext& context);
+  // Makes the mesh of the solution's leaves, or begins with that of RefineLight(), and refines the leaves.
+  // What is cancelled once there is a mesh leaves the last whole one, and true. False if it was cancelled
+  // before that.
+  bool MakeRefined(const RadiositySolution& solution, const MeshOptions& options,
                    const ExecutionContext& context);
+  // The light has changed: the mesh of RefineLight() is no beginning any more.
+  void Forget() { has_looked_ = false; }
   // Shows a mesh that was made elsewhere.
   void Take(IrradianceMesh mesh);
   // After another PatchVisibility has taken the place of the present one.
@@ -69,9 +82,10 @@ class ShownMesh {
   // One a triangle of the mesh, where they were measured.
   std::span<const TriangleError> triangle_errors() const { return triangle_errors_; }
 
-  // Of what the last of the above made: counts are the mesh's, work and seconds those of all that led to it.
+  // Of what the last of the above made: counts are the mesh's, work is that of all that led to it.
   const MeshReport& report() const { return report_; }
-  double seconds_of_sources() const { return seconds_of_sources_; }
+  // The seconds that were spent since this was last called.
+  MeshSeconds TakeSeconds();
   // What refinement could not reach; one line.
   const std::optional<std::string>& unmet() const { return unmet_; }
 
@@ -79,8 +93,8 @@ class ShownMesh {
   void Begin();
   bool FirstLook(const RadiositySolution& solution, const MeshOptions& options, double tolerance,
                  const ExecutionContext& context);
-  bool SettleSources(HierarchicalSolver& solver, const MeshOptions& options, const ExecutionContext& context);
-  std::optional<double> RefineSources(HierarchicalSolver& solver, std::optional<double>& score,
+  bool SettleSources(LightSolver& solver, const MeshOptions& options, const ExecutionContext& context);
+  std::optional<double> RefineSources(LightSolver& solver, std::optional<double>& score,
                                       const ExecutionContext& context);
   void RefineLeaves(const RadiositySolution& solution, const MeshOptions& options,
                     const ExecutionContext& context);
@@ -106,6 +120,7 @@ class ShownMesh {
   std::unique_ptr<LocalPassCache> local_pass_;  // of the present visibility
   MeshReport report_;
   double seconds_of_sources_ = 0;
+  bool has_looked_ = false;  // the mesh is that of RefineLight(), of the present light
   std::optional<std::string> unmet_;
 };
 

@@ -21,7 +21,7 @@ constexpr int kMostQuartered = 3;
 constexpr double kDark = 0.05;
 // Of Change(): the share of the area that may have changed by more, and of the mean irradiance that counts as
 // dark.
-constexpr double kChangedArea = 0.01, kDarkest = 0.01;
+constexpr double kChangedArea = 0.01, kDarkestShare = 0.01;
 
 using Triangle3 = std::array<Vec3, 3>;
 
@@ -70,10 +70,10 @@ bool DividedByContacts(std::span<const PatchTriangulation::Triangle> triangles) 
 }
 
 // Divides the leaves of one patch.
-class Divider {
+class CellDivider {
  public:
-  Divider(const RadiositySolution& solution, const IrradianceMesh& mesh, const Rgb& mean_radiosity,
-          double finest, std::vector<SourceCell>& cells)
+  CellDivider(const RadiositySolution& solution, const IrradianceMesh& mesh, const Rgb& mean_radiosity,
+              double finest, std::vector<SourceCell>& cells)
       : solution_(solution), mesh_(mesh), mean_radiosity_(mean_radiosity), finest_(finest), cells_(cells) {}
 
   // `divided`: something stands on the leaf, and each side has light of its own.
@@ -195,10 +195,10 @@ class Divider {
 
 }  // namespace
 
-SourceCells::SourceCells(const RadiositySolution& solution, const ElementForest& mesh_forest,
-                         std::span<const PatchTriangulation> patches, const IrradianceMesh& mesh,
+SourceCells::SourceCells(const RadiositySolution& solution, const MeshWithLeaves& shown,
                          const PointIrradiance& exact, double finest, const ExecutionContext& context)
     : solution_(solution) {
+  const std::span<const PatchTriangulation> patches = shown.patches;
   const Scene& scene = solution.forest.scene();
   const Rgb mean_radiosity = MeanReflected(solution);
   std::vector<std::uint32_t> first(patches.size() + 1, 0);
@@ -206,7 +206,7 @@ SourceCells::SourceCells(const RadiositySolution& solution, const ElementForest&
     first[p + 1] = first[p] + static_cast<std::uint32_t>(patches[p].triangles.size());
   const auto in_solution = [&](ElementId id) {
     while (static_cast<std::size_t>(id) >= solution.forest.size() || !solution.forest[id].IsLeaf())
-      id = mesh_forest[id].parent;
+      id = shown.forest[id].parent;
     return id;
   };
   std::vector<std::vector<SourceCell>> by_patch(patches.size());
@@ -214,7 +214,7 @@ SourceCells::SourceCells(const RadiositySolution& solution, const ElementForest&
     const PatchTriangulation& patch = patches[p];
     if (context.Cancelled()) return;
     if ((scene.MaterialOf(patch.patch).reflectance == 0).all()) return;
-    Divider divider(solution, mesh, mean_radiosity, finest, by_patch[p]);
+    CellDivider divider(solution, shown.mesh, mean_radiosity, finest, by_patch[p]);
     for (std::size_t begin = 0, end = 0; begin < patch.leaves.size() && !context.Cancelled(); begin = end) {
       const ElementId leaf = in_solution(patch.leaves[begin]);
       while (end < patch.leaves.size() && in_solution(patch.leaves[end]) == leaf) ++end;
@@ -223,7 +223,11 @@ SourceCells::SourceCells(const RadiositySolution& solution, const ElementForest&
       divider.AddLeaf(leaf, first[p] + from, first[p] + to, divided, exact.SeenFrom(leaf));
     }
   });
-  // Leaves ascending, over all patches.
+  Collect(by_patch);
+}
+
+// Puts the cells of all patches into one list, their leaves ascending.
+void SourceCells::Collect(const std::vector<std::vector<SourceCell>>& by_patch) {
   struct Range {
     ElementId leaf;
     std::size_t patch, at;
@@ -261,7 +265,7 @@ double SourceCells::Change() const {
   for (std::size_t i = 0; i < cells_.size(); i += static_cast<std::size_t>(cells_[i].skip)) {
     const Rgb& was = solution_.irradiance[static_cast<std::size_t>(cells_[i].leaf)];
     const Rgb scale =
-        cells_[i].irradiance.max(kDarkest / area * mean).max(std::numeric_limits<double>::min());
+        cells_[i].irradiance.max(kDarkestShare / area * mean).max(std::numeric_limits<double>::min());
     changes.emplace_back(((cells_[i].irradiance - was).abs() / scale).maxCoeff(), cells_[i].area);
   }
   std::sort(changes.begin(), changes.end(), std::greater<>());

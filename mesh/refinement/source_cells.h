@@ -34,16 +34,20 @@ struct SourceCell {
   double score = 0;              // [1]; none below it has a larger one
 };
 
+// A mesh, and what it was made of.
+struct MeshWithLeaves {
+  const ElementForest& forest;  // to which the leaves of the patches belong
+  std::span<const PatchTriangulation> patches;
+  const IrradianceMesh& mesh;
+};
+
 class SourceCells {
  public:
-  // From a mesh that was made of `patches`, whose leaves are the solution's or lie below them. Cells are
-  // divided while their score is above `finest`, a few levels at most. `exact` tells who sees whom.
-  // Of no use if it was cancelled.
-  // REQUIRES: `mesh_forest`, to which the patches' leaves belong, is the solution's or was grown from it.
-  SourceCells(const RadiositySolution& solution, const ElementForest& mesh_forest,
-              std::span<const PatchTriangulation> patches, const IrradianceMesh& mesh,
-              const PointIrradiance& exact, double finest,
-              const ExecutionContext& context = ExecutionContext());
+  // From a mesh whose leaves are the solution's or lie below them. Cells are divided while their score is
+  // above `finest`, a few levels at most. `exact` tells who sees whom. Of no use if it was cancelled.
+  // REQUIRES: the mesh's forest is the solution's or was grown from it.
+  SourceCells(const RadiositySolution& solution, const MeshWithLeaves& shown, const PointIrradiance& exact,
+              double finest, const ExecutionContext& context = ExecutionContext());
 
   // Depth first, leaf after leaf, leaves ascending.
   std::span<const SourceCell> cells() const { return cells_; }
@@ -62,6 +66,8 @@ class SourceCells {
   std::vector<Fragment> Fragments(std::span<const std::int32_t> cut, bool whole_leaves) const;
 
  private:
+  void Collect(const std::vector<std::vector<SourceCell>>& by_patch);
+
   const RadiositySolution& solution_;
   std::vector<SourceCell> cells_;
 };

@@ -7,6 +7,7 @@
 
 #include "mesh/interpolants/representation_error.h"
 #include "solver/base/parallel.h"
+#include "solver/base/scratch.h"
 #include "solver/scene/scene_parts.h"
 #include "solver/scene/surface_points.h"
 
@@ -18,76 +19,138 @@ constexpr std::size_t kPointGrain = 4;
 constexpr double kStep = 1.189207115002721;
 constexpr std::size_t kSteps = 36;
 
+// Scores from the finest on, in steps of kStep.
+std::vector<double> ScoresFrom(double finest) {
+  std::vector<double> scores;
+  for (std::size_t j = 0; j < kSteps; ++j) scores.push_back(finest * std::pow(kStep, static_cast<double>(j)));
+  return scores;
+}
+
+// What a point gets from each cell: its form factor, and its light if each is as bright as its finest parts.
+struct LightByCell {
+  std::vector<double> leaf_factor;  // by leaf of the finest sources
+  std::vector<double> factor;
+  std::vector<Rgb> light;
+
+  void Clear() {
+    leaf_factor.clear();
+    factor.clear();
+    light.clear();
+  }
+};
+
+// What points would get from the cuts that the scores make.
+class CutTrial {
+ public:
+  CutTrial(const RadiositySolution& solution, const SourceCells& cells, const PointIrradiance& exact,
+           const std::vector<double>& scores)
+      : cells_(cells.cells()),
+        fine_cut_(cells.Cut(0)),
+        fine_(exact.WithSources(
+            SourceSet::FromSolution(solution, cells.Fragments(fine_cut_, /*whole_leaves=*/true)))),
+        scene_(solution.forest.scene()),
+        accepted_at_(cells_.size()),
+        reflectance_(cells_.size()) {
+    const auto step_of = [&](double score) {  // the first that accepts it
+      return static_cast<std::size_t>(std::lower_bound(scores.begin(), scores.end(), score) - scores.begin());
+    };
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      accepted_at_[i] = cells_[i].skip == 1 ? 0 : step_of(cells_[i].score);
+      reflectance_[i] = scene_.MaterialOf(solution.forest[cells_[i].leaf].patch).reflectance;
+    }
+  }
+
+  struct Irradiance {
+    Rgb truth;                      // from the finest sources
+    std::array<Rgb, kSteps> shown;  // from the cut of each score, with what comes back of its error
+  };
+  Irradiance At(const SurfacePoint& at) const;
+
+ private:
+  Rgb LookAtCells(PatchId patch, const ReceiverPoint& receiver, LightByCell& cells) const;
+  std::array<Rgb, kSteps + 1> Changes(LightByCell& cells) const;
+
+  std::span<const SourceCell> cells_;
+  std::vector<std::int32_t> fine_cut_;
+  PointIrradiance fine_;
+  const Scene& scene_;
+  std::vector<std::size_t> accepted_at_;  // by cell: the first step whose cut takes it whole
+  std::vector<Rgb> reflectance_;          // by cell
+};
+
+// Returns the irradiance from the finest sources; `cells` gets its parts, by the cells of the finest cut.
+Rgb CutTrial::LookAtCells(PatchId patch, const ReceiverPoint& receiver, LightByCell& cells) const {
+  const SourceSet& sources = fine_.sources();
+  cells.leaf_factor.resize(sources.LeafRadiosities().size());
+  const Rgb irradiance = fine_.OnPatch(patch, receiver, cells.leaf_factor);
+  cells.factor.assign(cells_.size(), 0.0);
+  cells.light.assign(cells_.size(), Rgb::Zero());
+  for (std::size_t s = 0; s < cells.leaf_factor.size(); ++s) {
+    const std::int32_t fragment = sources.FragmentOf(static_cast<std::int32_t>(s));
+    if (cells.leaf_factor[s] == 0 || fragment < 0) continue;
+    const auto cell = static_cast<std::size_t>(fine_cut_[static_cast<std::size_t>(fragment)]);
+    cells.factor[cell] += cells.leaf_factor[s];
+    cells.light[cell] += cells.leaf_factor[s] * cells_[cell].irradiance;
+  }
+  return irradiance;
+}
+
+// How the irradiance changes from one score to the next. Adds to the cells what their children have.
+std::array<Rgb, kSteps + 1> CutTrial::Changes(LightByCell& cells) const {
+  std::array<Rgb, kSteps + 1> change;
+  change.fill(Rgb::Zero());
+  for (std::size_t i = cells_.size(); i-- > 0;) {
+    if (cells.factor[i] == 0) continue;
+    const std::int32_t parent = cells_[i].parent;
+    const std::size_t until = parent < 0 ? kSteps : accepted_at_[static_cast<std::size_t>(parent)];
+    if (accepted_at_[i] < until) {
+      const Rgb excess = reflectance_[i] * (cells.factor[i] * cells_[i].irradiance - cells.light[i]);
+      change[accepted_at_[i]] += excess;
+      change[until] -= excess;
+    }
+    if (parent < 0) continue;
+    cells.factor[static_cast<std::size_t>(parent)] += cells.factor[i];
+    cells.light[static_cast<std::size_t>(parent)] += cells.light[i];
+  }
+  return change;
+}
+
+CutTrial::Irradiance CutTrial::At(const SurfacePoint& at) const {
+  ReceiverPoint receiver;
+  receiver.position = at.position;
+  receiver.normal = scene_.patches[static_cast<std::size_t>(at.patch)].normal;
+  const Scratch<LightByCell> cells;
+  Irradiance irradiance;
+  irradiance.truth = LookAtCells(at.patch, receiver, *cells);
+  const std::array<Rgb, kSteps + 1> change = Changes(*cells);
+  const double gain = fine_.Reverberation(at.patch, receiver);
+  Rgb sum = irradiance.truth;
+  for (std::size_t j = 0; j < kSteps; ++j) irradiance.shown[j] = sum += gain * change[j];
+  return irradiance;
+}
+
 }  // namespace
 
 SourceCut ChooseSourceCut(const RadiositySolution& solution, const SourceCells& cells,
-                          const PointIrradiance& exact, double finest, double error, std::size_t points,
-                          std::uint64_t seed, const ExecutionContext& context) {
-  const Scene& scene = solution.forest.scene();
-  const std::span<const SourceCell> all = cells.cells();
+                          const PointIrradiance& exact, const SourceCutOptions& options,
+                          const ExecutionContext& context) {
   SourceCut chosen;
-  if (all.empty() || points == 0) return chosen;
-
-  const std::vector<std::int32_t> fine_cut = cells.Cut(0);
-  const PointIrradiance fine =
-      exact.WithSources(SourceSet::FromSolution(solution, cells.Fragments(fine_cut, /*whole_leaves=*/true)));
-  const SourceSet& sources = fine.sources();
-  std::vector<double> scores;
-  for (std::size_t j = 0; j < kSteps; ++j) scores.push_back(finest * std::pow(kStep, static_cast<double>(j)));
-  const auto step_of = [&](double score) {  // the first that accepts it
-    return static_cast<std::size_t>(std::lower_bound(scores.begin(), scores.end(), score) - scores.begin());
-  };
-  std::vector<std::size_t> accepted_at(all.size());
-  std::vector<Rgb> reflectance(all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    accepted_at[i] = all[i].skip == 1 ? 0 : step_of(all[i].score);
-    reflectance[i] = scene.MaterialOf(solution.forest[all[i].leaf].patch).reflectance;
-  }
-
-  const std::vector<SurfacePoint> at = SpreadPoints(scene, SeenAreas(scene), points, seed);
-  std::vector<Rgb> truth(points);
-  std::vector<std::vector<Rgb>> shown(kSteps, std::vector<Rgb>(points));
-  ParallelFor(points, kPointGrain, [&](std::size_t p) {
+  if (cells.cells().empty() || options.points == 0) return chosen;
+  const Scene& scene = solution.forest.scene();
+  const std::vector<double> scores = ScoresFrom(options.finest);
+  const CutTrial trial(solution, cells, exact, scores);
+  const std::vector<SurfacePoint> at = SpreadPoints(scene, SeenAreas(scene), options.points, options.seed);
+  std::vector<Rgb> truth(options.points);
+  std::vector<std::vector<Rgb>> shown(kSteps, std::vector<Rgb>(options.points));
+  ParallelFor(options.points, kPointGrain, [&](std::size_t p) {
     if (context.Cancelled()) return;
-    ReceiverPoint receiver;
-    receiver.position = at[p].position;
-    receiver.normal = scene.patches[static_cast<std::size_t>(at[p].patch)].normal;
-    thread_local std::vector<double> factor, of_cell;
-    thread_local std::vector<Rgb> light;
-    factor.resize(sources.LeafRadiosities().size());
-    truth[p] = fine.OnPatch(at[p].patch, receiver, factor);
-    of_cell.assign(all.size(), 0.0);
-    light.assign(all.size(), Rgb::Zero());
-    for (std::size_t s = 0; s < factor.size(); ++s) {
-      const std::int32_t fragment = sources.FragmentOf(static_cast<std::int32_t>(s));
-      if (factor[s] == 0 || fragment < 0) continue;
-      const auto cell = static_cast<std::size_t>(fine_cut[static_cast<std::size_t>(fragment)]);
-      of_cell[cell] += factor[s];
-      light[cell] += factor[s] * all[cell].irradiance;
-    }
-    std::array<Rgb, kSteps + 1> change;  // of the error from one score to the next
-    change.fill(Rgb::Zero());
-    for (std::size_t i = all.size(); i-- > 0;) {
-      if (of_cell[i] == 0) continue;
-      const std::int32_t parent = all[i].parent;
-      const std::size_t until = parent < 0 ? kSteps : accepted_at[static_cast<std::size_t>(parent)];
-      if (accepted_at[i] < until) {
-        const Rgb excess = reflectance[i] * (of_cell[i] * all[i].irradiance - light[i]);
-        change[accepted_at[i]] += excess;
-        change[until] -= excess;
-      }
-      if (parent < 0) continue;
-      of_cell[static_cast<std::size_t>(parent)] += of_cell[i];
-      light[static_cast<std::size_t>(parent)] += light[i];
-    }
-    const double gain = fine.Reverberation(at[p].patch, receiver);
-    Rgb sum = truth[p];
-    for (std::size_t j = 0; j < kSteps; ++j) shown[j][p] = sum += gain * change[j];
+    const CutTrial::Irradiance irradiance = trial.At(at[p]);
+    truth[p] = irradiance.truth;
+    for (std::size_t j = 0; j < kSteps; ++j) shown[j][p] = irradiance.shown[j];
   });
-
   for (std::size_t j = 0; j < kSteps && !context.Cancelled(); ++j) {
     const double p99 = Quantile(SeenErrors(scene, at, shown[j], truth), 0.99);
-    if (j > 0 && p99 > error) break;
+    if (j > 0 && p99 > options.error) break;
     chosen.score = scores[j];
     chosen.p99 = p99;
   }

@@ -14,6 +14,13 @@
 
 namespace penumbra {
 
+struct SourceCutOptions {
+  double finest = 0;       // the smallest score that is tried
+  double error = 0;        // the largest 99th percentile of the relative error that will do
+  std::size_t points = 0;  // at which the error is measured
+  std::uint64_t seed = 0;  // of these points
+};
+
 struct SourceCut {
   double score = 0;  // of SourceCells::Cut()
   // The 99th percentile of the relative error that sources of these cells make, against all that the trees
@@ -21,11 +28,12 @@ struct SourceCut {
   double p99 = 0;
 };
 
-// The coarsest cut by score whose p99 is at most `error` at random points that spread evenly over the fronts;
-// the finest there is if none is good enough. Every point is looked at once, with the finest sources: what
-// coarser ones would make of it follows from the same form factors. Of no use if it was cancelled.
+// The coarsest cut by score whose p99 is at most the error asked for, at random points that spread evenly
+// over the fronts; the finest there is if none is good enough. Every point is looked at once, with the finest
+// sources: what coarser ones would make of it follows from the same form factors. Of no use if it was
+// cancelled.
 SourceCut ChooseSourceCut(const RadiositySolution& solution, const SourceCells& cells,
-                          const PointIrradiance& exact, double finest, double error, std::size_t points,
-                          std::uint64_t seed, const ExecutionContext& context = ExecutionContext());
+                          const PointIrradiance& exact, const SourceCutOptions& options,
+                          const ExecutionContext& context = ExecutionContext());
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // solver/base/check.h
 //
-// Two kinds of failure, strictly apart. InputError: what a user gave cannot be used; it ends a command with
-// one clear line and exit status 1. PENUMBRA_CHECK: a bug of ours; it aborts with the condition.
+// Two kinds of failure. InputError: the user's input cannot be used; the command ends with one line and exit
+// status 1. PENUMBRA_CHECK: the program has a bug; it prints the violated condition and aborts.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace penumbra {
 
-// Something in the user's input is wrong. what() is one line, "FILE:LINE: error: what and how to mend it".
+// The user's input is wrong. what() is one line, "FILE:LINE: error: what is wrong and how to mend it".
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -22,11 +22,11 @@ namespace internal {
 
 }  // namespace penumbra
 
-// Always on: for contracts whose check costs little.
+// Always on: for contracts that are cheap to check.
 #define PENUMBRA_CHECK(condition) \
   ((condition) ? static_cast<void>(0) : ::penumbra::internal::CheckFailed(#condition, __FILE__, __LINE__))
 
-// On in the builds that keep their checks (dev, asan, tsan): for inner loops and whole-structure validation.
+// On in builds that keep their checks (dev, asan, tsan): for inner loops and for validating whole structures.
 #ifdef PENUMBRA_CHECKS
 #define PENUMBRA_DCHECK(condition) PENUMBRA_CHECK(condition)
 #else

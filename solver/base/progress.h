@@ -1,7 +1,7 @@
 // solver/base/progress.h
 //
-// How a long operation tells how far it is and learns that it shall stop. The solver never prints: whoever
-// started it listens.
+// Progress reports and cancellation of long operations. The solver never prints; the caller of an operation
+// passes a listener.
 
 #pragma once
 
@@ -11,7 +11,8 @@
 
 namespace penumbra {
 
-// Passed down every long operation. Report() may be called from one thread at a time, Cancel() from any.
+// A parameter of every long operation. Only one thread at a time may call Report(); any thread may call
+// Cancel().
 class ExecutionContext {
  public:
   using Listener = std::function<void(std::string_view phase, double fraction)>;
@@ -19,12 +20,13 @@ class ExecutionContext {
   ExecutionContext() = default;
   explicit ExecutionContext(Listener listener) : listener_(std::move(listener)) {}
 
-  // Tells the listener that `phase` has done `fraction` in [0, 1] of its work.
+  // Tells the listener that the fraction `fraction`, in [0, 1], of `phase` is done.
   void Report(std::string_view phase, double fraction) const {
     if (listener_) listener_(phase, fraction);
   }
 
-  // Asks the operation to end early. It leaves valid results of the last whole step.
+  // Requests the operation to end early. The operation then leaves the valid results of its last complete
+  // step.
   void Cancel() { cancelled_ = true; }
   bool Cancelled() const { return cancelled_; }
 

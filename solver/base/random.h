@@ -1,6 +1,7 @@
 // solver/base/random.h
 //
-// Seeded generators that give the same numbers with every standard library, and a low-discrepancy sequence.
+// A seeded random number generator that gives the same numbers with every standard library, and a
+// low-discrepancy sequence.
 
 #pragma once
 
@@ -9,7 +10,8 @@
 
 namespace penumbra {
 
-// PCG32 (O'Neill 2014): small, fast, statistically sound; `sequence` selects independent streams of one seed.
+// PCG32 (O'Neill 2014): small, fast, of good statistical quality. `sequence` selects one of the independent
+// streams of a seed.
 class Random {
  public:
   explicit Random(std::uint64_t seed, std::uint64_t sequence = 0) : increment_((sequence << 1) | 1) {
@@ -48,13 +50,15 @@ class Random {
   std::uint64_t increment_;
 };
 
-// The i-th element of the additive recurrence with step `alpha`, shifted by `offset`: fractions in [0, 1).
-// With the alphas below the points (R(i, kR2Alpha0), R(i, kR2Alpha1)) spread evenly over the square.
+// The fractional part of offset + i * alpha, in [0, 1). With the steps below, the points
+// (AdditiveRecurrence(i, kR2Alpha[0]), AdditiveRecurrence(i, kR2Alpha[1])) are evenly distributed over the
+// unit square; likewise kR4Alpha in four dimensions.
 inline double AdditiveRecurrence(std::uint64_t i, double alpha, double offset = 0.5) {
   const double x = offset + alpha * static_cast<double>(i);
   return x - std::floor(x);
 }
-// Powers of the inverse of the root of x^(d+1) = x + 1 for d = 2 and d = 4 (Roberts 2018).
+// The powers 1 to d of 1/x, where x is the positive root of x^(d+1) = x + 1, for d = 2 and d = 4 (Roberts
+// 2018).
 inline constexpr double kR2Alpha[2] = {0.7548776662466927, 0.5698402909980532};
 inline constexpr double kR4Alpha[4] = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
                                        0.5385972572236101};

@@ -1,7 +1,7 @@
 // solver/base/registry.h
 //
-// Methods that do the same work in different ways, by name: command line, help, reports and the window list
-// what a registry holds, and nothing else does.
+// A list of alternative methods for one task, by name. Command line, help, reports and window all list the
+// methods of a registry; no other code contains such a list.
 
 #pragma once
 
@@ -23,19 +23,18 @@ template <class Product, class... Options>
 class Registry {
  public:
   struct Method {
-    std::string name;                     // as users give it
+    std::string name;                     // on the command line
     std::string help;                     // one line, without a full stop
-    std::vector<std::string> parameters;  // the names of the options that this method alone obeys
+    std::vector<std::string> parameters;  // options that only this method uses
     std::function<std::unique_ptr<Product>(const Options&...)> make;
   };
 
-  // `kind` is the noun in messages, as in "no KIND is called 'x'". The first method is the default.
+  // `kind` is the noun in messages such as "no KIND is called 'x'". The first method is the default.
   Registry(std::string kind, std::vector<Method> methods) : kind_(std::move(kind)) {
     for (Method& method : methods) Add(std::move(method));
   }
 
-  // Adds a method behind all others. REQUIRES: no other method has its name, and no thread reads the
-  // registry.
+  // Appends a method to the list. REQUIRES: no other method has its name, and no thread reads the registry.
   void Add(Method method) {
     for (const Method& other : methods_) PENUMBRA_CHECK(other.name != method.name);
     methods_.push_back(std::move(method));
@@ -50,7 +49,7 @@ class Registry {
     return names;
   }
 
-  // The method of that name. Throws InputError, which lists the names there are, if there is none.
+  // The method called `name`. Throws InputError, which lists all names, if there is none.
   const Method& Find(std::string_view name) const {
     std::string names;
     for (const Method& method : methods_) {
@@ -60,7 +59,7 @@ class Registry {
     throw InputError("no " + kind_ + " is called '" + std::string(name) + "'; give one of: " + names);
   }
 
-  // What the method of that name makes. Throws InputError if there is none.
+  // A new product of the method called `name`. Throws InputError if there is none.
   std::unique_ptr<Product> Make(std::string_view name, const Options&... options) const {
     return Find(name).make(options...);
   }

@@ -1,6 +1,6 @@
 // solver/base/sha256.h
 //
-// A digest of bytes that tells damaged data from whole ones: SHA-256 (FIPS 180-4).
+// The digest SHA-256 (FIPS 180-4), which detects damaged data.
 
 #pragma once
 
@@ -12,11 +12,11 @@
 
 namespace penumbra {
 
-// Digests bytes as they come.
+// Computes the digest of a sequence of bytes, passed in one or more parts.
 class Sha256 {
  public:
   Sha256& Update(std::string_view bytes);
-  // The digest of everything so far as 64 lower-case hexadecimal digits. Nothing may follow.
+  // The digest of all bytes passed so far, as 64 lower-case hexadecimal digits. No call may follow.
   std::string Finish();
 
  private:

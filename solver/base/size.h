@@ -1,6 +1,6 @@
 // solver/base/size.h
 //
-// Counts as indices of meshes and scenes have them.
+// The size of a container in the type that indices of meshes and scenes have.
 
 #pragma once
 

@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// Counts wall-clock seconds from its construction.
+// Measures wall-clock seconds since its construction.
 class Stopwatch {
  public:
   double Seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

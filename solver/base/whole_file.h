@@ -1,6 +1,6 @@
 // solver/base/whole_file.h
 //
-// Files that are there as a whole or not at all.
+// Writes files atomically: a file is written completely or not at all.
 
 #pragma once
 
@@ -11,30 +11,30 @@
 
 namespace penumbra {
 
-// Writes the bytes to the file, beside its place under a name that nobody has, and then renamed; a link goes
-// on pointing where it does, and a file that is replaced keeps its permissions. One that nobody is permitted
-// to write is not replaced. Devices and pipes are written to as they stand. Throws InputError, "PATH: error:
-// cannot write: why; ...", and leaves nothing behind, if that fails.
+// Writes the bytes to an unused name in the folder of `path` and then renames the file to `path`. A symbolic
+// link keeps its target, and a replaced file keeps its permissions. A file without write permission is not
+// replaced. Devices and pipes are written to directly. On failure, throws InputError, "PATH: error: cannot
+// write: why; ...", and leaves no file behind.
 void WriteWholeFile(const std::string& path, std::string_view bytes);
 
 struct FileToWrite {
   std::string path;
   std::string_view bytes;
 };
-// The same for files that belong together: none is replaced before all are written beside their places.
+// Writes several files that belong together: replaces none before all are written under their temporary
+// names. Otherwise as WriteWholeFile().
 void WriteWholeFiles(std::span<const FileToWrite> files);
 
-// Tries whether WriteWholeFile() can write to the path, and throws the same error if it cannot. Writes
-// nothing.
+// Checks that WriteWholeFile() can write to the path, and throws the same error if it cannot. Writes nothing.
 void TryWholeFile(const std::string& path);
 
-// Whether something stands there that is written to as it is.
+// Whether the path names a device or a pipe, which is written to directly.
 bool IsDevice(const std::string& path);
 
-// Where a chain of links leads, whether there is a file or not yet.
+// The target of a chain of symbolic links, whether or not this target exists.
 std::filesystem::path BehindLinks(std::filesystem::path path);
 
-// The error of a place that cannot be written to, to be thrown.
+// Throws the InputError for a path that cannot be written.
 [[noreturn]] void FailToWrite(const std::string& path, const std::string& why);
 
 }  // namespace penumbra

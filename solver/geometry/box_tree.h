@@ -1,6 +1,6 @@
 // solver/geometry/box_tree.h
 //
-// Boxes in the plane, found by where they lie: for the many edges of a large outline.
+// A bounding box hierarchy over axis-aligned boxes in the plane, for the edges of large outlines.
 
 #pragma once
 
@@ -22,22 +22,22 @@ struct PlaneBox {
 
 class BoxTree {
  public:
-  // Builds the tree anew, in time n log n.
+  // Replaces the tree by one over `boxes`. Time O(n log n).
   void Build(std::span<const PlaneBox> boxes);
 
-  // The indices of the boxes that meet this one, in no order, go to `found`.
+  // Sets `found` to the indices of the boxes that intersect `box`, in unspecified order.
   void Find(const PlaneBox& box, std::vector<std::int32_t>& found) const;
 
  private:
   struct Node {
-    PlaneBox box;                       // around all of its boxes
-    std::int32_t first = 0, count = 0;  // of a leaf: its range in order_; else count is 0
-    std::int32_t second = 0;            // the second child; the first one follows its parent
+    PlaneBox box;                       // bounding box of the node
+    std::int32_t first = 0, count = 0;  // of a leaf: its range in order_. count == 0: inner node
+    std::int32_t second = 0;            // index of the second child; the first child follows its parent
   };
 
   std::int32_t BuildNode(std::int32_t first, std::int32_t count);
 
-  std::span<const PlaneBox> given_;  // while it is built
+  std::span<const PlaneBox> given_;  // during Build() only
   std::vector<PlaneBox> boxes_;      // in the order of order_
   std::vector<std::int32_t> order_;
   std::vector<Node> nodes_;

@@ -1,7 +1,6 @@
 // solver/geometry/convex_clip.h
 //
-// Convex polygons in the plane, clipped by lines. Rounding can make a result wrong by a rounding, and no
-// worse: nothing here fails for any input.
+// Clipping of convex polygons in the plane. Results are exact to rounding for every input; no function fails.
 
 #pragma once
 
@@ -11,21 +10,21 @@
 
 namespace penumbra {
 
-// The part of the convex polygon where outwards . (p - point) <= 0; empty if that is no more than a line.
-// Vertices at most `tolerance` from the border count as lying on it.
+// The points p of the convex polygon with outwards . (p - point) <= 0; empty if they lie on a line. Vertices
+// within `tolerance` of the border line count as lying on it.
 Polygon2 ClipToHalfPlane(std::span<const Vec2> polygon, const Vec2& outwards, const Vec2& point,
                          double tolerance = 0);
 
-// The common part of two convex polygons that run counter-clockwise; empty if they have none.
+// The intersection of two convex polygons, both counter-clockwise; empty if they do not overlap.
 Polygon2 IntersectConvex(Polygon2 polygon, std::span<const Vec2> with);
 
-// The parts of the convex polygon outside of the convex `hole`, both counter-clockwise: appended to `left`,
-// without those no wider than `crack`.
+// Appends to `left` convex pieces of the part of the convex polygon outside the convex `hole`, both
+// counter-clockwise. Pieces of a width of at most `crack` are dropped.
 void SubtractConvex(const Polygon2& polygon, std::span<const Vec2> hole, double crack,
                     std::vector<Polygon2>& left);
 
-// The narrowest strip between two parallel lines that holds the convex polygon: its width, and the unit
-// vector across it. Zero for fewer than three vertices.
+// The narrowest strip between two parallel lines that contains the convex polygon: its width, and the unit
+// vector perpendicular to the lines. The width is zero for fewer than three vertices.
 struct Strip {
   double width = 0;
   Vec2 across = Vec2::UnitX();

@@ -1,6 +1,6 @@
 // solver/geometry/convex_pieces.h
 //
-// Partitions regions of the plane into few convex triangles and quadrilaterals.
+// Partitions triangulated regions of the plane into convex triangles and quadrilaterals, with few pieces.
 
 #pragma once
 
@@ -13,27 +13,27 @@
 
 namespace penumbra {
 
-// Three or four indices of vertices, counter-clockwise; the fourth of a triangle is -1.
+// Indices of three or four vertices, counter-clockwise; vertex[3] is -1 in a triangle.
 struct ConvexPiece {
   std::array<std::int32_t, 4> vertex = {-1, -1, -1, -1};
 
   int Size() const { return vertex[3] < 0 ? 3 : 4; }
 };
 
-// A corner counts as straight if the sine of its turn is at most this: what the rounding of coordinates
-// leaves of three points on a line, with room for lines far from the origin.
+// A corner counts as straight if the sine of its turning angle is at most this: the effect of rounding the
+// coordinates of three points on a line, with a margin for lines far from the origin.
 inline constexpr double kStraightSine = 1e-9;
 
-// How well shaped the quadrilateral is: the smallest sine of its corners, 1 for a rectangle. 0 or less unless
-// it is convex with four corners that are not straight.
+// The shape quality of a quadrilateral: the smallest sine of its corner angles, 1 for a rectangle. At most 0
+// if the quadrilateral is not convex or has a straight corner.
 double QuadrilateralQuality(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 
-// Indices of the outline's vertices without those in straight corners; at least three remain.
+// Indices of the outline's vertices, without those at straight corners; at least three remain.
 std::vector<std::int32_t> WithoutStraightCorners(std::span<const Vec2> outline);
 
-// Joins pairs of triangles with a common edge to convex quadrilaterals: first those that only one partner can
-// take, then the well-shaped ones. Each piece begins with the smallest index of its vertices; pieces ascend
-// by their first triangle.
+// Joins pairs of triangles with a common edge to convex quadrilaterals: first the triangles that have only
+// one possible partner, then the pairs of the best quality. Each piece begins with its smallest vertex index;
+// pieces are sorted by their first triangle.
 std::vector<ConvexPiece> JoinTriangles(std::span<const Vec2> vertices,
                                        std::span<const std::array<std::int32_t, 3>> triangles);
 

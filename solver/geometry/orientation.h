@@ -1,6 +1,6 @@
 // solver/geometry/orientation.h
 //
-// The exact sign that every decision about points in the plane rests on.
+// The exact orientation predicate, on which all decisions about points in the plane are based.
 
 #pragma once
 
@@ -8,7 +8,8 @@
 
 namespace penumbra {
 
-// +1 if a, b, c turn left, -1 if they turn right, 0 if they lie on a line: exact for the coordinates given.
+// +1 if a, b, c make a left turn, -1 if they make a right turn, 0 if they lie on a line. Exact for the given
+// coordinates.
 int Orientation(const Vec2& a, const Vec2& b, const Vec2& c);
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // solver/geometry/planar_sets.h
 //
-// Hulls, differences and intersections of convex polygons that share a plane in space.
+// Hulls, differences and intersections of convex polygons that lie in a common plane in space.
 
 #pragma once
 
@@ -11,17 +11,20 @@
 
 namespace penumbra {
 
-// Appends to `left` the convex pieces of the convex polygon `from` that lie outside the convex polygon
-// `hole`, which runs counter-clockwise about the unit normal of their plane. Vertices within `crack` [m] of
-// the line through an edge of the hole count as lying on it, and pieces no wider than `crack` are left out.
+// Appends to `left` convex pieces of the part of the convex polygon `from` outside the convex polygon `hole`.
+// The hole is counter-clockwise about the unit normal of the common plane. Vertices within `crack` [m] of the
+// line through an edge of the hole count as lying on the line. Pieces of a width of at most `crack` are
+// dropped.
 void Subtract(const Polygon3& from, std::span<const Vec3> hole, const Vec3& normal, double crack,
               std::vector<Polygon3>& left);
 
-// The common part of two convex polygons in a plane with that unit normal, both counter-clockwise about it;
-// `with` counts as reaching `margin` [m] farther than it does. Empty if they have none.
+// The intersection of `polygon` with the polygon `with` enlarged by `margin` [m]. The polygons are convex,
+// lie in a common plane with the unit normal `normal`, and are counter-clockwise about the normal. Empty if
+// they do not overlap.
 Polygon3 Intersect(Polygon3 polygon, std::span<const Vec3> with, const Vec3& normal, double margin);
 
-// The convex hull of points in a plane, counter-clockwise about its unit normal; empty if they lie on a line.
+// The convex hull of points in a plane, counter-clockwise about the plane's unit normal; empty if the points
+// lie on a line.
 Polygon3 ConvexHull(std::span<const Vec3> points, const Vec3& normal);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // solver/geometry/plane_projection.h
 //
-// A plane seen along the coordinate axis nearest to its normal: two coordinates of a point are kept as they
-// are, so that exact predicates in two dimensions decide about the points as given.
+// Projection of a plane along the coordinate axis nearest to the plane's normal. Two coordinates of a point
+// are kept to the bit, so that exact two-dimensional predicates are exact for the given points.
 
 #pragma once
 
@@ -13,8 +13,8 @@ namespace penumbra {
 
 class PlaneProjection {
  public:
-  // The plane through `point` with the normal `normal`, of any length but zero. What runs counter-clockwise
-  // about the normal does so in the projection.
+  // The plane through `point` with the normal `normal`, of any length but zero. A polygon that is
+  // counter-clockwise about the normal is counter-clockwise in the projection.
   PlaneProjection(const Vec3& point, const Vec3& normal) : point_(point), normal_(normal) {
     normal.cwiseAbs().maxCoeff(&dropped_);
     x_ = (dropped_ + 1) % 3;
@@ -24,7 +24,7 @@ class PlaneProjection {
 
   Vec2 ToPlane(const Vec3& p) const { return {p[x_], p[y_]}; }
 
-  // The point of the plane above p; kept coordinates are kept to the bit.
+  // The point of the plane whose projection is p; its kept coordinates equal those of p to the bit.
   Vec3 FromPlane(const Vec2& p) const {
     Vec3 lifted;
     lifted[x_] = p.x();

@@ -1,11 +1,11 @@
 // solver/geometry/region_difference.h
 //
-// What is left of a polygon outside of others that share its plane, where their borders may coincide to the
-// last bit, to a rounding, or to the digits of a file. Whatever the input, an answer is found.
+// The difference of a polygon and other polygons in its plane. Borders may coincide exactly, to rounding, or
+// to the written digits of a file. Every input has a result.
 //
-// Corners and edges nearer to each other than a reach are made one beforehand, by moving those of the
-// polygons that cut and never the outline. Then one constrained triangulation of all of them tells inside
-// from outside.
+// First, corners and edges within a snap distance of each other are unified: the corners of the cutting
+// polygons move, never those of the outline. Then one constrained triangulation of all polygons distinguishes
+// inside from outside.
 
 #pragma once
 
@@ -19,13 +19,13 @@
 
 namespace penumbra {
 
-// How near two corners or edges count as one. Along a coordinate it is what the rounding of that coordinate
-// makes of a common place; in any direction it is `base` at least.
+// The distance within which two corners or edges count as one. The distance along a coordinate axis is the
+// rounding of this coordinate in the file (`step`). The distance in any direction is at least `base`.
 struct SnapReach {
   double base = 0;
-  Vec2 step = Vec2::Zero();  // of each coordinate
+  Vec2 step = Vec2::Zero();  // along each coordinate axis
 
-  // Across an edge whose unit normal is this.
+  // The distance along `normal`, the unit normal of an edge.
   double Across(const Vec2& normal) const { return std::max(base, normal.cwiseAbs().dot(step)); }
   bool SamePlace(const Vec2& a, const Vec2& b) const {
     const Vec2 apart = (a - b).cwiseAbs();
@@ -34,25 +34,27 @@ struct SnapReach {
 };
 
 struct RegionDifference {
-  // The outline's, to the bit; those of the cuts one after the other, moved by no more than the reach; where
-  // their edges cross. Those of the outline and the cuts keep their places in the order.
+  // First the vertices of the outline, to the bit; then those of the cuts, one cut after the other, moved by
+  // at most the snap distance; then crossings of edges. Every vertex of the outline and of the cuts has an
+  // entry, in input order.
   std::vector<Vec2> vertices;
-  std::vector<std::array<std::int32_t, 3>> triangles;  // counter-clockwise; none of the vertices is shared by
-                                                       // place alone, but where all else failed
+  // Counter-clockwise. Vertices at one place have one index, except where the common triangulation failed and
+  // convex parts were clipped instead.
+  std::vector<std::array<std::int32_t, 3>> triangles;
 };
 
 class RegionSubtractor {
  public:
-  // The part of the simple polygon `outline` outside of all the simple polygons `cuts`; all run
-  // counter-clockwise. Parts that are narrower than the reach all along are left out.
+  // The part of the simple polygon `outline` outside all simple polygons `cuts`; all are counter-clockwise.
+  // Parts whose width is less than the snap distance everywhere are dropped.
   RegionDifference Subtract(std::span<const Vec2> outline, std::span<const Polygon2> cuts,
                             const SnapReach& reach);
 
-  // A simple polygon as convex ones.
+  // Partitions a simple polygon into convex ones.
   std::vector<Polygon2> ConvexParts(std::span<const Vec2> outline);
 
  private:
-  // By clipping convex parts, without a common mesh.
+  // The fallback: clips convex parts one by one, without a common mesh.
   RegionDifference SubtractByClipping(std::span<const Vec2> outline, std::span<const Polygon2> cuts,
                                       const SnapReach& reach);
 

@@ -1,6 +1,6 @@
 // solver/geometry/segment_clip.h
 //
-// Parts of segments.
+// Clipping of segments in space.
 
 #pragma once
 
@@ -13,11 +13,12 @@
 
 namespace penumbra {
 
-// The part [t0, t1] of a segment a + t (b - a), cut down by half-spaces.
+// The parameter interval [t0, t1] of the part of a segment a + t (b - a) that lies in all half-spaces so far.
 struct SegmentClip {
   double t0 = 0, t1 = 1;
 
-  // Keeps what has value >= 0, where the value runs linearly from `va` at t = 0 to `vb` at t = 1.
+  // Keeps the part where a linear function is >= 0. The function has the value `va` at t = 0 and `vb` at t =
+  // 1.
   void Keep(double va, double vb) {
     if (va >= 0 && vb >= 0) return;
     if (va < 0 && vb < 0) {
@@ -34,13 +35,13 @@ struct SegmentClip {
   bool Empty() const { return !(t0 < t1); }
 };
 
-// a + t (b - a), with the bits of the ends at 0 and 1.
+// The point a + t (b - a): exactly a at t = 0, exactly b at t = 1.
 inline Vec3 Between(const Vec3& a, const Vec3& b, double t) {
   return t == 0 ? a : t == 1 ? b : Vec3((1 - t) * a + t * b);
 }
 
-// The part of the segment in the plane of the convex polygon (counter-clockwise about `normal`) that lies in
-// it or within `tolerance` [m] of it; empty if there is none.
+// The part of the segment ab that lies in the convex polygon or within `tolerance` [m] of it; empty if there
+// is none. The segment lies in the polygon's plane. The polygon is counter-clockwise about `normal`.
 std::optional<std::array<Vec3, 2>> ClipToPolygon(const Vec3& a, const Vec3& b, std::span<const Vec3> polygon,
                                                  const Vec3& normal, double tolerance);
 

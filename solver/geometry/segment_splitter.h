@@ -1,6 +1,7 @@
 // solver/geometry/segment_splitter.h
 //
-// Splits segments in the plane where they meet each other or a point, until they meet in common ends only.
+// Splits segments in the plane where they meet each other or a point, until they meet only at common end
+// points.
 
 #pragma once
 
@@ -13,7 +14,7 @@
 
 namespace penumbra {
 
-// A piece of the segment `source`, running in its sense.
+// A piece of the segment with index `source`, with the same direction.
 struct SegmentPiece {
   std::int32_t from = 0, to = 0;  // indices of vertices
   std::int32_t source = 0;
@@ -21,19 +22,20 @@ struct SegmentPiece {
 
 class SegmentSplitter {
  public:
-  // Splits `pieces` in place. `vertices` grows by the crossings, each computed once; a crossing within
-  // `snap` of a vertex uses that vertex, and a vertex within `snap` of a piece splits it.
-  // Where vertices crowd within `snap` of each other, only what meets exactly is joined in the end.
-  // Vertices whose `used` flag is false take no part. On return no two pieces cross (exactly decided), and no
-  // vertex lies inside a piece. REQUIRES: snap above the rounding error of the coordinates.
-  // False, with no promise about what is left, if crossings crowd so densely that no end is found.
+  // Splits `pieces` in place and appends crossings to `vertices`, each computed once. A crossing within
+  // `snap` of a vertex uses this vertex. A vertex within `snap` of a piece splits the piece. Where many
+  // vertices lie within `snap` of each other, the last rounds join only what meets exactly. Vertices with
+  // used[i] == false are ignored. If the result is true, no two pieces cross (by an exact predicate), and no
+  // vertex lies in the interior of a piece. If it is false, crossings lay so close together that splitting
+  // did not terminate, and the contents of the arguments are unspecified. REQUIRES: snap is larger than the
+  // rounding error of the coordinates.
   [[nodiscard]] bool Split(std::vector<Vec2>& vertices, std::vector<bool>& used,
                            std::vector<SegmentPiece>& pieces, double snap);
 
  private:
   struct CutPoint {
     std::int32_t piece = 0;
-    double at = 0;  // its place in the order along the piece
+    double at = 0;  // sort key along the piece
     std::int32_t vertex = 0;
   };
 
@@ -53,15 +55,15 @@ class SegmentSplitter {
   std::vector<bool>* used_ = nullptr;
   std::vector<SegmentPiece>* pieces_ = nullptr;
   double snap_ = 0;
-  double rounding_ = 0;  // a computed distance of 0 is at most this
+  double rounding_ = 0;  // largest true distance of a computed distance 0
   std::vector<CutPoint> cuts_;
   std::vector<SegmentPiece> next_;
-  std::vector<char> fresh_, next_fresh_;  // pieces that changed since they were last tested
-  std::int32_t fresh_vertex_ = 0;         // vertices from here on are new since then
-  std::vector<std::int32_t> order_;       // vertices or pieces by their smallest x
-  std::vector<double> low_;               // that x, in the same order
-  std::vector<double> left_;              // of each piece, that x
-  BoxTree tree_;                          // of many vertices or pieces
+  std::vector<char> fresh_, next_fresh_;  // per piece: changed since it was last tested
+  std::int32_t fresh_vertex_ = 0;         // first vertex added since then
+  std::vector<std::int32_t> order_;       // vertices or pieces, sorted by their smallest x
+  std::vector<double> low_;               // these smallest x, in the same order
+  std::vector<double> left_;              // per piece: its smallest x
+  BoxTree tree_;                          // used if there are many vertices or pieces
   std::vector<PlaneBox> boxes_;
   std::vector<std::int32_t> found_;
 };

@@ -1,6 +1,6 @@
 // solver/geometry/vec.h
 //
-// The vector types of the offline half: binary64 throughout.
+// The vector types of the offline half: binary64 in all components.
 
 #pragma once
 
@@ -12,12 +12,12 @@ namespace penumbra {
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 
-// Linear RGB: a reflectance [1], or an emittance, radiosity or irradiance [W/m^2], a value a channel.
+// Linear RGB with one value per channel: a reflectance [1], or an emittance, radiosity or irradiance [W/m^2].
 using Rgb = Eigen::Array3d;
 
 inline double Cross2(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-// The largest absolute coordinate.
+// The largest absolute value of a coordinate.
 inline double MaxAbs(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 #include "solver/scene/builtin_scenes.h"
 
-#include <algorithm>
+#include <utility>
 
 #include "solver/base/check.h"
 #include "solver/scene/building.h"
@@ -19,6 +19,25 @@ std::optional<std::string> EmbeddedText(std::string_view file) {
     if (embedded.name == file) return std::string(embedded.text);
   return std::nullopt;
 }
+
+// Null if there is none of that name.
+const BuiltinScene* FindBuiltinScene(std::string_view name) {
+  for (const BuiltinScene& scene : BuiltinScenes())
+    if (scene.name == name) return &scene;
+  return nullptr;
+}
+
+class BuiltinSceneReader final : public SceneReader {
+ public:
+  bool Recognises(const SceneSource& source) const override {
+    return !source.is_file && (BuildingNamed(source.name) || FindBuiltinScene(source.name));
+  }
+  Scene Read(const std::string& name, const SceneOptions& options) const override {
+    std::optional<Scene> scene = LoadBuiltinScene(name, options);
+    PENUMBRA_CHECK(scene.has_value());
+    return std::move(*scene);
+  }
+};
 
 }  // namespace
 
@@ -65,9 +84,8 @@ std::optional<Scene> LoadBuiltinScene(std::string_view name, const SceneOptions&
     scene.cameras = BuildingCameras(*size);
     return scene;
   }
-  const auto found = std::find_if(BuiltinScenes().begin(), BuiltinScenes().end(),
-                                  [&](const BuiltinScene& scene) { return scene.name == name; });
-  if (found == BuiltinScenes().end()) return std::nullopt;
+  const BuiltinScene* found = FindBuiltinScene(name);
+  if (!found) return std::nullopt;
   const std::string file = found->name + ".obj";
   const std::optional<std::string> text = EmbeddedText(file);
   PENUMBRA_CHECK(text.has_value());
@@ -78,6 +96,12 @@ std::optional<Scene> LoadBuiltinScene(std::string_view name, const SceneOptions&
   scene.warnings.clear();
   scene.cameras = found->cameras;
   return scene;
+}
+
+SceneReaderRegistry::Method BuiltinSceneReaderMethod() {
+  return {"built-in", "the scenes that the program brings along, by name", {}, [] {
+            return std::make_unique<const BuiltinSceneReader>();
+          }};
 }
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // solver/scene/builtin_scenes.h
 //
-// The scenes that the program brings along. Their geometry stands as OBJ in the folder scenes/, or is made
-// from the numbers in the name (building.h).
+// The built-in scenes. Their geometry is an OBJ file in the folder scenes/, or is generated from the numbers
+// in the name (building.h).
 
 #pragma once
 
@@ -12,6 +12,7 @@
 
 #include "solver/scene/scene.h"
 #include "solver/scene/scene_options.h"
+#include "solver/scene/scene_reader.h"
 
 namespace penumbra {
 
@@ -21,11 +22,14 @@ struct BuiltinScene {
   std::vector<Camera> cameras;
 };
 
-// One of each kind: of the buildings the smallest.
+// All built-in scenes; of the buildings, only the smallest.
 const std::vector<BuiltinScene>& BuiltinScenes();
 
-// The built-in scene with its cameras; nothing if there is none of that name. Throws InputError where the
-// options do not suit the scene.
+// The built-in scene called `name`, with its cameras; nullopt if there is none. Throws InputError if the
+// options do not fit the scene.
 std::optional<Scene> LoadBuiltinScene(std::string_view name, const SceneOptions& options);
+
+// Their names, where no file has the same.
+SceneReaderRegistry::Method BuiltinSceneReaderMethod();
 
 }  // namespace penumbra

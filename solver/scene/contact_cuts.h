@@ -1,7 +1,7 @@
 // solver/scene/contact_cuts.h
 //
-// Cuts patches along the walls that stand on them. An element has one radiosity: one that lies under a wall
-// would carry light from the lit side to the dark one.
+// Cuts patches along the walls that stand on them. An element has one radiosity; an element under a wall
+// would carry light from the lit side of the wall to the dark side.
 
 #pragma once
 
@@ -9,19 +9,19 @@
 
 namespace penumbra {
 
-// Replaces each patch that walls stand on by convex pieces, which lie in its place and have its plane,
-// material and faces. What stands on a patch, crosses it, or hangs closely above it is a wall there
+// Replaces each patch on which walls stand by convex pieces, which cover the patch and have its plane,
+// material and faces. The *feet* on a patch are the segments along which other patches stand on it, intersect
+// it, or hang closely above it. A foot is a wall if both of the following hold:
 //
-//  (1) if it and what goes on in its line cover at least three fifths of the line from what stops it on one
-//  side (the
-//      patch's outline, or another foot) to what stops it on the other, so that a doorway does not make it
-//      less of a wall;
-//  (2) if it is not small beside the patch, together with what it touches, nor the patch beside the scene's
-//  largest.
+//  (1) Consider the line of the foot between the obstacles on either side: the outline of the patch, or other
+//      feet. The foot and other feet in the line cover at least three fifths of it. A doorway in a wall
+//      therefore does not matter.
+//  (2) The foot, together with the feet that it touches, is not small relative to the patch, and the patch is
+//      not small relative to the largest patch of the scene.
 //
-// The feet of one convex solid do not stop each other: a block on a floor covers what they enclose, and is no
-// wall unless it reaches from wall to wall. REQUIRES: the scene's solids are known (FindConvexSolids);
-// afterwards they are those of the pieces.
+// Feet of one convex solid are not obstacles for each other: a block on a floor covers what its feet enclose,
+// and is no wall unless it extends from wall to wall. REQUIRES: the solids of the scene are known
+// (FindConvexSolids). Afterwards the solids are those of the pieces.
 void CutAtWalls(Scene& scene);
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // solver/scene/contacts.h
 //
-// Where patches touch each other: the edges across which irradiance and radiosity jump (D0, thesis 5.2).
+// Contacts of patches: the segments across which irradiance and radiosity jump (D0, thesis 5.2).
 
 #pragma once
 
@@ -10,38 +10,39 @@
 
 namespace penumbra {
 
-// A segment of nonzero length on a receiver where another patch stands on it, crosses it, or covers it and
-// ends.
+// A segment of nonzero length on a receiver along which another patch stands on the receiver, intersects it,
+// or ends while lying on it.
 struct Contact {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // [m]
   PatchId other = kNoPatch;
 };
 
-// All contacts on the front of the receiver that do not run along its outline, where nothing lies beyond; by
-// other patch. What comes within ContactGap() of the receiver touches it.
+// All contacts on the front of the receiver, sorted by the other patch. Patches within ContactGap() of the
+// receiver touch it. Contacts along the receiver's outline are omitted, because the receiver ends there.
 std::vector<Contact> FindContacts(const Scene& scene, PatchId receiver);
 
-// How high an edge may hang above a patch and still divide it, relative to the edge: light creeps through
-// below, but as little as through the crack under a door.
+// Largest height at which an edge above a patch still divides the patch, relative to the length of the edge.
+// As little light passes below the edge as under a door.
 inline constexpr double kHanging = 0.02;
 
-// The same for many receivers of a scene, which must outlive the object.
+// Finds the contacts of many receivers of one scene. The scene must outlive the object.
 class ContactSearch {
  public:
   explicit ContactSearch(const Scene& scene);
 
-  // FindContacts().
+  // As the function FindContacts().
   std::vector<Contact> Find(PatchId receiver) const;
 
-  // The contacts on the front of the receiver of what rises from it, and the feet of what hangs closely above
-  // it: the edges of other patches that rise from at most kHanging above it, projected onto it. What lies
-  // flat on it is left out.
+  // The feet of other patches on the front of the receiver. A patch that rises from the receiver has its
+  // contact as a foot. A patch that rises from an edge at a height of at most kHanging times the edge's
+  // length has the projection of this edge onto the receiver as a foot. Patches that lie flat on the receiver
+  // have no foot.
   std::vector<Contact> FindWalls(PatchId receiver) const;
 
  private:
   const Scene& scene_;
-  double gap_;                              // ContactGap() [m]: finding it takes a look at all patches
-  std::vector<std::vector<PatchId>> near_;  // per patch, ascending: whose boxes come that near
+  double gap_;                              // ContactGap() [m], cached because it depends on all patches
+  std::vector<std::vector<PatchId>> near_;  // per patch, sorted: patches with boxes within reach
 };
 
 }  // namespace penumbra

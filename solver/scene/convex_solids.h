@@ -1,6 +1,7 @@
 // solver/scene/convex_solids.h
 //
-// Boxes and other convex bodies among the patches: from outside, one outline tells what all their sides hide.
+// Finds boxes and other convex bodies among the patches. Seen from outside, one outline bounds what all sides
+// of such a body hide.
 
 #pragma once
 
@@ -8,10 +9,10 @@
 
 namespace penumbra {
 
-// Fills scene.solids and scene.solid_of from scene.patches. Patches that share whole edges, to the bit, at
-// which their fronts bend away from each other or lie in one plane form a solid, if it is convex but for
-// rounding. Planar sides may be missing. Pieces of one plane are none, but for the front and the back of a
-// sheet. What has more sides or corners than these stays without.
+// Fills scene.solids and scene.solid_of from scene.patches. Patches form a solid if they share whole edges,
+// to the bit, at which their fronts bend away from each other or lie in one plane, and if the body is convex
+// to rounding. Planar sides may be missing. Coplanar patches alone are no solid, except the front and the
+// back of a sheet. Bodies with more than kMostSides sides or kMostCorners corners are not recorded.
 void FindConvexSolids(Scene& scene);
 
 inline constexpr std::size_t kMostSides = 16, kMostCorners = 28;

@@ -11,7 +11,7 @@ struct EmbeddedFile {
   std::string_view name, text;
 };
 
-// The files of the folder scenes/, by name. The definition is made by the build.
+// The files of the folder scenes/, sorted by name. The build generates the definition.
 std::span<const EmbeddedFile> EmbeddedSceneFiles();
 
 }  // namespace penumbra

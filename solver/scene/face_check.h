@@ -1,6 +1,7 @@
 // solver/scene/face_check.h
 //
-// Whether a face as given can be used, and what can be mended in it. All takes time n log n of its vertices.
+// Checks whether a face of a file can be used, and repairs it. All functions take time O(n log n) for n
+// vertices.
 
 #pragma once
 
@@ -10,42 +11,43 @@
 
 namespace penumbra {
 
-// A vertex may lie this far from its face's plane, relative to the face's diameter, and
+// The largest distance of a vertex from its face's plane in a planar face, relative to the face's diameter.
 inline constexpr double kPlanarTolerance = 1e-6;
-// so far if the face is cut: surveyed walls and faces of few decimals stay below, and what is farther off was
-// not meant to be flat.
+// The largest such distance in a face that is cut into planar pieces. Surveyed walls and coordinates with few
+// decimals stay below it; a face with a larger deviation was not intended to be planar.
 inline constexpr double kCutTolerance = 0.05;
 
-// A face this narrow, relative to its diameter, has no normal worth the name: the rounding of its coordinates
-// turns it by more than 1e-4.
+// A face of at most this width, relative to its diameter, has no reliable normal: rounding its coordinates
+// rotates the normal by more than 1e-4.
 inline constexpr double kZeroWidth = 1e-12;
 
 enum class FaceCondition {
   kFine,
   kZeroArea,
-  kUneven,  // off its plane by more than kPlanarTolerance, but not kCutTolerance: FlatPieces() cuts it
-  kFolded,  // farther off
+  kUneven,  // deviates by more than kPlanarTolerance, at most kCutTolerance: FlatPieces() cuts it
+  kFolded,  // deviates by more than kCutTolerance
   kSelfCrossing
 };
 
 struct FaceCheck {
   FaceCondition condition = FaceCondition::kFine;
-  double off_plane = 0;  // the largest distance of a vertex from the plane [m]; of faces with area
+  double off_plane = 0;  // largest distance of a vertex from the plane [m]; set if the face has area
   double diameter = 0;   // [m]
 };
 
-// Removes vertices that repeat their predecessor, and spikes (a, b, a becomes a). Returns how many vertices
-// went.
+// Removes vertices that equal their predecessor, and spikes (a, b, a becomes a). Returns the number of
+// removed vertices.
 int RemoveRepeatedVertices(Polygon3& face);
 
-// The face's condition, in the order: zero area, folded, self-crossing, uneven. A face may touch itself, as
-// one with a hole does that a doubled edge joins to the outline; it is self-crossing if it winds around some
-// point other than once. It is the same for the face reversed or begun at another vertex.
+// The condition of the face. If several apply, the first of: zero area, folded, self-crossing, uneven. A face
+// may touch itself, for instance if a doubled edge joins a hole to the outline. A face is self-crossing if
+// its winding number around some point is neither 0 nor 1 (for a reversed face, -1). The result does not
+// depend on the direction of the face or on its first vertex.
 FaceCheck CheckFace(const Polygon3& face);
 
-// The face itself if it is planar, else triangles that fill it, with its vertices to the bit: a quadrilateral
-// is cut along the diagonal that leaves the better shaped triangles. A reversed face has the same triangles,
-// reversed. REQUIRES: the face is fine or uneven.
+// The face itself if it is planar; otherwise triangles that fill it, whose vertices equal those of the face
+// to the bit. A quadrilateral is cut along the diagonal that gives the better shaped triangles. A reversed
+// face gives the same triangles, reversed. REQUIRES: CheckFace() returns kFine or kUneven.
 std::vector<Polygon3> FlatPieces(const Polygon3& face);
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // solver/scene/file_format.h
 //
-// What a file is that somebody took for a scene, told by its first bytes.
+// Recognises files of other formats by their first bytes, when a scene or another text was expected.
 
 #pragma once
 
@@ -11,11 +11,11 @@
 namespace penumbra {
 
 enum class FormatKind {
-  kScene,     // of another format: it can be exported
+  kScene,     // a scene in another format; the user can export it as OBJ
   kPacked,    // an archive, or compressed
-  kEncoding,  // a text whose characters are not single bytes
-  kSolution,  // what `penumbra solve -o` wrote
-  kHdf5,      // of others
+  kEncoding,  // text in an encoding such as UTF-16
+  kSolution,  // written by `penumbra solve -o`
+  kHdf5,      // HDF5 files of other programs
   kOther      // pictures, documents, programs
 };
 
@@ -24,15 +24,15 @@ struct ForeignFormat {
   std::string_view name;  // "a Blender file"
 };
 
-// As many bytes as the longest of the beginnings needs.
+// The number of bytes that FindForeignFormat() needs.
 inline constexpr std::size_t kFormatBytes = 512;
 
-// The format that the bytes at a file's beginning show, if it is known and none of line-based text as OBJ,
-// MTL and CSV are.
+// The format of a file that begins with these bytes; nullopt if the format is unknown or is line-based text
+// such as OBJ, MTL and CSV.
 std::optional<ForeignFormat> FindForeignFormat(std::string_view beginning);
 
-// "this is a Blender file; export OBJ, and give that": for a file that should have been `wanted` ("an OBJ
-// file").
+// The message for a file that should have been `wanted` ("an OBJ file"), for example "this is a Blender file;
+// export OBJ, and give that".
 std::string ForeignFormatMessage(const ForeignFormat& format, std::string_view wanted);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // solver/scene/geometry_difference.h
 //
-// Whether two scenes differ in nothing but their materials, so that what was found of one's geometry, form
-// factors and visibility, holds for the other.
+// Compares the geometry of two scenes. Scenes of equal geometry have the same form factors and visibility,
+// whatever their materials.
 
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace penumbra {
 
-// What the first difference is, in words that follow "the scenes differ: "; nothing if all faces and all
-// patches are the same to the bit. Names, materials and objects may differ.
+// The first difference, as a phrase that follows "the scenes differ: "; nullopt if all faces and all patches
+// are equal to the bit. Names, materials and objects may differ.
 std::optional<std::string> GeometryDifference(const Scene& one, const Scene& other);
 
 }  // namespace penumbra

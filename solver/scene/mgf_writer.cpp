@@ -39,6 +39,13 @@ std::string Word(std::string name) {
   return name.empty() ? "unnamed" : name;
 }
 
+class MgfWriter final : public SceneWriter {
+ public:
+  std::vector<std::string> Texts(const Scene& scene, const Camera&, const std::string&) const override {
+    return {MgfText(scene)};
+  }
+};
+
 }  // namespace
 
 Vec3 MgfXyz(const Rgb& rgb) {
@@ -69,6 +76,12 @@ std::string MgfText(const Scene& scene) {
     if (!faces.empty()) text += fmt::format("o {}\n", Word(scene.objects[o].name)) + faces + "o\n";
   }
   return text;
+}
+
+SceneWriterRegistry::Method MgfWriterMethod() {
+  return {"mgf", "Materials and Geometry Format, for RenderPark; one-sided polygons", {}, [] {
+            return std::make_unique<const MgfWriter>();
+          }};
 }
 
 }  // namespace penumbra

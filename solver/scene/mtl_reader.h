@@ -13,15 +13,15 @@
 
 namespace penumbra {
 
-// A material, and the line of its `newmtl`.
+// A material, and the 1-based line of its `newmtl`.
 struct DefinedMaterial {
   Material material;
   int line = 0;
 };
 
-// The materials of the text in their order; where no Kd stands, the reflectance is 50 % grey. `file` names
-// the text in messages; what was clamped or read in an unusual way adds a line to `warnings`. Throws
-// InputError.
+// The materials of the text, in their order. A material without Kd has the reflectance 0.5 in each channel.
+// `file` is the name of the text in messages. Values that were clamped or read in an unusual way add a line
+// to `warnings`. Throws InputError.
 std::vector<DefinedMaterial> ReadMtlText(std::string_view text, std::string_view file,
                                          const SceneOptions& options, std::vector<std::string>& warnings);
 

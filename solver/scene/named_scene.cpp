@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <numeric>
-#include <optional>
 #include <utility>
 #include <vector>
 
+#include "solver/base/read_file.h"
 #include "solver/scene/builtin_scenes.h"
-#include "solver/scene/obj_reader.h"
+#include "solver/scene/file_format.h"
+#include "solver/scene/scene_readers.h"
 #include "solver/scene/text_reader.h"
 
 namespace penumbra {
@@ -43,14 +45,28 @@ std::string NamesNear(std::string_view name) {
   return list;
 }
 
+// What shows a file's format; nothing of a file that cannot be read, as its reader will tell.
+std::string BeginningOf(const std::string& path) {
+  try {
+    return ReadFileStart(path, kFormatBytes);
+  } catch (const ReadFailure&) {
+    return "";
+  }
+}
+
 }  // namespace
 
 Scene ReadNamedScene(const std::string& name, const SceneOptions& options) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(name, error);
   const bool is_directory = std::filesystem::is_directory(status);
-  if (std::filesystem::exists(status) && !is_directory) return ReadObj(name, options);
-  if (std::optional<Scene> scene = LoadBuiltinScene(name, options)) return std::move(*scene);
+  const bool is_file = std::filesystem::exists(status) && !is_directory;
+  const std::string beginning = std::filesystem::is_regular_file(status) ? BeginningOf(name) : "";
+  for (const SceneReaderRegistry::Method& method : SceneReaders().methods()) {
+    const std::unique_ptr<const SceneReader> reader = method.make();
+    if (reader->Recognises({name, is_file, beginning})) return reader->Read(name, options);
+  }
+  if (is_file) return SceneReaders().methods().front().make()->Read(name, options);
   if (is_directory) throw ErrorAt(name, 0, "it is a directory; name an OBJ file in it");
   if (error && error != std::errc::no_such_file_or_directory)
     throw ErrorAt(name, 0, "it cannot be read: " + error.message() + "; give an OBJ file that can be read");

@@ -9,7 +9,8 @@
 
 namespace penumbra {
 
-// The scene that a user names: an OBJ file or a built-in scene; a file wins. Throws InputError.
+// The scene that a user names: a file or a built-in scene; a file wins. The first of SceneReaders() that
+// recognises it reads it; files that none recognises are read as OBJ. Throws InputError.
 Scene ReadNamedScene(const std::string& name, const SceneOptions& options);
 
 }  // namespace penumbra

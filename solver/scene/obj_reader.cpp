@@ -522,6 +522,14 @@ void ObjParser::Warn(const Tally& tally, std::string_view what, std::string_view
 }
 
 // The text of a library; nothing if there is none, or none that may be read.
+class ObjReader final : public SceneReader {
+ public:
+  std::vector<std::string> Endings() const override { return {"obj"}; }
+  Scene Read(const std::string& name, const SceneOptions& options) const override {
+    return ReadObj(name, options);
+  }
+};
+
 std::optional<std::string> ReadLibraryFile(const std::filesystem::path& path) {
   try {
     return ReadFileBytes(path.string());
@@ -552,6 +560,12 @@ Scene ReadObj(const std::filesystem::path& path, const SceneOptions& options) {
     return ReadLibraryFile(library);
   };
   return ReadObjText(text, path.string(), beside, options);
+}
+
+SceneReaderRegistry::Method ObjReaderMethod() {
+  return {"obj", "Wavefront OBJ with MTL; files that no other reader recognises, too", {}, [] {
+            return std::make_unique<const ObjReader>();
+          }};
 }
 
 }  // namespace penumbra

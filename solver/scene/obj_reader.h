@@ -1,7 +1,7 @@
 // solver/scene/obj_reader.h
 //
 // Wavefront OBJ with MTL: polygons with any number of vertices, objects, groups and materials. Numbers are
-// read correctly rounded. Texture coordinates, normals, smoothing, lines and points are passed over.
+// rounded correctly. Texture coordinates, normals, smoothing groups, lines and points are ignored.
 
 #pragma once
 
@@ -13,20 +13,26 @@
 
 #include "solver/scene/scene.h"
 #include "solver/scene/scene_options.h"
+#include "solver/scene/scene_reader.h"
 
 namespace penumbra {
 
-// The text of the material library that an `mtllib` names; nothing if there is none of that name.
+// Returns the text of the material library with the name that an `mtllib` line gives; nullopt if there is
+// none.
 using MtlSource = std::function<std::optional<std::string>(std::string_view mtl_name)>;
 
-// The scene in the file, its patches built; material libraries are looked for beside it. What was repaired,
-// dropped or clamped stands in Scene::warnings, a line a kind. A scene without faces is valid. Throws
-// InputError with the line "FILE:LINE: error: what is wrong and how to mend it" (line 0 for a file that
-// cannot be read).
+// The scene in the file, with its patches. Material libraries are searched in the folder of the file.
+// Scene::warnings has one line for each kind of repair, drop or clamping. A scene without faces is valid.
+// Throws InputError with one line, "FILE:LINE: error: what is wrong and how to mend it" (without LINE for a
+// file that cannot be read).
 Scene ReadObj(const std::filesystem::path& path, const SceneOptions& options);
 
-// The same from a text; `file_name` stands for it in messages, its stem is the scene's name.
+// Reads a scene from a text, as ReadObj() does. `file_name` is the name of the text in messages; its stem is
+// the scene's name.
 Scene ReadObjText(std::string_view text, std::string_view file_name, const MtlSource& mtl_source,
                   const SceneOptions& options);
+
+// Files that end in .obj.
+SceneReaderRegistry::Method ObjReaderMethod();
 
 }  // namespace penumbra

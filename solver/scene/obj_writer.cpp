@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <vector>
@@ -65,6 +66,17 @@ class VertexList {
   std::map<std::array<std::uint64_t, 3>, std::size_t> number_;
 };
 
+class ObjWriter final : public SceneWriter {
+ public:
+  std::vector<std::string> FilesBeside(const std::string& path) const override {
+    return {std::filesystem::path(path).replace_extension(".mtl").string()};
+  }
+  std::vector<std::string> Texts(const Scene& scene, const Camera&, const std::string& path) const override {
+    const std::filesystem::path library = FilesBeside(path).front();
+    return {MtlText(scene), ObjText(scene, library.filename().string())};
+  }
+};
+
 }  // namespace
 
 std::string ObjText(const Scene& scene, std::string_view mtl_name) {
@@ -116,6 +128,12 @@ std::string MtlText(const Scene& scene) {
                         ke[2]);
   }
   return text;
+}
+
+SceneWriterRegistry::Method ObjWriterMethod() {
+  return {"obj", "with an .mtl beside it; read again it is the same scene", {}, [] {
+            return std::make_unique<const ObjWriter>();
+          }};
 }
 
 }  // namespace penumbra

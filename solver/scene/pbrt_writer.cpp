@@ -8,6 +8,8 @@
 namespace penumbra {
 namespace {
 
+constexpr int kFilmWidth = 1280, kFilmHeight = 960;  // what pbrt draws [pixels]
+
 std::string Triple(const auto& v) { return fmt::format("{} {} {}", v[0], v[1], v[2]); }
 
 // A name between quotation marks, as a comment may hold it too.
@@ -39,6 +41,15 @@ std::string MeshShape(const Scene& scene, const std::vector<const Patch*>& patch
   return text;
 }
 
+class PbrtWriter final : public SceneWriter {
+ public:
+  bool HasCamera() const override { return true; }
+  std::vector<std::string> Texts(const Scene& scene, const Camera& camera,
+                                 const std::string&) const override {
+    return {PbrtText(scene, camera, kFilmWidth, kFilmHeight)};
+  }
+};
+
 }  // namespace
 
 std::string PbrtText(const Scene& scene, const Camera& camera, int width, int height) {
@@ -67,6 +78,12 @@ std::string PbrtText(const Scene& scene, const Camera& camera, int width, int he
         text += fmt::format("# {}\n", Quotable(scene.objects[o].name)) + MeshShape(scene, patches);
   }
   return text;
+}
+
+SceneWriterRegistry::Method PbrtWriterMethod() {
+  return {"pbrt", "pbrt 4, with the camera; area lights of radiance emittance/pi", {}, [] {
+            return std::make_unique<const PbrtWriter>();
+          }};
 }
 
 }  // namespace penumbra

@@ -5,12 +5,15 @@
 #include <string>
 
 #include "solver/scene/scene.h"
+#include "solver/scene/scene_writer.h"
 
 namespace penumbra {
 
-// The scene for pbrt, version 4: the patches as triangles, one-sided diffuse area lights of radiance
-// emittance / pi on their fronts, a path tracer and an EXR film of width x height pixels (height <= width)
-// behind the camera. What pbrt cannot be told: backs reflect as fronts do, where they can be seen.
+// The scene for pbrt, version 4: the patches as triangles; one-sided diffuse area lights of radiance
+// emittance / pi on the fronts of emitters; the camera, with a path tracer and an EXR film of width x height
+// pixels (height <= width). A limitation of pbrt: backs reflect as fronts do, where they are visible.
 std::string PbrtText(const Scene& scene, const Camera& camera, int width, int height);
+
+SceneWriterRegistry::Method PbrtWriterMethod();
 
 }  // namespace penumbra

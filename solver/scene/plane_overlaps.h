@@ -1,6 +1,7 @@
 // solver/scene/plane_overlaps.h
 //
-// Which outlines lie on one another in one plane and look the same way, by what their coordinates can tell.
+// Finds outlines of the same orientation that overlap in one plane, within the precision of their
+// coordinates.
 
 #pragma once
 
@@ -14,46 +15,49 @@
 
 namespace penumbra {
 
-// Relative to the larger diameter: what the rounding of coordinates to binary64 leaves of a common plane or a
-// common edge (1e-16, and 1e-12 for a small face far from the origin), and too near for any two that are
-// meant to be apart.
+// Distance within which planes or edges are the same, relative to the larger diameter. This number exceeds
+// the effect of rounding coordinates to binary64 (1e-16, and 1e-12 for a small face far from the origin), and
+// is smaller than any intended distance.
 inline constexpr double kCoplanarTolerance = 1e-9;
 
-// What a common plane is at most, relative to the scene's diagonal, however few digits are written: who
-// writes 1 and 2 may mean them exactly.
+// Largest distance within which planes are the same, relative to the scene's diagonal, for any number of
+// written digits: coordinates such as 1 and 2 may be exact.
 inline constexpr double kCoarsestPlane = 1e-3;
 
-// How far apart the digits of coordinates leave what is the same.
+// The distances within which corners, edges and planes count as the same, given the written digits of
+// coordinates.
 class PlaneTolerance {
  public:
-  // `step`: the units in which coordinates are written [m], zero where they are exact.
+  // `step`: the unit to which coordinates are rounded, per axis [m]; zero if they are exact.
   PlaneTolerance(const Vec3& step, double diagonal);
 
-  // Between corners and edges in a plane of that projection, of faces of that diameter.
+  // The distance for corners and edges in a plane with this projection, of faces of this diameter.
   SnapReach InPlane(const PlaneProjection& projection, double diameter) const;
 
-  // Between two planes with that unit normal, both of which rounded corners carry [m].
+  // The distance for two planes with the unit normal `normal`, each defined by rounded corners [m].
   double Between(const Vec3& normal) const;
 
-  // Between any two planes: nearer than that things touch (ContactGap()), and a point on one is on the other.
+  // The distance that holds for planes of any orientation [m]: within it things touch (ContactGap()), and a
+  // point on one plane lies on the other.
   double Least() const { return least_; }
 
-  // The largest of them all [m].
+  // The largest value of Between() [m].
   double Largest() const;
 
  private:
   double least_;
-  Vec3 step_;  // just less than a unit, and no more than the coarsest plane
+  Vec3 step_;  // slightly less than the unit, limited by kCoarsestPlane
 };
 
 std::vector<Vec2> Project(const PlaneProjection& projection, std::span<const Vec3> points);
 
-// Sets the winners of outlines that overlap in one plane; of two, the one of lower rank wins. Returns the
-// largest distance between planes that count as one [m]. Time is near linear unless many boxes meet.
+// Sets Outline::winners for outlines that overlap in one plane; of two outlines, the one of lower rank wins.
+// Returns the largest distance between planes that count as one [m]. The time is nearly linear unless many
+// bounding boxes intersect.
 double FindOverlaps(std::vector<Outline>& outlines, std::span<const std::int32_t> rank,
                     const PlaneTolerance& tolerance);
 
-// How far apart planes may be that count as one, however they are turned [m].
+// The largest distance at which two planes of the scene count as one, over all orientations [m].
 double LargestPlaneDistance(const Scene& scene);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // solver/scene/scene.h
 //
-// What a scene is to every later stage: faces as the user gave them, and patches, the convex planar polygons
-// of three or four vertices that the solver works on (the thesis's Quadrilaterals).
+// A scene: the faces as the user gave them, and the patches that the solver uses, convex planar polygons of
+// three or four vertices (the thesis's Quadrilaterals).
 //
 // Units: lengths in metres; emittance (radiant exitance) in W/m^2; reflectance in [0, 1).
 
@@ -26,7 +26,7 @@ inline constexpr PatchId kNoPatch = -1;
 using SolidId = std::int32_t;
 inline constexpr SolidId kNoSolid = -1;
 
-// Products with areas and sums over faces must not overflow [W/m^2].
+// Limit for emittances [W/m^2], so that products with areas and sums over faces do not overflow.
 inline constexpr double kLargestEmittance = 1e100;
 
 struct Material {
@@ -35,8 +35,7 @@ struct Material {
   Rgb emittance = Rgb::Zero();  // [W/m^2]
 };
 
-// An `f` line of the file. Its index in Scene::faces is what users see as `patch`; dropped faces keep their
-// index.
+// An `f` line of the file. Outputs call its index in Scene::faces `patch`. Dropped faces keep their index.
 struct Face {
   Polygon3 vertices;          // as given; empty if the face was dropped
   std::int32_t material = 0;  // index in Scene::materials
@@ -51,30 +50,32 @@ struct Object {
 
 // A convex planar polygon of three or four vertices, the root of a quadtree of elements.
 struct Patch {
-  std::array<Vec3, 4> vertex;       // counter-clockwise from the front; the fourth is unused in a triangle
-  std::int32_t size = 0;            // 3 or 4
-  std::int32_t material = 0;        // index in Scene::materials
-  std::int32_t object = 0;          // index in Scene::objects
-  Vec3 normal = Vec3::Zero();       // unit, front
-  double area = 0;                  // [m^2]
-  double extent = 0;                // the largest absolute coordinate [m]: the scale of rounding
-  std::vector<std::int32_t> faces;  // the faces it covers: one, or the two that were merged
+  std::array<Vec3, 4> vertex;  // counter-clockwise seen from the front; vertex[3] is unused in a triangle
+  std::int32_t size = 0;       // 3 or 4
+  std::int32_t material = 0;   // index in Scene::materials
+  std::int32_t object = 0;     // index in Scene::objects
+  Vec3 normal = Vec3::Zero();  // unit, front
+  double area = 0;             // [m^2]
+  double extent = 0;           // the largest absolute coordinate [m]: the scale of rounding
+  std::vector<std::int32_t> faces;  // the covered faces: one, or two that were merged
 
   std::span<const Vec3> Vertices() const { return {vertex.data(), static_cast<std::size_t>(size)}; }
 };
 
-// A patch from its vertices; normal, area and extent are computed. REQUIRES: 3 or 4 vertices, convex, nonzero
-// area.
+// A patch with these vertices; computes normal, area and extent. REQUIRES: 3 or 4 vertices, a convex polygon,
+// nonzero area.
 Patch MakePatch(std::span<const Vec3> vertices, std::int32_t material, std::int32_t object,
                 std::vector<std::int32_t> faces);
 
-// Patches that are sides of one convex body: what it hides has a single outline from anywhere outside of it.
+// Patches that are sides of one convex body. From any point outside the body, a single outline bounds what it
+// hides.
 struct ConvexSolid {
   struct Side {
-    PatchId patch = kNoPatch;  // the first of its pieces; kNoPatch: missing, as the foot of a block often is
-    Vec3 normal = Vec3::Zero();        // unit, outwards
-    std::vector<std::int32_t> corner;  // in ConvexSolid::corners, counter-clockwise from outside
-    std::vector<std::int32_t> edge;    // from each corner to the next: the number is the same for both sides
+    PatchId patch = kNoPatch;    // first patch of the side; kNoPatch: missing, for instance below a block
+    Vec3 normal = Vec3::Zero();  // unit, outwards
+    std::vector<std::int32_t> corner;  // in ConvexSolid::corners, counter-clockwise seen from outside
+    std::vector<std::int32_t>
+        edge;  // of the edge from each corner to the next: both sides use the same number
   };
   Polygon3 corners;  // [m]
   std::vector<Side> sides;
@@ -91,17 +92,17 @@ struct Camera {
 
 struct Scene {
   std::string name;
-  std::vector<Material> materials;  // never empty once patches exist
+  std::vector<Material> materials;  // not empty if there are patches
   std::vector<Object> objects;
   std::vector<Face> faces;
-  // Per axis the unit in which coordinates are written: what that cannot tell apart is one plane, one edge or
-  // one corner [m]. 0: coordinates are exact.
+  // Per axis, the unit to which the file's coordinates are rounded [m]; 0 if they are exact. Planes, edges
+  // and corners that differ by no more than this rounding count as one.
   Vec3 coordinate_step = Vec3::Zero();
   std::vector<Patch> patches;
-  std::vector<ConvexSolid> solids;    // of the patches as they are: FindConvexSolids()
-  std::vector<SolidId> solid_of;      // per patch; kNoSolid: of none
-  std::vector<Camera> cameras;        // those that the scene brings along; may be empty
-  std::vector<std::string> warnings;  // one line each: what was repaired, dropped or looks wrong
+  std::vector<ConvexSolid> solids;    // of the current patches: FindConvexSolids()
+  std::vector<SolidId> solid_of;      // per patch; kNoSolid if it belongs to none
+  std::vector<Camera> cameras;        // may be empty
+  std::vector<std::string> warnings;  // one line each: repairs, dropped faces, suspected mistakes
 
   const Material& MaterialOf(PatchId patch) const { return materials[patches[patch].material]; }
 
@@ -110,10 +111,11 @@ struct Scene {
     return i < solid_of.size() ? solid_of[i] : kNoSolid;
   }
 
-  // The face that contains the point p of the patch: the lowest index if p lies on several.
+  // The index of the face that contains the point p of the patch; the lowest index if p lies on several
+  // faces.
   std::int32_t FaceAt(PatchId patch, const Vec3& p) const;
 
-  // The smallest and largest corner of the box around all patches; two zeros for an empty scene.
+  // The minimum and maximum corner of the bounding box of all patches; two zero vectors for an empty scene.
   std::pair<Vec3, Vec3> Bounds() const;
 
   // The length of the diagonal of Bounds() [m].

@@ -11,18 +11,18 @@ namespace penumbra {
 
 struct Material;
 
-// How a scene file is understood.
+// Options for reading a scene file.
 struct SceneOptions {
-  bool emission_is_radiance = false;  // Ke is radiance [W/(m^2 sr)] instead of emittance: multiplied by pi
-  bool two_sided = false;  // every face is repeated, reversed, after the last: face i's back is n + i
+  bool emission_is_radiance = false;  // Ke is radiance [W/(m^2 sr)], not emittance: multiply by pi
+  bool two_sided = false;  // repeat every face, reversed, after the last: face n + i is the back of face i
   std::optional<double> max_reflectance =
       std::nullopt;  // in [0, 1): larger reflectances are clamped instead of refused
-  // May give the materials that were read other values, before patches are built: of faces in one plane the
-  // one that emits is seen.
+  // A function that may change the materials that were read. The reader calls it before patches are built,
+  // because emittance decides which of two overlapping faces is visible.
   std::function<void(std::vector<Material>&)> change_materials = nullptr;
-  bool strict = false;  // what would be repaired and warned about is refused
-  bool flip = false;    // every face is turned: its vertices run the other way round
-  // Hears of every material library before it is opened, and may throw.
+  bool strict = false;  // refuse what is otherwise repaired with a warning
+  bool flip = false;    // reverse the vertices of every face
+  // Called with the path of every material library before the library is opened; may throw.
   std::function<void(const std::string& path)> before_library = nullptr;
 };
 

@@ -1,6 +1,7 @@
 // solver/scene/scene_parts.h
 //
-// What of a scene counts where errors are measured: what can be seen, and part by part.
+// Selects the surfaces and channels whose error is measured, and divides a scene into parts whose errors are
+// reported separately.
 
 #pragma once
 
@@ -12,20 +13,21 @@
 
 namespace penumbra {
 
-// The irradiance of a surface is seen where it reflects. The areas of the patches that reflect in some
-// channel, and 0 for the others [m^2], by patch; all areas where nothing in the scene reflects.
+// Per patch: its area if it reflects in some channel, otherwise 0 [m^2], because irradiance is visible only
+// on surfaces that reflect. If nothing in the scene reflects, all areas.
 std::vector<double> SeenAreas(const Scene& scene);
 
-// The channels in which each patch reflects; all of them where nothing in the scene reflects.
+// Per patch: the channels in which it reflects. If nothing in the scene reflects, all channels.
 std::vector<std::array<bool, 3>> SeenChannels(const Scene& scene);
 
 struct ScenePart {
   std::string name;
-  std::vector<PatchId> patches;  // ascending
+  std::vector<PatchId> patches;  // sorted
 };
 
-// The parts of a scene, each patch in one: the objects of the file; where it names at most one, groups of
-// faces that hang together by common vertices, named by their faces. Parts ascend by their first patch.
+// The parts of a scene, sorted by their first patch; each patch belongs to one part. Parts are the objects of
+// the file. If the file names at most one object, parts are groups of faces that are connected by common
+// vertices, and their names list the faces.
 std::vector<ScenePart> PartsOf(const Scene& scene);
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // solver/scene/surface_points.h
 //
-// Points spread evenly over surfaces.
+// Evenly distributed points on surfaces.
 
 #pragma once
 
@@ -12,8 +12,9 @@
 
 namespace penumbra {
 
-// The point of a convex triangle or quadrilateral for (s, t) in the unit square; uniform (s, t) give points
-// uniform in area. A triangle may be given with its last vertex repeated.
+// Maps (s, t) in the unit square to a point of a convex triangle or quadrilateral. Uniformly distributed (s,
+// t) give points that are uniformly distributed over the area. A triangle may have four vertices, the last
+// one repeated.
 Vec3 PointOn(std::span<const Vec3> polygon, double s, double t);
 
 struct SurfacePoint {
@@ -21,10 +22,11 @@ struct SurfacePoint {
   Vec3 position = Vec3::Zero();
 };
 
-// One random point in each of `count` equal shares of the fronts' total area, patch after patch. The same
+// One random point in each of `count` parts of equal area of all fronts, one patch after the other. The same
 // seed gives the same points. REQUIRES: the scene has patches.
 std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::size_t count, std::uint64_t seed);
-// The same with these weights, one a patch, in the place of areas. REQUIRES: one of them is not 0.
+// Distributes the points by `weights`, one weight per patch, instead of by areas. REQUIRES: at least one
+// weight is not 0.
 std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::span<const double> weights, std::size_t count,
                                        std::uint64_t seed);
 

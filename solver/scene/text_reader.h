@@ -1,7 +1,7 @@
 // solver/scene/text_reader.h
 //
-// What the readers of line-based scene files share: logical lines, words, numbers, and errors that name the
-// line.
+// Common parts of the readers of line-based scene files: logical lines, words, numbers, and error messages
+// with line numbers.
 
 #pragma once
 
@@ -14,77 +14,80 @@
 
 namespace penumbra {
 
-// "FILE:LINE: error: MESSAGE"; without LINE where that is 0: the whole file is meant.
+// An error "FILE:LINE: error: MESSAGE". LINE is omitted if `line` is 0, which means the whole file.
 InputError ErrorAt(std::string_view file, int line, std::string_view message);
 
-// "FILE:LINE: warning: MESSAGE", or without LINE.
+// The text "FILE:LINE: warning: MESSAGE". LINE is omitted if `line` is 0.
 std::string WarningAt(std::string_view file, int line, std::string_view message);
 
-// "FILE:LINE", fit for a message.
+// The text "FILE:LINE", printable in a message.
 std::string PlaceOf(std::string_view file, int line);
 
-// The text as one line that a terminal shows as it is: control characters and what is no UTF-8 are written
-// like \n and \x1b; what is longer than `longest` bytes ends in "...".
+// The text as one printable line. Control characters and bytes that are not valid UTF-8 are escaped, as in \n
+// and \x1b. A text of more than `longest` bytes is truncated and ends in "...".
 std::string Printable(std::string_view text, std::size_t longest);
 
-// The same in quotation marks, of a length that suits a message.
+// The text as Printable() gives it, in quotation marks, truncated to a length suitable for messages.
 std::string Quoted(std::string_view text);
 
-// The first of the names, quoted, and how many more there are.
+// The first of the names, quoted, and the number of further names.
 std::string QuotedList(const std::vector<std::string>& names);
 
-// Throws InputError if the text is that of another format, told by its beginning. `wanted`: "an OBJ file".
+// Throws InputError if the beginning of the text shows that it has another format. `wanted` is the expected
+// format, such as "an OBJ file".
 void RefuseForeignFormat(std::string_view text, std::string_view file, std::string_view wanted);
 
-// What is said of a text with such line ends, which are read as any.
+// The warning for a text whose lines end in CR alone. Such line ends are accepted.
 inline constexpr std::string_view kLinesEndInCr =
     "lines end in CR alone, as in files of old Macintoshes, and are read so";
 
-// The binary64 number nearest to the word, 0 for one that is closer to it than any; nothing if the word is no
-// number. One that is not finite, or beyond all finite ones, gives infinity or NaN.
+// The binary64 number nearest to the number `word`; nullopt if `word` is not a number. Numbers too small for
+// binary64 give 0, too large ones infinity. The words for infinity and NaN give infinity and NaN.
 std::optional<double> ToNumber(std::string_view word);
 
-// Cuts a text into lines, which end in LF, CR LF or CR; a mark of UTF-8 at its beginning is left out.
+// Splits a text into lines, which end in LF, CR LF or CR. A UTF-8 byte order mark at the beginning is
+// skipped.
 class LineReader {
  public:
   explicit LineReader(std::string_view text);
 
   bool AtEnd() const { return rest_.empty(); }
-  // The next line, without its end.
+  // The next line, without its line end.
   std::string_view Take();
-  // The 1-based number of the line that Take() gives next.
+  // The 1-based number of the line that the next Take() returns.
   int NextLine() const { return next_line_; }
-  // The first line so far that ends in a CR alone; 0 if there is none.
+  // The number of the first line so far that ends in CR alone; 0 if there is none.
   int LineEndedByCr() const { return cr_line_; }
 
  private:
   std::string_view rest_;
-  std::size_t line_feed_ = 0;  // in `rest_`, where the next one is; its size if there is none
+  std::size_t line_feed_ = 0;  // position of the next LF in `rest_`; the size of `rest_` if there is none
   int next_line_ = 1, cr_line_ = 0;
 };
 
-// Cuts a text into statements: lines, joined where they end in a backslash, without those that a # begins and
-// without surrounding blanks; blank ones are left out.
+// Splits a text into statements. A line that ends in a backslash is joined with the next one. Lines that
+// begin with # and blank lines are skipped. Surrounding blanks are removed.
 class StatementReader {
  public:
   StatementReader(std::string_view text, std::string_view file) : lines_(text), file_(file) {}
 
-  // Moves to the next statement; false at the end of the text.
+  // Advances to the next statement; false at the end of the text.
   bool Next();
 
   std::string_view Keyword() const { return keyword_; }
   std::string_view Arguments() const { return arguments_; }  // what follows the keyword, trimmed
   std::vector<std::string_view> Words() const;               // the arguments, split at blanks
-  // The words of a statement that holds no names: those before one that # begins, which is a remark there.
+  // The words of a statement without names, up to the first word that begins with #, which starts a comment
+  // in such statements.
   std::vector<std::string_view> Values() const;
-  int Line() const { return line_; }  // the 1-based line that the statement begins in
+  int Line() const { return line_; }  // the 1-based number of the statement's first line
   const std::string& File() const { return file_; }
   int LineEndedByCr() const { return lines_.LineEndedByCr(); }
 
-  // The error for this statement, to be thrown.
+  // An error that refers to this statement, for the caller to throw.
   InputError Error(std::string_view message) const { return ErrorAt(file_, line_, message); }
 
-  // The binary64 number nearest to the word. Throws InputError unless it is a finite number.
+  // The binary64 number nearest to the number `word`. Throws InputError unless it is a finite number.
   double Number(std::string_view word) const;
 
  private:

@@ -1,6 +1,6 @@
 // solver/scene/tolerances.h
 //
-// How near is the same place.
+// The distances within which points, lines and surfaces count as the same.
 
 #pragma once
 
@@ -8,17 +8,19 @@
 
 namespace penumbra {
 
-// Distances on a patch below which two points, or a point and a line, count as one [m]. Projecting an edge
-// through a point costs some 1e3 roundings of the patch's coordinates where the weight is not negligible; the
-// tolerance keeps several digits away from that, and lies far below what a picture or an interpolant
-// resolves.
-inline constexpr double kSnap = 1e-9;             // of the patch's diameter
-inline constexpr double kSnapCoordinate = 1e-12;  // of its largest coordinate: 4e3 roundings
+// SnapDistance() is the distance on a patch within which two points, or a point and a line, count as one [m].
+// Projecting an edge through a point has an error of about 1e3 roundings of the patch's coordinates for
+// discontinuities of relevant weight. The snap distance is several decimal digits larger, and far smaller
+// than a picture or an interpolant resolves.
+inline constexpr double kSnap = 1e-9;             // relative to the patch's diameter
+inline constexpr double kSnapCoordinate = 1e-12;  // relative to the patch's largest coordinate: 4e3 roundings
 double SnapDistance(const Patch& patch);
 
-// How far apart things may be that are meant to touch [m]: files with six decimals leave half a micrometre
-// between a wall and the floor that it stands on, or sink it in. Light through such a gap is an accident.
-inline constexpr double kContactGap = 1e-6;  // of the scene's diagonal, as for the planarity of faces
+// ContactGap() is the largest distance between things that are meant to touch [m]. Files with six decimals
+// leave half a micrometre between a wall and its floor, or let the wall sink into the floor. Light through
+// such a gap is an artefact.
+inline constexpr double kContactGap =
+    1e-6;  // relative to the scene's diagonal; the same number as kPlanarTolerance
 double ContactGap(const Scene& scene);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // solver/scene/written_digits.h
 //
-// How finely the coordinates of a text are written, from the digits themselves: what they cannot tell apart
-// is the same place.
+// Infers the unit to which the coordinates of a text file were rounded from their written digits. Points that
+// differ by no more than this rounding count as the same.
 
 #pragma once
 
@@ -14,18 +14,19 @@ namespace penumbra {
 
 class WrittenDigits {
  public:
-  // A coordinate of axis 0, 1 or 2, as written and as read. REQUIRES: `word` is that finite number.
+  // Adds a coordinate of axis 0, 1 or 2: the written word and its value. REQUIRES: `word` is a finite number
+  // with the value `value`.
   void Add(int axis, std::string_view word, double value);
 
-  // Per axis the unit in which its largest coordinates are written [m]: zero without any. The writer may have
-  // kept so many decimals, so many significant digits (as "%g" does; then there are six or more), or numbers
-  // of single precision.
+  // Per axis, the unit to which the largest coordinates are rounded [m]; zero if there are no coordinates.
+  // Three kinds of writers are recognised: with a fixed number of decimals; with a fixed number of
+  // significant digits, six or more, as "%g" writes; and with single precision numbers.
   Vec3 Step() const;
 
  private:
-  std::map<int, int> with_decimals_, with_digits_;  // how many coordinates have so many
-  Vec3 largest_ = Vec3::Zero();                     // absolute value
-  bool single_ = true;                              // all are numbers of single precision, to their digits
+  std::map<int, int> with_decimals_, with_digits_;  // number of coordinates by number of digits
+  Vec3 largest_ = Vec3::Zero();                     // largest absolute value per axis
+  bool single_ = true;  // all coordinates are single precision numbers, to their digits
 };
 
 }  // namespace penumbra

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "display/image_io.h"
+#include "display/exr_image.h"
 #include "solver/geometry/vec.h"
 #include "tests/apps/run_program.h"
 

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <set>
 
-#include "display/image_io.h"
+#include "display/exr_image.h"
 #include "tests/apps/run_program.h"
 
 namespace penumbra {

@@ -1,4 +1,5 @@
-#include "display/image_io.h"
+#include "display/exr_image.h"
+#include "display/png_image.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -23,7 +23,7 @@ SyntheticScene RoomWithSlivers() {
   SyntheticScene room = MakeRoom(9, 0.4);
   Random random(2);
   for (int i = 0; i < 40; ++i)
-    AddParallelogram({0.5 + 0.1 * i, 0.3, 0.5}, {0.002, 0.1, 0.05}, {0, 2, 1.2}, 1, 3, 0.3, QuadraticField,
+    AddParallelogram({0.5 + 0.1 * i, 0.3, 0.5}, {0.002, 0.1, 0.05}, {0, 2, 1.2}, {1, 3, 0.3, QuadraticField},
                      &random, &room);
   return room;
 }
@@ -89,7 +89,7 @@ TEST(RayDisplay, SpreadsSamplesOverThePixel) {
   wall.scene.materials = {{"grey", Rgb(0.5, 0.5, 0.5), Rgb::Zero()}};
   Random random(1);
   const IrradianceField linear = [](const Vec3& p, const Vec3&) { return Rgb(10 + p.x(), 10 + p.y(), 10); };
-  AddParallelogram({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, 0, 3, 0.2, linear, &random, &wall);
+  AddParallelogram({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, {0, 3, 0.2, linear}, &random, &wall);
   const Camera down{"down", {0, 0, 3}, {0, 0, 0}, Vec3::UnitY(), 60};
   const RayShader shader = LerpShade(wall.scene, wall.mesh);
   RayDisplay one(wall.scene, shader, 1), many(wall.scene, shader, 64);

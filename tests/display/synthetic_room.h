@@ -36,24 +36,31 @@ inline void AddMeshTriangle(const std::array<std::uint32_t, 3>& vertex, PatchId 
   mesh.irradiance.push_back(QuadraticInterpolant::Quadratic(samples));
 }
 
+// What a surface is made of.
+struct SyntheticSurface {
+  int material = 0;
+  int cells = 1;     // along each side, of two triangles
+  double shake = 0;  // below 1/2: moves inner vertices by that fraction of a cell
+  IrradianceField field;
+};
+
 // Adds the parallelogram with corner p and sides u and v, front along u x v, as a patch of triangles.
-// `shake` < 1/2 moves inner vertices by that fraction of a cell.
-inline void AddParallelogram(const Vec3& p, const Vec3& u, const Vec3& v, int material, int cells,
-                             double shake, const IrradianceField& field, Random* random,
-                             SyntheticScene* out) {
+inline void AddParallelogram(const Vec3& p, const Vec3& u, const Vec3& v, const SyntheticSurface& surface,
+                             Random* random, SyntheticScene* out) {
+  const int cells = surface.cells;
   const std::array<Vec3, 4> corners = {p, p + u, p + u + v, p + v};
   const auto patch = static_cast<PatchId>(out->scene.patches.size());
-  out->scene.patches.push_back(MakePatch(corners, material, 0, {patch}));
+  out->scene.patches.push_back(MakePatch(corners, surface.material, 0, {patch}));
   const auto base = static_cast<std::uint32_t>(out->mesh.positions.size());
-  const auto inner = [&](int i) { return i > 0 && i < cells; };
+  const auto inner = [&surface](int i) { return i > 0 && i < surface.cells; };
   for (int j = 0; j <= cells; ++j)
     for (int i = 0; i <= cells; ++i) {
-      const double a = (i + (inner(i) ? shake * random->Uniform(-1, 1) : 0)) / cells;
-      const double b = (j + (inner(j) ? shake * random->Uniform(-1, 1) : 0)) / cells;
+      const double a = (i + (inner(i) ? surface.shake * random->Uniform(-1, 1) : 0)) / cells;
+      const double b = (j + (inner(j) ? surface.shake * random->Uniform(-1, 1) : 0)) / cells;
       out->mesh.positions.push_back(p + a * u + b * v);
     }
   const auto add = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-    AddMeshTriangle({i, j, k}, patch, field, out);
+    AddMeshTriangle({i, j, k}, patch, surface.field, out);
   };
   const auto stride = static_cast<std::uint32_t>(cells) + 1;
   for (std::uint32_t j = 0; j + 1 < stride; ++j)
@@ -70,15 +77,15 @@ inline void AddParallelogram(const Vec3& p, const Vec3& u, const Vec3& v, int ma
 }
 
 // Adds the six sides of an axis-aligned box, fronts outward or inward.
-inline void AddBox(const Vec3& low, const Vec3& high, bool inward, int material, int cells, double shake,
-                   const IrradianceField& field, Random* random, SyntheticScene* out) {
+inline void AddBox(const Vec3& low, const Vec3& high, bool inward, const SyntheticSurface& surface,
+                   Random* random, SyntheticScene* out) {
   const Vec3 size = high - low;
   const Vec3 x = size.x() * Vec3::UnitX(), y = size.y() * Vec3::UnitY(), z = size.z() * Vec3::UnitZ();
   const auto side = [&](const Vec3& p, const Vec3& u, const Vec3& v) {
     if (inward)
-      AddParallelogram(p, v, u, material, cells, shake, field, random, out);
+      AddParallelogram(p, v, u, surface, random, out);
     else
-      AddParallelogram(p, u, v, material, cells, shake, field, random, out);
+      AddParallelogram(p, u, v, surface, random, out);
   };
   side(low, y, x);
   side(low, x, z);
@@ -103,7 +110,7 @@ inline SyntheticScene MakeRoom(int cells, double shake = 0.3, std::uint64_t seed
                           {"light", Rgb(0.5, 0.5, 0.5), Rgb(300, 280, 250)}};
   Random random(seed);
   const auto box = [&](const Vec3& low, const Vec3& high, bool inward, int material) {
-    AddBox(low, high, inward, material, cells, shake, QuadraticField, &random, &room);
+    AddBox(low, high, inward, {material, cells, shake, QuadraticField}, &random, &room);
   };
   box({0, 0, 0}, {6, 5, 3}, true, 0);
   box({1, 3, 0.7}, {3, 4, 0.75}, false, 1);
@@ -111,7 +118,7 @@ inline SyntheticScene MakeRoom(int cells, double shake = 0.3, std::uint64_t seed
   box({2.8, 3.1, 0}, {2.9, 3.9, 0.7}, false, 1);
   box({4.5, 4.5, 0}, {5.7, 4.9, 2}, false, 1);
   box({4, 1, 0}, {4.5, 1.5, 0.45}, false, 1);
-  AddParallelogram({2.5, 2, 2.9}, {0, 1, 0}, {1, 0, 0}, 2, 1, 0, QuadraticField, &random, &room);
+  AddParallelogram({2.5, 2, 2.9}, {0, 1, 0}, {1, 0, 0}, {2, 1, 0, QuadraticField}, &random, &room);
   return room;
 }
 

@@ -279,50 +279,68 @@ void RunPlane(Random& random) {
   if (one_plane && !coarse) CheckCover(*scene, setting, margin, random);
 }
 
-// A room of 4 x 3 x 2.5, some of whose walls are given again, whole or in part.
+const Vec3 kRoomSize(4, 3, 2.5);
+
+// A wall of the room, and often a part of it once more.
+void AddRoomWall(int wall, const Setting& setting, Text& text, Random& random) {
+  const int axis = wall / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const auto corner = [&](double s, double t) {
+    Vec3 p;
+    p[axis] = wall % 2 ? kRoomSize[axis] : 0;
+    p[u] = s * kRoomSize[u];
+    p[v] = t * kRoomSize[v];
+    return Vec3(setting.turn * p + setting.shift);
+  };
+  const auto rectangle = [&](double s0, double t0, double s1, double t1, double noise) {
+    std::vector<Vec3> face = {corner(s0, t0), corner(s1, t0), corner(s1, t1), corner(s0, t1)};
+    if (wall % 2) std::reverse(face.begin(), face.end());
+    text.Face(face, noise, random);
+  };
+  rectangle(0, 0, 1, 1, 0);
+  const double little = random.LogUniform(1e-16, 1e-6);
+  switch (random.Index(6)) {
+    case 0:
+      rectangle(0, 0, 1, 1, 0);
+      break;
+    case 1:
+      rectangle(0, 0, 1 + little, 1, 0);
+      break;
+    case 2:
+      for (int strip = 0; strip < 5; ++strip) rectangle(0.2 * strip, 0, 0.2 * (strip + 1), 1, 0);
+      break;
+    case 3:
+      rectangle(random.Uniform(0, 0.5), 0, 1, random.Uniform(0.5, 1), 0);
+      break;
+    case 4:
+      rectangle(0.25, 0.25, 0.75, 0.75, little);
+      break;
+    default:
+      break;
+  }
+}
+
+// At random points of the room the irradiance is 1 W/m^2.
+void CheckFurnace(const Pipeline& pipeline, const Setting& setting, Random& random) {
+  constexpr int kPoints = 10;
+  for (int i = 0; i < kPoints; ++i) {
+    ReceiverPoint at;
+    const Vec3 p(4 * random.Uniform(0.1, 0.9), 3 * random.Uniform(0.1, 0.9), 2.5 * random.Uniform(0.1, 0.9));
+    at.position = setting.turn * p + setting.shift;
+    at.normal = Vec3(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(0.1, 1)).normalized();
+    const Rgb irradiance = pipeline.irradiance().Anywhere(at).irradiance;
+    if (!((irradiance - 1).abs() <= 0.05).all())
+      Fail("irradiance in a furnace is " + std::to_string(irradiance[0]));
+  }
+}
+
+// A furnace, some of whose walls are given again, whole or in part.
 void RunRoom(Random& random) {
   Setting setting = RandomSetting(random);
   setting.scale = 1;
   if (setting.decimals >= 0) setting.decimals = std::max(setting.decimals, 6);
-  const double sizes[] = {4, 3, 2.5};
   Text text(setting);
   text.Material("glow");
-  for (int wall = 0; wall < 6; ++wall) {
-    const int axis = wall / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const auto corner = [&](double s, double t) {
-      Vec3 p;
-      p[axis] = wall % 2 ? sizes[axis] : 0;
-      p[u] = s * sizes[u];
-      p[v] = t * sizes[v];
-      return Vec3(setting.turn * p + setting.shift);
-    };
-    const auto rectangle = [&](double s0, double t0, double s1, double t1, double noise) {
-      std::vector<Vec3> face = {corner(s0, t0), corner(s1, t0), corner(s1, t1), corner(s0, t1)};
-      if (wall % 2) std::reverse(face.begin(), face.end());
-      text.Face(face, noise, random);
-    };
-    rectangle(0, 0, 1, 1, 0);
-    const double little = random.LogUniform(1e-16, 1e-6);
-    switch (random.Index(6)) {
-      case 0:
-        rectangle(0, 0, 1, 1, 0);
-        break;
-      case 1:
-        rectangle(0, 0, 1 + little, 1, 0);
-        break;
-      case 2:
-        for (int strip = 0; strip < 5; ++strip) rectangle(0.2 * strip, 0, 0.2 * (strip + 1), 1, 0);
-        break;
-      case 3:
-        rectangle(random.Uniform(0, 0.5), 0, 1, random.Uniform(0.5, 1), 0);
-        break;
-      case 4:
-        rectangle(0.25, 0.25, 0.75, 0.75, little);
-        break;
-      default:
-        break;
-    }
-  }
+  for (int wall = 0; wall < 6; ++wall) AddRoomWall(wall, setting, text, random);
   const std::optional<Scene> scene = text.Read(false);
   if (!scene) return;
   CheckPatches(*scene);
@@ -335,16 +353,7 @@ void RunRoom(Random& random) {
   for (const QuadraticInterpolant& q : pipeline.mesh().irradiance)
     for (const Rgb& value : {q.At(0, 0), q.At(1, 0), q.At(0, 1)})
       if (!value.allFinite()) Fail("an interpolant is no number");
-  constexpr int kPoints = 10;
-  for (int i = 0; i < kPoints; ++i) {
-    ReceiverPoint at;
-    const Vec3 p(4 * random.Uniform(0.1, 0.9), 3 * random.Uniform(0.1, 0.9), 2.5 * random.Uniform(0.1, 0.9));
-    at.position = setting.turn * p + setting.shift;
-    at.normal = Vec3(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(0.1, 1)).normalized();
-    const Rgb irradiance = pipeline.irradiance().Anywhere(at).irradiance;
-    if (!((irradiance - 1).abs() <= 0.05).all())
-      Fail("irradiance in a furnace is " + std::to_string(irradiance[0]));
-  }
+  CheckFurnace(pipeline, setting, random);
 }
 
 void TellRun() {

@@ -39,6 +39,7 @@ const std::string& Valid() {
         "a.obj", [](std::string_view) { return "newmtl grey\nKd .5\nnewmtl lamp\nKd 0\nKe 1\n"; }, {});
     Pipeline pipeline(scene, Rough());
     pipeline.Solve({});
+    pipeline.RefineLight({});
     pipeline.BuildMesh(MeshKind::kInterpolant, {});
     return EncodeSolution(pipeline, "{}", "{}", "1.2.3");
   }();

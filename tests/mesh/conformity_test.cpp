@@ -146,7 +146,8 @@ TEST_P(Conforming, HasNoCrackAndNoTVertex) {
         mesh_test::RefineAtRandom(forest, p, random, static_cast<int>(random.Index(9)), 4);
     MeshReport report;
     const std::vector<PatchTriangulation> meshes =
-        TriangulatePatches(pipeline.visibility(), pipeline.solution(), {forest, {}}, mesh, {}, report);
+        PatchTriangulator(pipeline.visibility(), pipeline.solution(), mesh, {})
+            .Triangulate({forest, {}}, report);
     const Conformity found = Measure(*scene, meshes);
     std::printf("%s: %zu triangles, %zu edges, %zu on rims, %zu shared\n", GetParam().c_str(),
                 report.counts.triangles, found.edges, found.rim, found.shared);

@@ -28,7 +28,7 @@ using mesh_test::EmptyScene;
 // is balanced, other leaves stay, and the least area holds.
 TEST(ContactCorners, DividesTowardsTheEnds) {
   Scene scene = EmptyScene();
-  AddSquare(scene, 0.5, 0.5, 0, 0.5, true);
+  AddSquare(scene, {0.5, 0.5, 0}, 0.5, true);
   const auto levels = [&](const std::vector<Vec2>& ends, int divisions, double min_area) {
     ElementForest forest(scene);
     forest.Subdivide(ElementForest::Root(0));
@@ -51,18 +51,24 @@ TEST(ContactCorners, DividesTowardsTheEnds) {
   EXPECT_EQ(forest.Leaves(0).size(), 16U);
 }
 
+// A room with a lamp below its ceiling and a block of height 1 on its floor.
+Scene RoomWithBlock(const Vec2& low, const Vec2& high) {
+  Scene scene;
+  const std::int32_t grey = scene_test::AddMaterial(scene, 0.5, 0),
+                     lamp = scene_test::AddMaterial(scene, 0, 40);
+  scene_test::AddBox(scene, Vec3::Zero(), {4, 3, 2.5}, true, grey);
+  scene_test::AddBox(scene, {low.x(), low.y(), 0}, {high.x(), high.y(), 1}, false, grey);
+  scene_test::Add(scene, {{2.5, 1, 2.25}, {2.5, 2, 2.25}, {3.5, 2, 2.25}, {3.5, 1, 2.25}}, lamp);
+  return scene;
+}
+
 // Around the corners of a block on a floor the interpolants' error, root mean square over discs, falls with
 // every division. The irradiance there depends on the direction alone, so what errs are the triangles at the
 // corner: a quarter of the area for each division, half of the rms, once leaves are smaller than the discs.
 // Bound: 3/4.
 TEST(ContactCorners, GradingMendsWhatNoPolynomialFits) {
-  Scene scene;
-  const std::int32_t grey = scene_test::AddMaterial(scene, 0.5, 0),
-                     lamp = scene_test::AddMaterial(scene, 0, 40);
-  scene_test::AddBox(scene, Vec3::Zero(), {4, 3, 2.5}, true, grey);
   const Vec2 low(1.13, 1.07), high(2.21, 1.93);
-  scene_test::AddBox(scene, {low.x(), low.y(), 0}, {high.x(), high.y(), 1}, false, grey);
-  scene_test::Add(scene, {{2.5, 1, 2.25}, {2.5, 2, 2.25}, {3.5, 2, 2.25}, {3.5, 1, 2.25}}, lamp);
+  const Scene scene = RoomWithBlock(low, high);
   PipelineOptions options;
   options.error = 0.1;
   options.refine = RefineBy::kTransport;
@@ -96,9 +102,10 @@ TEST(ContactCorners, GradingMendsWhatNoPolynomialFits) {
     DiscontinuityOptions discontinuities = pipeline.resolved().discontinuities;
     discontinuities.corner_divisions = divisions;
     MeshReport report;
-    const std::vector<PatchTriangulation> patches = TriangulatePatches(
-        pipeline.visibility(), pipeline.solution(),
-        BeginPlan(pipeline.visibility(), pipeline.solution(), discontinuities), discontinuities, {}, report);
+    const MeshPlan plan = BeginPlan(pipeline.visibility(), pipeline.solution(), discontinuities);
+    const std::vector<PatchTriangulation> patches =
+        PatchTriangulator(pipeline.visibility(), pipeline.solution(), discontinuities, {})
+            .Triangulate(plan, report);
     for (const PatchTriangulation& patch : patches)
       patch.Validate(scene.patches[static_cast<std::size_t>(patch.patch)]);
     const IrradianceMesh mesh =

@@ -42,8 +42,8 @@ TEST(DiscontinuityFinder, LinesAlongEdgesThatHangClosely) {
   constexpr double kHalf = 0.5, kClose = 0.001;
   for (const double height : {kClose, 0.1}) {
     Scene scene = EmptyScene();
-    const PatchId floor = AddSquare(scene, 0, 0, 0, 2, true);
-    const PatchId light = AddSquare(scene, 0, 0, height, kHalf, false, 1);
+    const PatchId floor = AddSquare(scene, {0, 0, 0}, 2, true);
+    const PatchId light = AddSquare(scene, {0, 0, height}, kHalf, false, 1);
     const PatchVisibility visibility(scene);
     const DiscontinuityFinder finder(scene, visibility);
     DiscontinuityOptions options = AtLeast(0);
@@ -76,9 +76,9 @@ TEST(DiscontinuityFinder, SquareLightAndBlockerCastSquares) {
   constexpr double kL = 0.3, kB = 0.5, kTall = 3, kLow = 1.25;
   for (const double degrees : {0.0, 20.0}) {
     Scene scene = EmptyScene();
-    const PatchId floor = AddSquare(scene, 0, 0, 0, 4, true);
-    const PatchId light = AddSquare(scene, 0, 0, kTall, kL, false, 1);
-    AddSquare(scene, 0, 0, kLow, kB, true);
+    const PatchId floor = AddSquare(scene, {0, 0, 0}, 4, true);
+    const PatchId light = AddSquare(scene, {0, 0, kTall}, kL, false, 1);
+    AddSquare(scene, {0, 0, kLow}, kB, true);
     Tilt(scene, degrees);
     const PatchVisibility visibility(scene);
     const DiscontinuityFinder finder(scene, visibility);
@@ -119,10 +119,10 @@ TEST(DiscontinuityFinder, SquareLightAndBlockerCastSquares) {
 // and every discontinuity reaches it.
 TEST(DiscontinuityFinder, WeakSourcesAreLeftOut) {
   Scene scene = EmptyScene();
-  const PatchId floor = AddSquare(scene, 0, 0, 0, 4, true);
-  const PatchId light = AddSquare(scene, 0.1, 0.2, 3, 0.3, false, 1);
-  AddSquare(scene, 0, 0, 2.5, 0.2, true);
-  AddSquare(scene, 0, 0, 0.5, 0.3, true);
+  const PatchId floor = AddSquare(scene, {0, 0, 0}, 4, true);
+  const PatchId light = AddSquare(scene, {0.1, 0.2, 3}, 0.3, false, 1);
+  AddSquare(scene, {0, 0, 2.5}, 0.2, true);
+  AddSquare(scene, {0, 0, 0.5}, 0.3, true);
   const PatchVisibility visibility(scene);
   const DiscontinuityFinder finder(scene, visibility);
   EXPECT_TRUE(finder.Find(floor, Strengths(scene, light, 10), AtLeast(10.5)).empty());
@@ -141,7 +141,7 @@ TEST(DiscontinuityFinder, BoxTouchesFloorAlongItsFoot) {
   for (const double degrees : {0.0, 20.0, 33.0})
     for (const bool bottom : {false, true}) {
       Scene scene = EmptyScene();
-      const PatchId floor = AddSquare(scene, 0, 0, 0, 2, true);
+      const PatchId floor = AddSquare(scene, {0, 0, 0}, 2, true);
       AddBox(scene, {-0.5, -0.3, 0}, {0.7, 0.4, 1}, bottom);
       Tilt(scene, degrees);
       const PatchVisibility visibility(scene);
@@ -165,9 +165,9 @@ TEST(DiscontinuityFinder, BoxTouchesFloorAlongItsFoot) {
 // matters; a board through the floor touches it along the cut.
 TEST(DiscontinuityFinder, OnlyContactsOnTheFrontCount) {
   Scene scene = EmptyScene();
-  const PatchId floor = AddSquare(scene, 0, 0, 0, 2, true);
+  const PatchId floor = AddSquare(scene, {0, 0, 0}, 2, true);
   AddPatch(scene, {{-2, -2, 0}, {-2, 2, 0}, {-2, 2, 2}, {-2, -2, 2}});
-  AddSquare(scene, 0, 0, 2, 2, false);
+  AddSquare(scene, {0, 0, 2}, 2, false);
   AddBox(scene, {-0.5, -0.3, -1}, {0.7, 0.4, 0}, true);
   const PatchVisibility visibility(scene);
   // Its lid looks the same way as the floor and lies in its plane.
@@ -185,7 +185,7 @@ TEST(DiscontinuityFinder, OnlyContactsOnTheFrontCount) {
 // A light whose plane cuts the floor lights it up to that line only: a D1 horizon of geometric weight 1.
 TEST(DiscontinuityFinder, SourcePlaneCutsReceiver) {
   Scene scene = EmptyScene();
-  const PatchId floor = AddSquare(scene, 0, 0, 0, 2, true);
+  const PatchId floor = AddSquare(scene, {0, 0, 0}, 2, true);
   // Leaning: its plane is x = 0.5 - 0.25 z.
   const PatchId light = AddPatch(scene, {{0.25, -0.2, 1}, {0.25, 0.2, 1}, {0, 0.2, 2}, {0, -0.2, 2}}, 1);
   const PatchVisibility visibility(scene);
@@ -202,8 +202,8 @@ TEST(DiscontinuityFinder, SourcePlaneCutsReceiver) {
 // though two faces share it.
 TEST(DiscontinuityFinder, OnlySilhouettesCastShadows) {
   Scene scene = EmptyScene();
-  const PatchId floor = AddSquare(scene, 0, 0, 0, 20, true);
-  const PatchId light = AddSquare(scene, 3, 4, 6, 0.01, false, 1);
+  const PatchId floor = AddSquare(scene, {0, 0, 0}, 20, true);
+  const PatchId light = AddSquare(scene, {3, 4, 6}, 0.01, false, 1);
   AddBox(scene, {-0.5, -0.5, 1}, {0.5, 0.5, 2}, true);
   const PatchVisibility visibility(scene);
   const auto found =
@@ -220,8 +220,8 @@ TEST(DiscontinuityFinder, OnlySilhouettesCastShadows) {
 TEST(DiscontinuityFinder, WedgesEndAtTheNextBlocker) {
   constexpr double kL = 0.2, kTall = 4, kHigh = 3, kLow = 1;
   Scene scene = EmptyScene();
-  const PatchId floor = AddSquare(scene, 0, 0, 0, 6, true);
-  const PatchId light = AddSquare(scene, 0, 0, kTall, kL, false, 1);
+  const PatchId floor = AddSquare(scene, {0, 0, 0}, 6, true);
+  const PatchId light = AddSquare(scene, {0, 0, kTall}, kL, false, 1);
   // The upper board's sides in y are at +-0.2; the lower board covers what x > 0.1 gets of its shadow.
   AddPatch(scene, {{-0.5, -0.2, kHigh}, {0.5, -0.2, kHigh}, {0.5, 0.2, kHigh}, {-0.5, 0.2, kHigh}});
   AddPatch(scene, {{0.1, -3, kLow}, {3, -3, kLow}, {3, 3, kLow}, {0.1, 3, kLow}});
@@ -269,9 +269,9 @@ TEST(DiscontinuityFinder, UmbraAndPenumbraEndWhereSimilarTrianglesSay) {
   for (const std::vector<Board>& boards :
        {std::vector<Board>{{0.3, 0.6, 2}}, std::vector<Board>{{-2, 0.5, 1.25}, {2, 0.7, 2.5}}}) {
     Scene scene = EmptyScene();
-    const PatchId floor = AddSquare(scene, 0, 0, 0, 8, true);
-    const PatchId light = AddSquare(scene, 0, 0, kTall, kL, false, 1);
-    for (const Board& board : boards) AddSquare(scene, board.x, 0, board.height, board.half, true);
+    const PatchId floor = AddSquare(scene, {0, 0, 0}, 8, true);
+    const PatchId light = AddSquare(scene, {0, 0, kTall}, kL, false, 1);
+    for (const Board& board : boards) AddSquare(scene, {board.x, 0, board.height}, board.half, true);
     const PatchVisibility visibility(scene);
     const auto found = DiscontinuityFinder(scene, visibility).Find(floor, Strengths(scene, light, 1), {});
     for (std::size_t i = 0; i < boards.size(); ++i) {
@@ -349,7 +349,7 @@ TEST(DiscontinuityFinder, CornersAmidStraightEdgesCastNothing) {
   std::array<std::size_t, 2> count = {0, 0};
   int i = 0;
   for (Scene* scene : {&whole, &halves}) {
-    const PatchId floor = AddSquare(*scene, 0, 0, 0, 8, true);
+    const PatchId floor = AddSquare(*scene, {0, 0, 0}, 8, true);
     const PatchId light =
         AddPatch(*scene, {{0.5, 0, 3}, {0.1, -0.4, 3}, {-0.45, 0.05, 3}, {0.05, 0.5, 3}}, 1);
     if (scene == &whole) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "mesh/discontinuities/discontinuity_choices.h"
 #include "mesh/discontinuities/line_jumps.h"
 #include "mesh/triangulation/leaf_triangulation.h"
 #include "mesh_test_scenes.h"
@@ -20,7 +21,7 @@ using mesh_test::Segment;
 // The unit square, its corner (0, 0) the origin of its frame, split into four.
 struct QuarteredSquare {
   QuarteredSquare() : scene(EmptyScene()) {
-    AddSquare(scene, 0.5, 0.5, 0, 0.5, true);
+    AddSquare(scene, {0.5, 0.5, 0}, 0.5, true);
     forest = ElementForest(scene);
     forest.Subdivide(0);
   }
@@ -139,9 +140,9 @@ TEST(ActivateDiscontinuities, OtherChoices) {
   for (int i = 0; i < 8; ++i)
     found.push_back(Segment({0.1, 0.1 + 0.03 * i}, {0.9, 0.11 + 0.03 * i}, 1.0 + i));
   found.push_back(Segment({0.6, 0.8}, {0.9, 0.9}, kInfiniteWeight, DiscontinuityDegree::kD0));
-  options.choice = DiscontinuityChoice::kAll;
+  options.choice = "all";
   EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options).activated, 9U);
-  options.choice = DiscontinuityChoice::kRandom;
+  options.choice = "random";
   std::set<double> origins;
   for (options.seed = 1; options.seed < 20; ++options.seed) {
     const PatchDSets dsets = ActivateDiscontinuities(square.forest, 0, found, options);
@@ -160,7 +161,7 @@ TEST(ActivateDiscontinuities, OtherChoices) {
   options.random_share = 0;
   EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options).activated, 1U);
   options.max_leaf_dsets = 1;
-  options.choice = DiscontinuityChoice::kAdaptive;
+  options.choice = "adaptive";
   const PatchDSets dsets = ActivateDiscontinuities(
       square.forest, 0, found, options,
       [&](const Discontinuity&, ElementId leaf) { return leaf == square.forest.Leaves(0)[1]; });
@@ -168,6 +169,51 @@ TEST(ActivateDiscontinuities, OtherChoices) {
   EXPECT_TRUE(dsets.leaf_lines[0].empty());
   EXPECT_EQ(dsets.leaf_lines[1].size(), 1U);
   TriangulateLeaves(square.forest, 0, dsets).Validate(square.scene.patches[0]);
+}
+
+// The shortest first.
+class ShortestChoice final : public DiscontinuityChoiceMethod {
+ public:
+  std::optional<DiscontinuityRanks> Rank(PatchId, std::span<const Discontinuity> found,
+                                         const DiscontinuityOptions&) const override {
+    DiscontinuityRanks ranks;
+    for (const Discontinuity& d : found) ranks.rank.push_back(1 / (d.end[1] - d.end[0]).norm());
+    return ranks;
+  }
+};
+
+// Choices are listed by name, the default first; a choice that a program adds decides like the others, and a
+// name that nobody has is refused with the list.
+TEST(DiscontinuityChoices, AreListedAndAdded) {
+  static const bool added = [] {
+    DiscontinuityChoices().Add(
+        {"shortest", "the shortest first", {}, [] { return std::make_unique<const ShortestChoice>(); }});
+    return true;
+  }();
+  EXPECT_TRUE(added);
+  EXPECT_EQ(DiscontinuityChoices().Names(),
+            (std::vector<std::string>{"ranked", "adaptive", "none", "random", "all", "shortest"}));
+  for (const DiscontinuityChoiceRegistry::Method& method : DiscontinuityChoices().methods())
+    EXPECT_FALSE(method.help.empty());
+  const QuarteredSquare square;
+  const std::vector<Discontinuity> found = {Segment({0.1, 0.1}, {0.4, 0.12}, 9),
+                                            Segment({0.1, 0.3}, {0.2, 0.32}, 1)};
+  DiscontinuityOptions options;
+  options.max_leaf_dsets = 1;
+  EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options).lines.at(0).origin.y(), 0.1);
+  options.choice = "shortest";
+  EXPECT_TRUE(options.enabled());
+  EXPECT_FALSE(options.can_want());
+  EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options).lines.at(0).origin.y(), 0.3);
+  options.choice = "guess";
+  try {
+    ActivateDiscontinuities(square.forest, 0, found, options);
+    ADD_FAILURE() << "a choice that does not exist was found";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("ranked, adaptive, none, random, all, shortest"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 // A discontinuity of first degree, of an event of its own.
@@ -381,7 +427,7 @@ TEST(ActivateDiscontinuities, LinesDoNotDependOnScaleOrPlace) {
       const DiscontinuityFinder finder(scene, visibility);
       ElementForest forest(scene);
       DiscontinuityOptions options;
-      options.choice = DiscontinuityChoice::kAll;
+      options.choice = "all";
       std::vector<std::size_t>& count = counts.emplace_back();
       for (PatchId p = 0; p < static_cast<PatchId>(scene.patches.size()); ++p) {
         for (const ElementId leaf : forest.Leaves(p)) forest.Subdivide(leaf);
@@ -405,7 +451,7 @@ TEST(ActivateDiscontinuities, LinesDoNotDependOnScaleOrPlace) {
 TEST(ActivateDiscontinuities, CanBeSwitchedOff) {
   const QuarteredSquare square;
   DiscontinuityOptions options;
-  options.choice = DiscontinuityChoice::kNone;
+  options.choice = "none";
   const PatchDSets dsets =
       ActivateDiscontinuities(square.forest, 0, std::vector{Segment({0.1, 0.2}, {0.4, 0.5}, 1)}, options);
   EXPECT_TRUE(dsets.lines.empty());

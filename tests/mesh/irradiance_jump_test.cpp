@@ -95,7 +95,7 @@ struct Estimate {
 TEST(JumpAt, GenericEventsAreSecondDegree) {
   for (const bool box : {false, true}) {
     Scene scene = EmptyScene();
-    const PatchId floor = AddSquare(scene, 0, 0, 0, 4, true);
+    const PatchId floor = AddSquare(scene, {0, 0, 0}, 4, true);
     AddPatch(scene, {{0.5, 0, 3}, {0.1, -0.4, 3}, {-0.45, 0.05, 3}, {0.05, 0.5, 3}}, 1);
     if (box) {
       AddBox(scene, {-0.4, -0.5, 0.8}, {0.5, 0.3, 1.3}, true);
@@ -157,7 +157,7 @@ TEST(JumpAt, GenericEventsAreSecondDegree) {
 // inside of a light, at points of the curves between two pieces.
 TEST(JumpAt, TripleEdgesAreSecondDegree) {
   Scene triangles = EmptyScene();
-  AddSquare(triangles, 0, 0, 0, 8, true);
+  AddSquare(triangles, {0, 0, 0}, 8, true);
   AddPatch(triangles, {{0.5, 0, 4}, {0.1, -0.4, 4}, {-0.45, 0.05, 4}, {0.05, 0.5, 4}}, 1);
   AddPatch(triangles, {{-0.9, -0.9, 2.0}, {1.0, -0.7, 2.4}, {0.1, 0.35, 2.6}});
   AddPatch(triangles, {{-0.8, 0.5, 1.2}, {0.1, -0.6, 1.0}, {0.9, 0.7, 1.5}});
@@ -205,9 +205,9 @@ TEST(JumpAt, TripleEdgesAreSecondDegree) {
 // horizon too.
 TEST(JumpAt, SharedPlanesAreFirstDegree) {
   Scene scene = EmptyScene();
-  const PatchId floor = AddSquare(scene, 0, 0, 0, 4, true);
-  AddSquare(scene, 0, 0, 3, 0.3, false, 1);
-  AddSquare(scene, 0.1, 0.15, 1.25, 0.5, true);
+  const PatchId floor = AddSquare(scene, {0, 0, 0}, 4, true);
+  AddSquare(scene, {0, 0, 3}, 0.3, false, 1);
+  AddSquare(scene, {0.1, 0.15, 1.25}, 0.5, true);
   Tilt(scene, 20);
   const DirectLight light(scene);
   const DiscontinuityFinder finder(scene, light.visibility());
@@ -231,7 +231,7 @@ TEST(JumpAt, SharedPlanesAreFirstDegree) {
   EXPECT_EQ(first, 32);
 
   Scene leaning = EmptyScene();
-  const PatchId below = AddSquare(leaning, 0, 0, 0, 2, true);
+  const PatchId below = AddSquare(leaning, {0, 0, 0}, 2, true);
   AddPatch(leaning, {{0.25, -0.2, 1}, {0.25, 0.2, 1}, {0, 0.2, 2}, {0, -0.2, 2}}, 1);
   const DirectLight lamp(leaning);
   const DiscontinuityFinder horizon(leaning, lamp.visibility());

@@ -188,8 +188,8 @@ TEST(MeshLocator, FindsPointsUpToTheOutline) {
 struct BoxesUnderLight {
   // `decimals`: how far coordinates are rounded, as in a file; 0 leaves them.
   explicit BoxesUnderLight(int decimals) : scene(EmptyScene()) {
-    AddSquare(scene, 0, 0, 0, 2, true);
-    const PatchId light = AddSquare(scene, 0.5, 0.7, 3, 0.4, false, 1);
+    AddSquare(scene, {0, 0, 0}, 2, true);
+    const PatchId light = AddSquare(scene, {0.5, 0.7, 3}, 0.4, false, 1);
     AddBox(scene, {-0.5, -0.4, 0}, {0.45, 0.4, 0.6}, false);
     AddBox(scene, {0.7, -0.9, 0.5}, {1.1, -0.3, 0.9}, true);
     scene.materials[1].emittance = Rgb(100, 90, 80);
@@ -245,7 +245,7 @@ TEST(LocalPass, DiscontinuitiesPay) {
   const BoxesUnderLight boxes(0);
   const MeshResult with = boxes.Run(UpTo20());
   MeshOptions off = UpTo20();
-  off.discontinuities.choice = DiscontinuityChoice::kNone;
+  off.discontinuities.choice = "none";
   const RepresentationError fine = boxes.Measure(with), coarse = boxes.Measure(boxes.Run(off));
   EXPECT_EQ(with.report.counts.refused_contacts, 0U);
   EXPECT_LT(fine.rms, 0.25 * coarse.rms);

@@ -82,10 +82,11 @@ TEST(LeafLight, TellsWhichEdgesLieInTheDark) {
   EXPECT_EQ(seen.report.counts.point_evaluations, calls);
   MeshReport report;
   const IrradianceMesh unseen =
-      BuildIrradianceMesh(scene,
-                          TriangulatePatches(pipeline.visibility(), pipeline.solution(), seen.plan,
-                                             mesh_options.discontinuities, {}, report),
-                          InterpolantOrder::kQuadratic, sampler, {})
+      BuildIrradianceMesh(
+          scene,
+          PatchTriangulator(pipeline.visibility(), pipeline.solution(), mesh_options.discontinuities, {})
+              .Triangulate(seen.plan, report),
+          InterpolantOrder::kQuadratic, sampler, {})
           .mesh;
   const double with = rms(seen.mesh), without = rms(unseen);
   std::printf("rms %.3g, %.3g beside the mean of the leaf\n", with, without);

@@ -229,6 +229,47 @@ struct Quality {
   }
 };
 
+// Adds lines that are known to be hard, of one of six kinds.
+void AddHardLines(int kind, std::uint64_t seed, Random& random, mesh_test::ConstraintSet& set) {
+  const auto anywhere = [&] { return set.At(random.Uniform(), random.Uniform()); };
+  const Vec2 centre = seed % 2 == 0 ? set.At(0.25, 0.25) : anywhere();
+  const Vec2 a = anywhere(), b = anywhere();
+  switch (kind) {
+    case 0:  // a star
+      for (int i = 0; i < 12; ++i) set.Add(centre, anywhere(), i % 3 == 0);
+      break;
+    case 1:  // parallels
+      for (int i = 0; i < 10; ++i) {
+        const Vec2 side = i * 1e-12 * Vec2(-(b - a).y(), (b - a).x()).normalized();
+        set.Add(a + side, b + side, i % 4 == 0);
+      }
+      break;
+    case 2:  // T-contacts on one segment
+      set.Add(a, b, true);
+      for (int i = 0; i < 10; ++i) set.Add(anywhere(), a + random.Uniform() * (b - a), i % 2 == 0);
+      break;
+    case 3:  // a grid, partly along quadtree lines
+      for (int i = 1; i < 8; ++i) {
+        set.Add(set.At(i / 16.0, 0.05), set.At(i / 16.0, 0.45));
+        set.Add(set.At(0.05, i / 16.0), set.At(0.45, i / 16.0), i % 2 == 0);
+      }
+      break;
+    case 4:  // overlapping collinear segments, and one across each
+      for (int i = 0; i < 8; ++i) {
+        const double t = random.Uniform(-0.2, 1);
+        set.Add(a + t * (b - a), a + (t + random.Uniform(0.01, 0.5)) * (b - a), i % 2 == 0);
+        set.Add(a + t * (b - a), anywhere());
+      }
+      break;
+    default:  // crossings that nearly coincide
+      for (int i = 0; i < 10; ++i) {
+        const Vec2 through = centre + random.LogUniform(1e-14, 1e-6) * Vec2(random.Uniform(-1, 1), 1);
+        const Vec2 p = anywhere();
+        set.Add(p, through + 0.5 * (through - p));
+      }
+  }
+}
+
 // Sets that are known to be hard, in every shape of patch: stars through one point, bundles of parallels
 // 1e-12 apart, T-contacts, axis-aligned grids, combs of overlapping collinear segments: each mesh is whole,
 // and every line is a union of edges.
@@ -245,43 +286,7 @@ TEST(TriangulateLeaves, CorpusOfHardSetsIsWhole) {
         set.AddShape(shape);
         RefineAtRandom(set.forest, 0, random, static_cast<int>(random.Index(6)), 3);
         set.max_leaf_dsets = 40;
-        const auto anywhere = [&] { return set.At(random.Uniform(), random.Uniform()); };
-        const Vec2 centre = seed % 2 == 0 ? set.At(0.25, 0.25) : anywhere();
-        const Vec2 a = anywhere(), b = anywhere();
-        switch (kind) {
-          case 0:  // a star
-            for (int i = 0; i < 12; ++i) set.Add(centre, anywhere(), i % 3 == 0);
-            break;
-          case 1:  // parallels
-            for (int i = 0; i < 10; ++i) {
-              const Vec2 side = i * 1e-12 * Vec2(-(b - a).y(), (b - a).x()).normalized();
-              set.Add(a + side, b + side, i % 4 == 0);
-            }
-            break;
-          case 2:  // T-contacts on one segment
-            set.Add(a, b, true);
-            for (int i = 0; i < 10; ++i) set.Add(anywhere(), a + random.Uniform() * (b - a), i % 2 == 0);
-            break;
-          case 3:  // a grid, partly along quadtree lines
-            for (int i = 1; i < 8; ++i) {
-              set.Add(set.At(i / 16.0, 0.05), set.At(i / 16.0, 0.45));
-              set.Add(set.At(0.05, i / 16.0), set.At(0.45, i / 16.0), i % 2 == 0);
-            }
-            break;
-          case 4:  // overlapping collinear segments, and one across each
-            for (int i = 0; i < 8; ++i) {
-              const double t = random.Uniform(-0.2, 1);
-              set.Add(a + t * (b - a), a + (t + random.Uniform(0.01, 0.5)) * (b - a), i % 2 == 0);
-              set.Add(a + t * (b - a), anywhere());
-            }
-            break;
-          default:  // crossings that nearly coincide
-            for (int i = 0; i < 10; ++i) {
-              const Vec2 through = centre + random.LogUniform(1e-14, 1e-6) * Vec2(random.Uniform(-1, 1), 1);
-              const Vec2 p = anywhere();
-              set.Add(p, through + 0.5 * (through - p));
-            }
-        }
+        AddHardLines(kind, seed, random, set);
         const PatchTriangulation mesh = mesh_test::CheckSet(set);
         quality.Add(mesh);
         dropped += mesh.dropped_segments;

@@ -92,7 +92,7 @@ struct Office {
   std::vector<PatchTriangulation> Triangulate(const ElementForest& forest, MeshReport& report,
                                               LocalPassCache* cache) const {
     report = {};
-    return TriangulatePatches(visibility, solution, {forest, {}}, mesh, {}, report, cache);
+    return PatchTriangulator(visibility, solution, mesh, {}, cache).Triangulate({forest, {}}, report);
   }
 
   Scene scene;

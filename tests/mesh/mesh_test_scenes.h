@@ -36,9 +36,9 @@ inline Scene EmptyScene() {
   return scene;
 }
 
-// A horizontal square around (x, y) at height z; up tells where its front looks.
-inline PatchId AddSquare(Scene& scene, double x, double y, double z, double half, bool up,
-                         std::int32_t material = 0) {
+// A horizontal square; up tells where its front looks.
+inline PatchId AddSquare(Scene& scene, const Vec3& centre, double half, bool up, std::int32_t material = 0) {
+  const double x = centre.x(), y = centre.y(), z = centre.z();
   const Vec3 a(x - half, y - half, z), b(x + half, y - half, z), c(x + half, y + half, z),
       d(x - half, y + half, z);
   return up ? AddPatch(scene, {a, b, c, d}, material) : AddPatch(scene, {a, d, c, b}, material);
@@ -62,7 +62,7 @@ inline PatchId AddBox(Scene& scene, const Vec3& low, const Vec3& high, bool bott
 // three heights, of whose inner edges no two lie in one plane: they leave a triangular hole about the middle.
 inline Scene ThreeBoards(double half, double aside = 0) {
   Scene scene = EmptyScene();
-  AddSquare(scene, 0, 0, 0, 4, true);
+  AddSquare(scene, {0, 0, 0}, 4, true);
   AddPatch(scene,
            {{aside + half, 0.1 * half, 4},
             {aside + 0.1 * half, -half, 4},

@@ -52,12 +52,6 @@ TEST(Pipeline, StepByStepIsTheSame) {
   EXPECT_EQ(whole.report().iterations.size(), steps.report().iterations.size());
   EXPECT_TRUE(steps.report().unmet.empty());
 
-  const std::size_t leaves = steps.report().counts.leaves;
-  std::vector<ElementId> first = steps.solution().forest.AllLeaves();
-  first.resize(10);
-  EXPECT_TRUE(steps.SubdivideLeaves(first, context));
-  EXPECT_GE(steps.report().counts.leaves, leaves + 30);
-  EXPECT_TRUE(steps.Correct(context));
   steps.BuildMesh(MeshKind::kGouraud, context);
   steps.Measure(context);
   EXPECT_GT(steps.report().interpolant_error.points, 0U);
@@ -103,7 +97,6 @@ TEST(Pipeline, CancelledStepsLeaveWhatWas) {
   EXPECT_FALSE(pipeline.Iterate(cancelled));
   EXPECT_FALSE(pipeline.Correct(cancelled));
   EXPECT_FALSE(pipeline.Relight(cancelled));
-  EXPECT_FALSE(pipeline.SubdivideLeaves(before.forest.AllLeaves(), cancelled));
   EXPECT_TRUE(SameLight(before, pipeline.solution()));
   EXPECT_EQ(pipeline.report().iterations.size(), 1U);
   EXPECT_EQ(pipeline.report().counts.elements, before.forest.size());
@@ -119,14 +112,16 @@ TEST(Pipeline, MeshesLeaveReferencesAsTheyAre) {
     PipelineOptions options;
     options.error = 0.2;
     options.error_points = 20;
-    if (kind == 0) options.dense = DenseOptions{.tolerance = 0.01, .max_points = 100};
-    if (kind == 0) options.divisions = 1;
+    if (kind == 0) options.solver = "dense";
+    options.dense = {.divisions = 1, .tolerance = 0.01, .max_points = 100};
     if (kind == 1) options.refine = RefineBy::kTransport;
     if (kind == 2) options.source_error = 0.2;
-    EXPECT_FALSE(RefinesLight(options));
     Pipeline pipeline(scene, options);
     pipeline.Solve({});
+    EXPECT_FALSE(pipeline.RefinesLight());
     const RadiositySolution before = pipeline.solution();
+    pipeline.RefineLight({});
+    EXPECT_TRUE(SameLight(before, pipeline.solution())) << kind;
     pipeline.BuildMesh(MeshKind::kInterpolant, {});
     EXPECT_TRUE(SameLight(before, pipeline.solution())) << kind;
     pipeline.Measure({});
@@ -175,8 +170,7 @@ TEST(Resolve, WantsEdgesByErrorsAlone) {
   EXPECT_TRUE(by_default.can_want());
   EXPECT_LT(by_default.LeastWeight(), by_default.min_weight);
   EXPECT_FALSE(mesh([](PipelineOptions& o) { o.weight = DiscontinuityWeight::kThesis; }).can_want());
-  EXPECT_FALSE(
-      mesh([](PipelineOptions& o) { o.discontinuities = DiscontinuityChoice::kAdaptive; }).can_want());
+  EXPECT_FALSE(mesh([](PipelineOptions& o) { o.discontinuities = "adaptive"; }).can_want());
   const auto named = [](PipelineOptions& o) {
     o.weight = DiscontinuityWeight::kIrradiance;
     o.min_discontinuity_weight = 0.5;

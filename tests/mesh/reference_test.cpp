@@ -89,7 +89,8 @@ void ExpectWithin(const std::string& name, std::initializer_list<double> errors)
     options.error = asked;
     Pipeline pipeline(scene, options);
     pipeline.Solve({});
-    pipeline.BuildMesh(MeshKind::kInterpolant, {});  // refines the sources
+    pipeline.RefineLight({});
+    pipeline.BuildMesh(MeshKind::kInterpolant, {});
     std::vector<double> off;
     Rgb sum = Rgb::Zero(), true_sum = Rgb::Zero();
     for (const Reference& reference : references) {

@@ -47,8 +47,8 @@ struct Solved {
   explicit Solved(double error) : scene(Room()), pipeline(scene, Transport(error)) {
     pipeline.Solve({});
     MeshReport report;
-    triangulations = TriangulatePatches(pipeline.visibility(), pipeline.solution(),
-                                        {pipeline.solution().forest, {}}, {}, {}, report);
+    triangulations = PatchTriangulator(pipeline.visibility(), pipeline.solution(), {}, {})
+                         .Triangulate({pipeline.solution().forest, {}}, report);
     mesh = BuildIrradianceMesh(scene, triangulations, InterpolantOrder::kQuadratic, Sampler(), {}).mesh;
   }
   static PipelineOptions Transport(double error) {
@@ -61,8 +61,10 @@ struct Solved {
         [this](PatchId patch, const ReceiverPoint& at) { return pipeline.irradiance().OnPatch(patch, at); };
   }
   SourceCells Cells(double finest) {
-    return {
-        pipeline.solution(), pipeline.solution().forest, triangulations, mesh, pipeline.irradiance(), finest};
+    return {pipeline.solution(),
+            {pipeline.solution().forest, triangulations, mesh},
+            pipeline.irradiance(),
+            finest};
   }
 
   Scene scene;
@@ -147,7 +149,7 @@ TEST(SourceCut, CostsWhatItSays) {
   const SourceCells cells = solved.Cells(kFinest);
   const PointIrradiance& exact = solved.pipeline.irradiance();
   const RadiositySolution& solution = solved.pipeline.solution();
-  const SourceCut cut = ChooseSourceCut(solution, cells, exact, kFinest, kError, kPoints, 7);
+  const SourceCut cut = ChooseSourceCut(solution, cells, exact, {kFinest, kError, kPoints, 7});
   EXPECT_LE(cut.p99, kError);
   const std::vector<std::int32_t> chosen = cells.Cut(cut.score);
   EXPECT_LT(chosen.size(), cells.Cut(0).size());
@@ -177,6 +179,7 @@ TEST(Refinement, ReachesTheErrorAskedFor) {
   for (const double error : {0.1, 0.03}) {
     Pipeline pipeline(scene, Options(error));
     pipeline.Solve({});
+    pipeline.RefineLight({});
     pipeline.BuildMesh(MeshKind::kInterpolant, {});
     pipeline.Measure({});
     const PipelineReport& report = pipeline.report();
@@ -195,6 +198,7 @@ TEST(Refinement, SourcesSeenAsOneCostLittle) {
   const Scene scene = Room();
   Pipeline pipeline(scene, Options(0.05));
   pipeline.Solve({});
+  pipeline.RefineLight({});
   pipeline.BuildMesh(MeshKind::kInterpolant, {});
   ASSERT_FALSE(pipeline.solution().fragments.empty());
   constexpr std::size_t kPoints = 1000;
@@ -238,6 +242,7 @@ TEST(Refinement, SourcesSeenAsOneCostLittleInTheDark) {
   const Scene scene = Hut();
   Pipeline pipeline(scene, Options(0.05));
   pipeline.Solve({});
+  pipeline.RefineLight({});
   pipeline.BuildMesh(MeshKind::kInterpolant, {});
   constexpr double kTolerances[] = {0.005, 0.01};  // of errors of 0.025 and 0.05
   std::vector<Rgb> near[2], exact;
@@ -278,6 +283,7 @@ TEST(Refinement, SettlesTheLightInASlot) {
   constexpr double kError = 0.05;
   Pipeline pipeline(scene, Options(kError));
   pipeline.Solve({});
+  pipeline.RefineLight({});
   pipeline.BuildMesh(MeshKind::kInterpolant, {});
   pipeline.Measure({});
   const PipelineReport& report = pipeline.report();
@@ -289,6 +295,7 @@ TEST(Refinement, SettlesTheLightInASlot) {
   constexpr double kFineError = 0.02;
   Pipeline fine(scene, Options(kFineError));
   fine.Solve({});
+  fine.RefineLight({});
   fine.BuildMesh(MeshKind::kInterpolant, {});
   std::vector<Rgb> shown, better;
   for (const SurfacePoint& p : SpreadPoints(scene, 1000, 5)) {
@@ -314,6 +321,7 @@ TEST(Refinement, ReachesTheErrorThatCentroidsOverlook) {
   options.error_points = 4000;
   Pipeline pipeline(scene, options);
   pipeline.Solve({});
+  pipeline.RefineLight({});
   pipeline.BuildMesh(MeshKind::kInterpolant, {});
   pipeline.Measure({});
   const PipelineReport& report = pipeline.report();
@@ -337,10 +345,10 @@ TEST(Refinement, KeepsSamplesAndSolution) {
   options.error = 0.01;
   options.max_rounds = 0;
   const RefinedMesh coarse =
-      RefineMesh(solved.pipeline.visibility(), before, exact, {}, options, ExecutionContext());
+      RefineMesh({solved.pipeline.visibility(), before, exact}, {}, options, ExecutionContext());
   options.max_rounds = 3;
   const RefinedMesh fine =
-      RefineMesh(solved.pipeline.visibility(), before, counting, {}, options, ExecutionContext());
+      RefineMesh({solved.pipeline.visibility(), before, counting}, {}, options, ExecutionContext());
   EXPECT_LT(fine.share_above, coarse.share_above);
   EXPECT_GT(fine.mesh.triangles.size(), coarse.mesh.triangles.size());
   EXPECT_EQ(fine.report.counts.point_evaluations, calls);
@@ -450,8 +458,8 @@ TEST(Refinement, AsksForEdgesThatAreMissing) {
   options.error = 0.01;
   const auto refine = [&](double min_wanted_weight, const MeshPlan* start) {
     mesh.discontinuities.min_wanted_weight = min_wanted_weight;
-    return RefineMesh(solved.pipeline.visibility(), solved.pipeline.solution(), solved.Sampler(), mesh,
-                      options, ExecutionContext(), nullptr, start);
+    return RefineMesh({solved.pipeline.visibility(), solved.pipeline.solution(), solved.Sampler()}, mesh,
+                      options, ExecutionContext(), {nullptr, start, nullptr});
   };
   const RefinedMesh with = refine(1e-3, nullptr), without = refine(1e9, nullptr);
   std::size_t wanted = 0;
@@ -478,6 +486,7 @@ TEST(Refinement, SameOnAnyNumberOfThreads) {
     SetThreadCount(threads);
     Pipeline pipeline(scene, Options(0.1));
     pipeline.Solve({});
+    pipeline.RefineLight({});
     pipeline.BuildMesh(MeshKind::kInterpolant, {});
     const std::vector<QuadraticInterpolant>& got = pipeline.mesh().irradiance;
     if (threads == 1) {
@@ -514,7 +523,7 @@ TEST(TriangleErrors, AreThoseOfTheInterpolants) {
       };
       const std::vector<std::uint32_t> all = {0};
       const MeasuredTriangles measured =
-          MeasureTriangles(scene, mesh, all, samples, Rgb::Constant(10), counting);
+          MeasureTriangles(scene, mesh, all, {samples, Rgb::Constant(10)}, counting);
       EXPECT_EQ(calls, static_cast<std::size_t>(samples * samples));
       EXPECT_EQ(measured.point_evaluations, calls);
       // The cubic vanishes at all nodes along x; its largest value in [0, 1] is sqrt(3) / 36.

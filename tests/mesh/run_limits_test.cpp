@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "mesh/pipeline/pipeline.h"
+#include "solver/transport/solvers/hierarchical_solver.h"
 #include "tests/visibility/test_scenes.h"
 
 namespace penumbra {
@@ -77,6 +78,7 @@ TEST(RunLimits, EndLinking) {
         (pipeline.solution().radiosity[p] == scene.MaterialOf(static_cast<PatchId>(p)).emittance).all());
   }
   // Interpolants need irradiance at points, for which there is no time.
+  pipeline.RefineLight(context);
   pipeline.BuildMesh(MeshKind::kInterpolant, context);
   EXPECT_EQ(pipeline.mesh_kind(), MeshKind::kFlat);
   EXPECT_FALSE(pipeline.mesh().triangles.empty());
@@ -98,14 +100,15 @@ TEST(RunLimits, CancelledLinking) {
   for (std::size_t p = 0; p < scene.patches.size(); ++p)
     EXPECT_TRUE(none.SourcesOf(static_cast<PatchId>(p)).empty());
   HierarchicalSolver solver(scene, all, {}, cancelled);
-  EXPECT_FALSE(solver.Linked());
+  EXPECT_FALSE(solver.Ready());
+  EXPECT_FALSE(solver.Next());
   EXPECT_TRUE(solver.solution().links.links.empty());
   EXPECT_EQ(solver.SeenFromLeaves(cancelled), nullptr);
   EXPECT_NE(solver.SeenFromLeaves(), nullptr);
   for (const bool dense : {false, true}) {
     PipelineOptions options;
-    options.divisions = 1;
-    if (dense) options.dense = DenseOptions{.tolerance = 0.01, .max_points = 100};
+    if (dense) options.solver = "dense";
+    options.dense = {.divisions = 1, .tolerance = 0.01, .max_points = 100};
     Pipeline pipeline(scene, options);
     pipeline.Solve(cancelled);
     EXPECT_TRUE(pipeline.solution().links.links.empty());
@@ -145,6 +148,7 @@ TEST(RunLimits, HoldInEveryStage) {
     const auto begin = RunLimits::Clock::now();
     Pipeline pipeline(scene, options);
     pipeline.Solve({});
+    pipeline.RefineLight({});
     pipeline.BuildMesh(MeshKind::kInterpolant, {});
     pipeline.Measure({});
     const std::chrono::duration<double> took = RunLimits::Clock::now() - begin;

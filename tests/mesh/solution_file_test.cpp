@@ -35,23 +35,24 @@ PipelineOptions Rough() {
   return options;
 }
 
-struct Solved {
+struct SolvedFile {
   Scene scene;
   std::unique_ptr<Pipeline> pipeline;
 };
 
-std::unique_ptr<Solved> Solve(Scene scene) {
-  auto solved = std::make_unique<Solved>();
+std::unique_ptr<SolvedFile> Solve(Scene scene) {
+  auto solved = std::make_unique<SolvedFile>();
   solved->scene = std::move(scene);
   solved->pipeline = std::make_unique<Pipeline>(solved->scene, Rough());
   solved->pipeline->Solve({});
+  solved->pipeline->RefineLight({});
   solved->pipeline->BuildMesh(MeshKind::kInterpolant, {});
   return solved;
 }
 
 // A furnished room: fragments, blockers, discontinuities, cameras, warnings.
-const Solved& Cornell() {
-  static const std::unique_ptr<Solved> solved = Solve(LoadBuiltinScene("cornell", {}).value());
+const SolvedFile& Cornell() {
+  static const std::unique_ptr<SolvedFile> solved = Solve(LoadBuiltinScene("cornell", {}).value());
   return *solved;
 }
 
@@ -107,7 +108,7 @@ TEST(SolutionFile, ComesBackToTheBit) {
   EXPECT_EQ(stored.options, "{options}");
   EXPECT_EQ(stored.report, "{report}");
   EXPECT_EQ(stored.version, kVersion);
-  const Solved& before = Cornell();
+  const SolvedFile& before = Cornell();
   ASSERT_EQ(stored.scene->patches.size(), before.scene.patches.size());
   for (std::size_t p = 0; p < before.scene.patches.size(); ++p) {
     EXPECT_EQ(stored.scene->patches[p].vertex, before.scene.patches[p].vertex);
@@ -124,12 +125,14 @@ TEST(SolutionFile, ComesBackToTheBit) {
   Pipeline pipeline(*scene, Rough(), std::move(stored.state));
   EXPECT_EQ(Encode(pipeline), bytes);
 
+  pipeline.RefineLight({});
   pipeline.BuildMesh(MeshKind::kInterpolant, {});
   EXPECT_TRUE(SameMesh(pipeline.mesh(), before.pipeline->mesh()));
   pipeline.BuildMesh(MeshKind::kGouraudMesh, {});
   Pipeline anew(before.scene, Rough());
   anew.Solve({});
-  anew.BuildMesh(MeshKind::kInterpolant, {});  // refines the sources
+  anew.RefineLight({});
+  anew.BuildMesh(MeshKind::kInterpolant, {});
   anew.BuildMesh(MeshKind::kGouraudMesh, {});
   EXPECT_TRUE(SameMesh(pipeline.mesh(), anew.mesh()));
   EXPECT_FALSE(SameMesh(pipeline.mesh(), before.pipeline->mesh()));
@@ -207,7 +210,7 @@ TEST(SolutionFile, HoldsAnEmptySceneAndAnyName) {
   Scene scene;
   scene.name = "a\"\\\xff\n b";
   scene.objects = {{"", {}}, {std::string("zero \0 inside\0", 14), {}}, {std::string(3000, 'x'), {}}};
-  const std::unique_ptr<Solved> solved = Solve(scene);
+  const std::unique_ptr<SolvedFile> solved = Solve(scene);
   const StoredSolution stored = DecodeSolution(Encode(*solved->pipeline), "a.h5");
   EXPECT_EQ(stored.scene->name, scene.name);
   ASSERT_EQ(stored.scene->objects.size(), scene.objects.size());
@@ -218,7 +221,7 @@ TEST(SolutionFile, HoldsAnEmptySceneAndAnyName) {
 
 // 1,000 random damages, of one bit, of many bytes, by cutting off and by adding: all refused, in one line.
 TEST(SolutionFile, RefusesEveryDamage) {
-  const std::unique_ptr<Solved> furnace = Solve(LoadBuiltinScene("furnace", {}).value());
+  const std::unique_ptr<SolvedFile> furnace = Solve(LoadBuiltinScene("furnace", {}).value());
   const std::string whole = Encode(*furnace->pipeline);
   ASSERT_EQ(Refusal(whole), "");
   constexpr std::uint64_t kSeed = 7;
@@ -268,13 +271,13 @@ TEST(SolutionFile, SaysWhatElseItIs) {
   EXPECT_TRUE(LooksLikeSolution(std::string_view(whole).substr(0, 5)));
 }
 
-// With a digest that holds, too, nothing is taken that does not make sense.
-TEST(SolutionFile, ChecksWhatItReads) {
-  const Solved& solved = Cornell();
-  const Scene& scene = solved.scene;
-  const RadiositySolution& solution = solved.pipeline->solution();
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
+// With a digest that holds, too, nothing is taken that does not make sense: of a scene and what sees what in
+// it,
+TEST(SolutionFile, ChecksTheSceneItReads) {
+  const SolvedFile& solved = Cornell();
+  const Scene& scene = solved.scene;
   const auto bad_scene = [&](const auto& spoil) {
     Scene spoilt = scene;
     EXPECT_NO_THROW(CheckScene(spoilt));
@@ -305,7 +308,13 @@ TEST(SolutionFile, ChecksWhatItReads) {
   bad_visibility([](auto& rows) { rows.pairs[0].source = -1; });
   bad_visibility([](auto& rows) { rows.pairs[0].first_blocker = std::numeric_limits<std::uint32_t>::max(); });
   bad_visibility([](auto& rows) { rows.blockers[0] = 1000; });
+}
 
+// of a solution,
+TEST(SolutionFile, ChecksTheSolutionItReads) {
+  const SolvedFile& solved = Cornell();
+  const Scene& scene = solved.scene;
+  const RadiositySolution& solution = solved.pipeline->solution();
   const auto bad_forest = [&](const auto& spoil) {
     std::vector<Element> spoilt(solution.forest.elements().begin(), solution.forest.elements().end());
     EXPECT_NO_THROW(RestoreForest(scene, spoilt));
@@ -337,7 +346,12 @@ TEST(SolutionFile, ChecksWhatItReads) {
   bad_light([](RadiositySolution& s) { s.links.blockers[0] = -2; });
   bad_light([](RadiositySolution& s) { s.fragments[0].leaf = -1; });
   bad_light([](RadiositySolution& s) { s.fragments[0].polygon.clear(); });
+}
 
+// and of a mesh.
+TEST(SolutionFile, ChecksTheMeshItReads) {
+  const SolvedFile& solved = Cornell();
+  const Scene& scene = solved.scene;
   const auto bad_mesh = [&](const auto& spoil) {
     IrradianceMesh spoilt = solved.pipeline->mesh();
     EXPECT_NO_THROW(CheckMesh(scene, spoilt));
@@ -353,7 +367,7 @@ TEST(SolutionFile, ChecksWhatItReads) {
 
 // Light that is no number is not kept: no file is written that cannot be read.
 TEST(SolutionFile, KeepsNumbersOnly) {
-  const Solved& cornell = Cornell();
+  const SolvedFile& cornell = Cornell();
   const auto refused = [&](const auto& spoil) {
     PipelineState state = StateOf(*cornell.pipeline);
     spoil(state);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "mesh/discontinuities/discontinuity.h"
@@ -28,7 +29,7 @@ constexpr PatchId kReceiver = 0, kSource = 1;
 // A turned light over a floor, and two triangles between them, no edge of anything in a plane with another's.
 Scene TwoTriangles() {
   Scene scene = EmptyScene();
-  AddSquare(scene, 0, 0, 0, 8, true);
+  AddSquare(scene, {0, 0, 0}, 8, true);
   AddPatch(scene, {{0.5, 0, 4}, {0.1, -0.4, 4}, {-0.45, 0.05, 4}, {0.05, 0.5, 4}}, 1);
   AddPatch(scene, {{-0.9, -0.9, 2.0}, {1.0, -0.7, 2.4}, {0.1, 0.35, 2.6}});
   AddPatch(scene, {{-0.8, 0.5, 1.2}, {0.1, -0.6, 1.0}, {0.9, 0.7, 1.5}});
@@ -222,11 +223,130 @@ TEST(TripleEdges, HolesCloseBeforeTheInsideOfASource) {
   }
   // A lid on the hole closes it, and the hidden curve is there if asked for.
   Scene lid = ThreeBoards(3);
-  AddSquare(lid, 0, 0, 2.6, 1.5, true);
+  AddSquare(lid, {0, 0, 2.6}, 1.5, true);
   std::vector<Discontinuity> found = Find(lid, 1e-3);
   EXPECT_TRUE(std::none_of(found.begin(), found.end(), OfTheHole));
   found = Find(lid, 1e-3, true);
   EXPECT_TRUE(std::any_of(found.begin(), found.end(), OfTheHole));
+}
+
+// A floor, a light, and random triangles and a box between them.
+Scene RandomTriangles(std::uint64_t seed) {
+  Scene scene = EmptyScene();
+  AddSquare(scene, {0, 0, 0}, 1.5, true);
+  AddPatch(scene, {{0.9, 0.1, 4}, {0.1, -1, 4}, {-0.8, 0.05, 4}, {0, 1.1, 4}}, 1);
+  Random random(seed);
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 centre(random.Uniform(-0.4, 0.4), random.Uniform(-0.4, 0.4), random.Uniform(1, 3));
+    const auto corner = [&] {
+      return Vec3(centre +
+                  Vec3(random.Uniform(-0.7, 0.7), random.Uniform(-0.7, 0.7), random.Uniform(-0.5, 0.5)));
+    };
+    const Vec3 a = corner(), b = corner(), c = corner();
+    AddPatch(scene, {a, b, c});
+  }
+  AddBox(scene, {-0.2, -0.3, 0.5}, {0.3, 0.15, 0.9}, true);
+  FindConvexSolids(scene);
+  return scene;
+}
+
+PatchEdge ThirdEdge(const Discontinuity& d) {
+  return d.source_part < 0 ? d.third_blocker_edge : PatchEdge{kSource, d.source_part};
+}
+
+// Lines through three edges of a scene, of the light and of what stands before it, taken one by one.
+class TripleLines {
+ public:
+  // Three of the edges, by their place in the list.
+  using Three = std::array<std::size_t, 3>;
+  // The numbers of their silhouettes, ascending.
+  using Event = std::array<std::int32_t, 3>;
+
+  explicit TripleLines(const Scene& scene) : scene_(scene), silhouettes_(scene) {
+    for (PatchId p = kSource; p < static_cast<PatchId>(scene.patches.size()); ++p)
+      for (std::int32_t k = 0; k < scene.patches[p].size; ++k) {
+        const std::int32_t number = silhouettes_.EdgeAt(p, k);
+        if (std::find(number_.begin(), number_.end(), number) != number_.end()) continue;
+        number_.push_back(number);
+        edge_.push_back({p, k});
+      }
+  }
+
+  std::size_t Count() const { return edge_.size(); }
+  bool OfSource(std::size_t i) const { return edge_[i].patch == kSource; }
+  // Whether two edges are of one body.
+  bool OfOne(std::size_t i, std::size_t j) const { return Body(edge_[i]) == Body(edge_[j]); }
+  Event EventOf(const Three& three) const {
+    return Sorted({number_[three[0]], number_[three[1]], number_[three[2]]});
+  }
+  Event EventOf(const Discontinuity& d) const {
+    const PatchEdge third = ThirdEdge(d);
+    return Sorted({silhouettes_.EdgeAt(d.blocker, d.blocker_part),
+                   silhouettes_.EdgeAt(d.second_blocker_edge.patch, d.second_blocker_edge.k),
+                   silhouettes_.EdgeAt(third.patch, third.k)});
+  }
+
+  // Where the line from the point at t of the first edge, along the two others, meets the floor, if it starts
+  // there and ends on the light, the edges are silhouettes, and nothing else blocks it.
+  std::optional<Vec3> Foot(const Three& three, double t) const {
+    const Edge one = EdgeAt(three[0]), two = EdgeAt(three[1]), last = EdgeAt(three[2]);
+    const Vec3 p = one.a + t * (one.b - one.a);
+    const Vec3 way = (two.a - p).cross(two.b - p).cross((last.a - p).cross(last.b - p)).normalized();
+    const double second = ToEdge(p, way, two).at, third = ToEdge(p, way, last).at;
+    if (std::min(second, third) < 0 || std::max(second, third) > 1) return std::nullopt;
+    const Vec3 x = p - p.z() / way.z() * way, y = p + (4 - p.z()) / way.z() * way;
+    if (x.head<2>().cwiseAbs().maxCoeff() > 1.5) return std::nullopt;
+    const Patch& light = scene_.patches[kSource];
+    if (!ConvexContains(light.Vertices(), light.normal, y, 1e-12)) return std::nullopt;
+    for (const std::size_t e : three)
+      if (!OfSource(e) && !silhouettes_.IsSilhouette(number_[e], x)) return std::nullopt;
+    return Blocked(EventOf(three), x, y) ? std::nullopt : std::optional(x);
+  }
+
+ private:
+  static int Body(const PatchEdge& e) { return std::min(e.patch, 6); }  // the box is one
+  static Event Sorted(Event event) {
+    std::sort(event.begin(), event.end());
+    return event;
+  }
+  Edge EdgeAt(std::size_t i) const { return EdgeOf(scene_, edge_[i].patch, edge_[i].k); }
+
+  // By what does not own an edge of the event.
+  bool Blocked(const Event& event, const Vec3& x, const Vec3& y) const {
+    bool blocked = false;
+    for (PatchId q = 2; q < static_cast<PatchId>(scene_.patches.size()); ++q) {
+      bool owner = false;
+      for (const std::int32_t number : event)
+        for (const PatchEdge& at : silhouettes_.Sharing(number)) owner |= at.patch == q;
+      const Patch& patch = scene_.patches[q];
+      const double hx = patch.normal.dot(x - patch.vertex[0]), hy = patch.normal.dot(y - patch.vertex[0]);
+      blocked |= !owner && hx * hy < 0 &&
+                 ConvexContains(patch.Vertices(), patch.normal, x + hx / (hx - hy) * (y - x), 0);
+    }
+    return blocked;
+  }
+
+  const Scene& scene_;
+  Silhouettes silhouettes_;
+  std::vector<PatchEdge> edge_;
+  std::vector<std::int32_t> number_;  // of their silhouettes
+};
+
+// The lines at the ends of a piece touch its edges.
+void ExpectEndsTouch(const Scene& scene, const Frame& frame, const Discontinuity& d) {
+  for (const Vec2& end : d.end) {
+    const Vec3 x = frame.FromPlane(end);
+    const PatchEdge last = ThirdEdge(d);
+    const Edge one = EdgeOf(scene, d.blocker, d.blocker_part),
+               two = EdgeOf(scene, d.second_blocker_edge.patch, d.second_blocker_edge.k);
+    const Vec3 way = (one.a - x).cross(one.b - x).cross((two.a - x).cross(two.b - x)).normalized();
+    for (const Edge& edge : {one, two, EdgeOf(scene, last.patch, last.k)}) {
+      const Nearness nearness = ToEdge(x, way, edge);
+      EXPECT_LE(nearness.distance, 1e-9);
+      EXPECT_GE(nearness.at, -1e-7);
+      EXPECT_LE(nearness.at, 1 + 1e-7);
+    }
+  }
 }
 
 // No event is overlooked, however short: along one edge of each three, of the light and of random triangles
@@ -235,106 +355,33 @@ TEST(TripleEdges, HolesCloseBeforeTheInsideOfASource) {
 // and the lines at the ends of pieces touch their edges.
 TEST(TripleEdges, NoneIsOverlooked) {
   constexpr double kTolerance = 1e-3;
+  constexpr int kSteps = 100;
   std::size_t points = 0, of_blockers = 0, pieces = 0;
   double worst = 0;
   for (const std::uint64_t seed : {1, 2, 3}) {
-    Scene scene = EmptyScene();
-    AddSquare(scene, 0, 0, 0, 1.5, true);
-    AddPatch(scene, {{0.9, 0.1, 4}, {0.1, -1, 4}, {-0.8, 0.05, 4}, {0, 1.1, 4}}, 1);
-    Random random(seed);
-    for (int i = 0; i < 4; ++i) {
-      const Vec3 centre(random.Uniform(-0.4, 0.4), random.Uniform(-0.4, 0.4), random.Uniform(1, 3));
-      const auto corner = [&] {
-        return Vec3(centre +
-                    Vec3(random.Uniform(-0.7, 0.7), random.Uniform(-0.7, 0.7), random.Uniform(-0.5, 0.5)));
-      };
-      const Vec3 a = corner(), b = corner(), c = corner();
-      AddPatch(scene, {a, b, c});
-    }
-    AddBox(scene, {-0.2, -0.3, 0.5}, {0.3, 0.15, 0.9}, true);
-    FindConvexSolids(scene);
-    const Silhouettes silhouettes(scene);
+    const Scene scene = RandomTriangles(seed);
     const Frame frame = PolygonFrame(scene.patches[kReceiver].Vertices());
     const std::vector<Discontinuity> found = Find(scene, kTolerance);
     pieces += found.size();
-    const auto numbers = [&](const Discontinuity& d) {
-      const PatchEdge third = d.source_part < 0 ? d.third_blocker_edge : PatchEdge{kSource, d.source_part};
-      std::array<std::int32_t, 3> number = {
-          silhouettes.EdgeAt(d.blocker, d.blocker_part),
-          silhouettes.EdgeAt(d.second_blocker_edge.patch, d.second_blocker_edge.k),
-          silhouettes.EdgeAt(third.patch, third.k)};
-      std::sort(number.begin(), number.end());
-      return number;
+    const TripleLines lines(scene);
+    const auto expect_found = [&](const TripleLines::Three& three) {
+      if (lines.OfOne(three[0], three[1]) || lines.OfOne(three[1], three[2])) return;
+      const TripleLines::Event event = lines.EventOf(three);
+      for (int step = 0; step < kSteps; ++step) {
+        const std::optional<Vec3> x = lines.Foot(three, (step + 0.5) / kSteps);
+        if (!x) continue;
+        ++points;
+        if (!lines.OfSource(three[0])) ++of_blockers;
+        const double off = FromPieces(found, frame.ToPlane(*x),
+                                      [&](const Discontinuity& d) { return lines.EventOf(d) == event; });
+        worst = std::max(worst, off);
+        EXPECT_LE(off, kTolerance + 1e-12) << "seed " << seed << ": " << testing::PrintToString(three);
+      }
     };
-    // Each edge once.
-    std::vector<PatchEdge> edges;
-    std::vector<std::int32_t> seen;
-    for (PatchId p = kSource; p < static_cast<PatchId>(scene.patches.size()); ++p)
-      for (std::int32_t k = 0; k < scene.patches[p].size; ++k) {
-        const std::int32_t number = silhouettes.EdgeAt(p, k);
-        if (std::find(seen.begin(), seen.end(), number) != seen.end()) continue;
-        seen.push_back(number);
-        edges.push_back({p, k});
-      }
-    const auto body = [&](const PatchEdge& e) { return std::min(e.patch, 6); };  // the box is one
-    for (std::size_t i = 0; i < edges.size(); ++i)
-      for (std::size_t j = i + 1; j < edges.size(); ++j)
-        for (std::size_t k = j + 1; k < edges.size(); ++k) {
-          if (body(edges[i]) == body(edges[j]) || body(edges[j]) == body(edges[k])) continue;
-          std::array<std::int32_t, 3> event = {seen[i], seen[j], seen[k]};
-          std::sort(event.begin(), event.end());
-          const Edge one = EdgeOf(scene, edges[i].patch, edges[i].k),
-                     two = EdgeOf(scene, edges[j].patch, edges[j].k),
-                     three = EdgeOf(scene, edges[k].patch, edges[k].k);
-          constexpr int kSteps = 100;
-          for (int step = 0; step < kSteps; ++step) {
-            const Vec3 p = one.a + (step + 0.5) / kSteps * (one.b - one.a);
-            const Vec3 way =
-                (two.a - p).cross(two.b - p).cross((three.a - p).cross(three.b - p)).normalized();
-            const double second = ToEdge(p, way, two).at, third = ToEdge(p, way, three).at;
-            if (std::min(second, third) < 0 || std::max(second, third) > 1) continue;
-            const Vec3 x = p - p.z() / way.z() * way, y = p + (4 - p.z()) / way.z() * way;
-            if (x.head<2>().cwiseAbs().maxCoeff() > 1.5) continue;
-            const Patch& light = scene.patches[kSource];
-            if (!ConvexContains(light.Vertices(), light.normal, y, 1e-12)) continue;
-            const auto outline = [&](std::size_t e) {
-              return edges[e].patch == kSource || silhouettes.IsSilhouette(seen[e], x);
-            };
-            if (!outline(i) || !outline(j) || !outline(k)) continue;
-            bool blocked = false;
-            for (PatchId q = 2; q < static_cast<PatchId>(scene.patches.size()); ++q) {
-              bool owner = false;
-              for (const std::int32_t number : event)
-                for (const PatchEdge& at : silhouettes.Sharing(number)) owner |= at.patch == q;
-              const Patch& patch = scene.patches[q];
-              const double hx = patch.normal.dot(x - patch.vertex[0]),
-                           hy = patch.normal.dot(y - patch.vertex[0]);
-              blocked |= !owner && hx * hy < 0 &&
-                         ConvexContains(patch.Vertices(), patch.normal, x + hx / (hx - hy) * (y - x), 0);
-            }
-            if (blocked) continue;
-            ++points;
-            if (edges[i].patch != kSource) ++of_blockers;
-            const double off = FromPieces(found, frame.ToPlane(x),
-                                          [&](const Discontinuity& d) { return numbers(d) == event; });
-            worst = std::max(worst, off);
-            EXPECT_LE(off, kTolerance + 1e-12) << "seed " << seed << ": " << i << ", " << j << ", " << k;
-          }
-        }
-    for (const Discontinuity& d : found)
-      for (const Vec2& end : d.end) {
-        const Vec3 x = frame.FromPlane(end);
-        const PatchEdge last = d.source_part < 0 ? d.third_blocker_edge : PatchEdge{kSource, d.source_part};
-        const Edge one = EdgeOf(scene, d.blocker, d.blocker_part),
-                   two = EdgeOf(scene, d.second_blocker_edge.patch, d.second_blocker_edge.k);
-        const Vec3 way = (one.a - x).cross(one.b - x).cross((two.a - x).cross(two.b - x)).normalized();
-        for (const Edge& edge : {one, two, EdgeOf(scene, last.patch, last.k)}) {
-          const Nearness nearness = ToEdge(x, way, edge);
-          EXPECT_LE(nearness.distance, 1e-9);
-          EXPECT_GE(nearness.at, -1e-7);
-          EXPECT_LE(nearness.at, 1 + 1e-7);
-        }
-      }
+    for (std::size_t i = 0; i < lines.Count(); ++i)
+      for (std::size_t j = i + 1; j < lines.Count(); ++j)
+        for (std::size_t k = j + 1; k < lines.Count(); ++k) expect_found({i, j, k});
+    for (const Discontinuity& d : found) ExpectEndsTouch(scene, frame, d);
   }
   std::printf("%zu pieces; %zu points, %zu of them of blockers' edges alone, at most %.2g m away\n", pieces,
               points, of_blockers, worst);
@@ -395,16 +442,16 @@ TEST(TripleEdges, OnlyWhereThereAreAny) {
   EXPECT_LT(seen, kept);
 
   Scene box = EmptyScene();
-  AddSquare(box, 0, 0, 0, 8, true);
+  AddSquare(box, {0, 0, 0}, 8, true);
   AddPatch(box, {{0.5, 0, 4}, {0.1, -0.4, 4}, {-0.45, 0.05, 4}, {0.05, 0.5, 4}}, 1);
   AddBox(box, {-0.3, -0.4, 1}, {0.4, 0.3, 1.8}, true);
   EXPECT_TRUE(Find(box, 1e-3).empty());
 
   Scene boards = EmptyScene();
-  AddSquare(boards, 0, 0, 0, 8, true);
-  AddSquare(boards, 0, 0, 4, 0.4, false, 1);
-  AddSquare(boards, 0.1, 0.2, 1, 0.5, true);
-  AddSquare(boards, -0.2, 0.1, 2, 0.4, true);
+  AddSquare(boards, {0, 0, 0}, 8, true);
+  AddSquare(boards, {0, 0, 4}, 0.4, false, 1);
+  AddSquare(boards, {0.1, 0.2, 1}, 0.5, true);
+  AddSquare(boards, {-0.2, 0.1, 2}, 0.4, true);
   EXPECT_TRUE(Find(boards, 1e-3).empty());
 }
 

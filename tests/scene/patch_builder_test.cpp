@@ -285,6 +285,27 @@ TEST(PatchBuilder, ContactIsNoOverlap) {
   EXPECT_EQ(t.scene.patches.size(), 5u);
 }
 
+// The area that axis-aligned rectangles cover together.
+double AreaOfUnion(const std::vector<Polygon3>& flat) {
+  double total = 0;
+  std::vector<double> xs, ys;
+  for (const Polygon3& q : flat)
+    for (const Vec3& v : q) {
+      xs.push_back(v.x());
+      ys.push_back(v.y());
+    }
+  std::sort(xs.begin(), xs.end());
+  std::sort(ys.begin(), ys.end());
+  for (std::size_t i = 1; i < xs.size(); ++i)
+    for (std::size_t j = 1; j < ys.size(); ++j) {
+      const Vec3 middle(0.5 * (xs[i] + xs[i - 1]), 0.5 * (ys[j] + ys[j - 1]), 0);
+      if (std::any_of(flat.begin(), flat.end(),
+                      [&](const Polygon3& q) { return ConvexContains(q, Vec3::UnitZ(), middle, 0); }))
+        total += (xs[i] - xs[i - 1]) * (ys[j] - ys[j - 1]);
+    }
+  return total;
+}
+
 TEST(PatchBuilder, RandomOverlapsInATiltedPlane) {
   // Rectangles strewn over a tilted plane: the patches cover each sample point just once, and it belongs to
   // the right one.
@@ -307,7 +328,7 @@ TEST(PatchBuilder, RandomOverlapsInATiltedPlane) {
     }
     t.Build();
     CheckConvex(t.scene);
-    double covered = 0, total = 0;
+    double covered = 0;
     for (int s = 0; s < 400; ++s) {
       const Vec3 p(random.Uniform(0, 9), random.Uniform(0, 9), 0);
       std::int32_t owner = -1;
@@ -326,22 +347,7 @@ TEST(PatchBuilder, RandomOverlapsInATiltedPlane) {
       }
     }
     for (const Patch& patch : t.scene.patches) covered += patch.area;
-    std::vector<double> xs, ys;
-    for (const Polygon3& q : flat)
-      for (const Vec3& v : q) {
-        xs.push_back(v.x());
-        ys.push_back(v.y());
-      }
-    std::sort(xs.begin(), xs.end());
-    std::sort(ys.begin(), ys.end());
-    for (std::size_t i = 1; i < xs.size(); ++i)
-      for (std::size_t j = 1; j < ys.size(); ++j) {
-        const Vec3 middle(0.5 * (xs[i] + xs[i - 1]), 0.5 * (ys[j] + ys[j - 1]), 0);
-        if (std::any_of(flat.begin(), flat.end(),
-                        [&](const Polygon3& q) { return ConvexContains(q, Vec3::UnitZ(), middle, 0); }))
-          total += (xs[i] - xs[i - 1]) * (ys[j] - ys[j - 1]);
-      }
-    worst = std::max(worst, std::abs(covered / total - 1));
+    worst = std::max(worst, std::abs(covered / AreaOfUnion(flat) - 1));
     if (HasFailure()) FAIL() << "trial " << trial;
   }
   std::printf("largest relative error of the covered area: %.3g\n", worst);

@@ -18,7 +18,7 @@ namespace penumbra {
 namespace {
 
 // Rounding of areas that are summed in another order.
-constexpr double kRounding = 1e-12;
+constexpr double kWritingRounding = 1e-12;
 
 Scene ReadBack(const Scene& scene) {
   const std::string mtl = MtlText(scene);
@@ -138,9 +138,9 @@ Totals TotalsOf(const Scene& scene) {
 }
 
 void ExpectNear(const Totals& got, const Totals& want) {
-  EXPECT_NEAR(got.area, want.area, kRounding * want.area);
-  EXPECT_NEAR(got.volume, want.volume, kRounding * want.area);
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(got.power[c], want.power[c], kRounding * want.power[c]);
+  EXPECT_NEAR(got.area, want.area, kWritingRounding * want.area);
+  EXPECT_NEAR(got.volume, want.volume, kWritingRounding * want.area);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(got.power[c], want.power[c], kWritingRounding * want.power[c]);
 }
 
 // pbrt's triangles cover the patches, face as they do by its rule (p0 - p2) x (p1 - p2), and its lights send
@@ -170,7 +170,8 @@ TEST(MgfWriter, HoldsTheSameSurfacesAndPower) {
       unit[c] = 1;
       xyz_from_rgb.col(c) = MgfXyz(unit);
     }
-    EXPECT_LT((MgfXyz(Rgb::Ones()) - Vec3::Ones()).norm(), kRounding);  // white is white, of luminance 1
+    EXPECT_LT((MgfXyz(Rgb::Ones()) - Vec3::Ones()).norm(),
+              kWritingRounding);  // white is white, of luminance 1
     std::istringstream in(MgfText(scene));
     std::map<std::string, Vec3> vertices;
     std::map<std::string, Rgb> emittance, reflectance;
@@ -207,7 +208,7 @@ TEST(MgfWriter, HoldsTheSameSurfacesAndPower) {
     ExpectNear(totals, TotalsOf(scene));
     for (std::size_t m = 0; m < scene.materials.size(); ++m)
       EXPECT_LT((reflectance.at("m" + std::to_string(m)) - scene.materials[m].reflectance).abs().maxCoeff(),
-                kRounding);
+                kWritingRounding);
   }
 }
 

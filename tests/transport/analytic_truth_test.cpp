@@ -197,26 +197,21 @@ struct Variant {
 };
 
 // All combinations of oracle, multigridding, iteration and acceleration.
-std::vector<Variant> Variants(LinkFormFactors form_factors) {
-  const std::vector<std::pair<std::string, OracleKind>> oracles = {{"transport", OracleKind::kTransport},
-                                                                   {"visibility", OracleKind::kVisibility},
-                                                                   {"gradient", OracleKind::kGradient},
-                                                                   {"thesis", OracleKind::kThesis}};
+std::vector<Variant> Variants(const std::string& form_factors) {
   std::vector<Variant> variants;
-  for (const auto& [oracle, kind] : oracles)
+  for (const std::string& oracle : scene_test::kOracles)
     for (const bool multigrid : {false, true})
       for (const IterationScheme scheme : {IterationScheme::kJacobi, IterationScheme::kGaussSeidel})
         for (const Acceleration acceleration : {Acceleration::kNone, Acceleration::kAnderson}) {
           Variant& variant = variants.emplace_back();
-          variant.options.oracle = kind;
+          variant.options.oracle = oracle;
           variant.options.multigrid = multigrid;
           variant.options.scheme = scheme;
           variant.options.acceleration = acceleration;
           variant.options.form_factors = form_factors;
           variant.name = oracle + (multigrid ? ", multigrid" : "") +
                          (scheme == IterationScheme::kJacobi ? ", Jacobi" : ", Gauss-Seidel") +
-                         (acceleration == Acceleration::kNone ? "" : ", Anderson") +
-                         (form_factors == LinkFormFactors::kExact ? ", exact" : ", cubature");
+                         (acceleration == Acceleration::kNone ? "" : ", Anderson") + ", " + form_factors;
         }
   return variants;
 }
@@ -252,7 +247,7 @@ TEST(AnalyticTruth, PlatesByEveryVariant) {
   const PatchVisibility visibility(scene);
   const std::array<double, 2> want = {ToDouble(c["B1"]), ToDouble(c["B2"])};
   double worst = 0;
-  for (const LinkFormFactors form_factors : {LinkFormFactors::kCubature, LinkFormFactors::kExact})
+  for (const std::string form_factors : {"cubature", "exact"})
     for (const Variant& variant : Variants(form_factors))
       ExpectSolved(variant, scene, visibility, 0.5 * (want[0] + want[1]),
                    [&](const RadiositySolution& solution, const std::string& name) {
@@ -288,15 +283,15 @@ TEST(AnalyticTruth, SpheresByEveryVariant) {
     std::printf("%s, %zu faces, %zu variant(s): worst relative error %.2g of %.2g\n", id.c_str(),
                 scene.patches.size(), variants.size(), worst, kAsked);
   };
-  solve("sphere_uniform", 0, Variants(LinkFormFactors::kCubature));
+  solve("sphere_uniform", 0, Variants("cubature"));
   // One for each oracle; by exact links, which cost seconds between faces at flat angles, the first.
-  std::vector<Variant> some = Variants(LinkFormFactors::kCubature);
+  std::vector<Variant> some = Variants("cubature");
   std::erase_if(some, [](const Variant& variant) {
     return variant.options.multigrid || variant.options.scheme != IterationScheme::kJacobi ||
            variant.options.acceleration != Acceleration::kAnderson;
   });
   Variant exact = some[0];
-  exact.options.form_factors = LinkFormFactors::kExact;
+  exact.options.form_factors = "exact";
   exact.name += ", but exact";
   solve("sphere_uniform", 0, {exact});
   solve("sphere_mixed", 1, some);

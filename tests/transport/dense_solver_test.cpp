@@ -54,7 +54,7 @@ TEST(SourceQuadrature, AddsUpToTheFormFactor) {
       if (!view.FaceSource(pair.source)) continue;
       std::vector<SourceNode> nodes;
       const auto part = scene.patches[pair.source].Vertices();
-      AddVisibleSourceNodes(view, at, scene, pair.source, part, visibility.Blockers(pair), own, nodes);
+      AddVisibleSourceNodes(view, part, visibility.Blockers(pair), own, nodes);
       double sum = 0;
       for (const SourceNode& node : nodes) sum += node.weight;
       double want = 0;

@@ -1,6 +1,7 @@
 // The solver: invariants of its solutions, energy, determinism.
 
 #include "solver/transport/solvers/hierarchical_solver.h"
+#include "solver/transport/solvers/light_solvers.h"
 
 #include <gtest/gtest.h>
 
@@ -319,39 +320,52 @@ TEST(HierarchicalSolver, IteratesAfterACorrection) {
   EXPECT_LE(MeasureEnergy(solver.solution()).relative_imbalance, 2e-3);
 }
 
-// Leaves that are split get links of their own, the rest of the solution stays, and the light that settles is
-// that of before, but for what finer elements tell better.
-TEST(HierarchicalSolver, SubdividesLeavesItIsTold) {
+// A correction that is cancelled puts all of what corrects the light back, the parts of leaves too: the next
+// one is as if it had never begun.
+TEST(HierarchicalSolver, CancelledStepsKeepTheWholeCorrection) {
   const Scene scene = LampRoom();
   const PatchVisibility visibility(scene);
   SolverOptions options;
   options.eps = 2;
-  HierarchicalSolver solver(scene, visibility, options);
-  const ExecutionContext context;
-  while (!solver.Converged()) solver.Iterate(context);
-  const RadiositySolution before = solver.solution();
-  const std::vector<ElementId> leaves = before.forest.AllLeaves();
-  std::vector<ElementId> chosen;
-  for (std::size_t i = 0; i < leaves.size(); i += 7) chosen.push_back(leaves[i]);
-  ASSERT_TRUE(solver.SubdivideLeaves(chosen, context));
-  ExpectValid(solver.solution());
-  EXPECT_FALSE(solver.Converged());
-  const RadiositySolution& after = solver.solution();
-  for (const ElementId leaf : chosen) EXPECT_FALSE(after.forest[leaf].IsLeaf());
-  for (const Link& link : after.links.links)
-    EXPECT_FALSE(std::ranges::binary_search(chosen, link.receiver) && before.forest[link.receiver].IsLeaf());
-  EXPECT_GE(after.forest.size(), before.forest.size() + 4 * chosen.size());
-  double worst = 0, largest = 0;
-  for (std::size_t p = 0; p < scene.patches.size(); ++p) {
-    worst = std::max(worst, (after.irradiance[p] - before.irradiance[p]).abs().maxCoeff());
-    largest = std::max(largest, before.irradiance[p].maxCoeff());
+  options.source_error = 0.02;
+  HierarchicalSolver undisturbed(scene, visibility, options), disturbed(scene, visibility, options);
+  ExecutionContext cancelled;
+  cancelled.Cancel();
+  for (HierarchicalSolver* solver : {&undisturbed, &disturbed}) {
+    solver->Solve({});
+    if (solver == &disturbed) {
+      EXPECT_FALSE(solver->Relight(cancelled));
+      EXPECT_FALSE(solver->Iterate(cancelled));
+    }
+    ASSERT_TRUE(solver->Correct(LeafSampling::kCubature, {}));
   }
-  std::printf("%zu of %zu leaves split; patches' irradiance changed by %.2g of the largest\n", chosen.size(),
-              leaves.size(), worst / largest);
-  EXPECT_LE(worst, 0.02 * largest);
-  const std::optional<IterationReport> next = solver.Iterate(context);
-  ASSERT_TRUE(next);
-  ExpectValid(solver.solution());
+  const std::vector<Fragment>&a = undisturbed.solution().fragments, &b = disturbed.solution().fragments;
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_TRUE((a[i].radiosity == b[i].radiosity).all()) << i;
+}
+
+// The registry's solvers are driven alike, and a solver's steps end.
+TEST(LightSolver, EverySolverIsDrivenBySteps) {
+  const Scene scene = LampRoom();
+  const PatchVisibility visibility(scene);
+  LightSolverOptions options;
+  options.hierarchical.eps = 2;
+  options.dense.divisions = 2;
+  std::vector<Rgb> of_floor;
+  for (const std::string& name : LightSolvers().Names()) {
+    const std::unique_ptr<LightSolver> solver = LightSolvers().Make(name, {scene, visibility}, options, {});
+    ASSERT_TRUE(solver->Ready());
+    std::vector<SolverStep> steps;
+    EXPECT_TRUE(SolveStepByStep(*solver, {}, [&](SolverStep step) { steps.push_back(step); }));
+    EXPECT_FALSE(solver->Next());
+    EXPECT_TRUE(solver->Converged()) << name;
+    EXPECT_TRUE(std::ranges::is_sorted(steps));
+    ExpectValid(solver->solution());
+    of_floor.push_back(solver->solution().irradiance[0]);
+  }
+  for (const Rgb& light : of_floor)
+    EXPECT_LE((light - of_floor[0]).abs().maxCoeff(), 0.05 * of_floor[0].maxCoeff());
+  EXPECT_THROW(LightSolvers().Find("guess"), InputError);
 }
 
 // A solver that goes on from a solution is where that one was: its light is the same to rounding, corrections

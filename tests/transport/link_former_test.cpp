@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
+#include <string>
 
+#include "solver/transport/links/link_form_factor_methods.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra::scene_test {
@@ -19,11 +21,12 @@ struct Roots {
 
   explicit Roots(const Scene& scene) : forest(scene), visibility(scene) {}
 
-  LinkSet Form(PatchId receiver, LinkFormFactors form_factors = LinkFormFactors::kCubature) const {
+  LinkSet Form(PatchId receiver, const std::string& form_factors = "cubature") const {
     std::vector<LinkCandidate> candidates;
     for (const PatchPair& pair : visibility.SourcesOf(receiver))
       candidates.push_back({ElementForest::Root(pair.source), visibility.Blockers(pair)});
-    return FormLinks(forest, ElementForest::Root(receiver), candidates, form_factors);
+    return FormLinks(forest, ElementForest::Root(receiver), candidates,
+                     *LinkFormFactorMethods().Make(form_factors, {}));
   }
 };
 
@@ -54,14 +57,14 @@ TEST(FormLinks, Disks) {
   Add(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, 0);
   Add(scene, {{0, 0, kDistance}, {0, 1, kDistance}, {1, 1, kDistance}, {1, 0, kDistance}}, 0);
   const double disk = 1 / (std::numbers::pi * kDistance * kDistance + 1);
-  const LinkSet clear = Roots(scene).Form(0, LinkFormFactors::kDisk);
+  const LinkSet clear = Roots(scene).Form(0, "disk");
   ASSERT_EQ(clear.links.size(), 1U);
   EXPECT_NEAR(clear.links[0].form_factor, disk, 1e-15);
   EXPECT_NEAR(clear.links[0].form_factor, Roots(scene).Form(0).links[0].form_factor,
               disk / kDistance / kDistance);
 
   Add(scene, {{0.5, -2, 5}, {3, -2, 5}, {3, 3, 5}, {0.5, 3, 5}}, 0);
-  const LinkSet half = Roots(scene).Form(0, LinkFormFactors::kDisk);
+  const LinkSet half = Roots(scene).Form(0, "disk");
   const auto link = std::find_if(half.links.begin(), half.links.end(),
                                  [](const Link& l) { return l.source == ElementForest::Root(1); });
   ASSERT_NE(link, half.links.end());
@@ -125,7 +128,8 @@ TEST(FormLinks, ChildrenAgreeWithParents) {
         const Element receiver = roots.forest[link.receiver];
         for (ElementId child = receiver.first_child; child < receiver.first_child + 4; ++child) {
           const LinkCandidate candidate{link.source, blockers};
-          const LinkSet below = FormLinks(roots.forest, child, {&candidate, 1});
+          const LinkSet below =
+              FormLinks(roots.forest, child, {&candidate, 1}, *LinkFormFactorMethods().Make("cubature", {}));
           ASSERT_LE(below.links.size(), 1U);
           for (const Link& part : below.links) {
             mean += part.form_factor * roots.forest[child].area / receiver.area;

@@ -109,6 +109,25 @@ TEST(Occlusion, AgreesWithBruteForceInFurnishedRooms) {
   std::printf("seed 302, largest difference %.2g\n", worst);
 }
 
+// The scene with its lights cut in two.
+Scene WithLightsCut(const Scene& scene) {
+  Scene light_split = scene;
+  light_split.patches.clear();
+  for (const Patch& patch : scene.patches) {
+    if (scene.materials[patch.material].emittance[0] <= 0) {
+      light_split.patches.push_back(patch);
+      continue;
+    }
+    const Vec3 on_edge = 0.3 * patch.vertex[1] + 0.7 * patch.vertex[2];
+    const std::size_t last = static_cast<std::size_t>(patch.size) - 1;
+    Add(light_split, {patch.vertex[0], patch.vertex[1], on_edge}, patch.material);
+    Polygon3 rest = {patch.vertex[0], on_edge, patch.vertex[2]};
+    if (last == 3) rest.push_back(patch.vertex[3]);
+    Add(light_split, rest, patch.material);
+  }
+  return light_split;
+}
+
 // What must change nothing: the order of the patches, a blocker given twice, a blocker in two triangles, a
 // blocker in the light's own plane, one behind the light. What can only take light: one blocker more. 1e-12:
 // the same shadow is cut along other edges, with roundings of 1e-16 of 1 m, no nearer than 1e-3.
@@ -145,21 +164,7 @@ void ExpectInvariant(const Scene& scene, const ReceiverPoint& at, Random& random
   }
   expect_same(doubled, "doubled");
   expect_same(split, "split");
-  Scene light_split = scene;
-  light_split.patches.clear();
-  for (const Patch& patch : scene.patches) {
-    if (scene.materials[patch.material].emittance[0] <= 0) {
-      light_split.patches.push_back(patch);
-      continue;
-    }
-    const Vec3 on_edge = 0.3 * patch.vertex[1] + 0.7 * patch.vertex[2];
-    const std::size_t last = static_cast<std::size_t>(patch.size) - 1;
-    Add(light_split, {patch.vertex[0], patch.vertex[1], on_edge}, patch.material);
-    Polygon3 rest = {patch.vertex[0], on_edge, patch.vertex[2]};
-    if (last == 3) rest.push_back(patch.vertex[3]);
-    Add(light_split, rest, patch.material);
-  }
-  expect_same(light_split, "the light split");
+  expect_same(WithLightsCut(scene), "the light split");
 
   const auto light = std::find_if(scene.patches.begin(), scene.patches.end(), [&](const Patch& patch) {
     return scene.materials[patch.material].emittance[0] > 0;

@@ -52,7 +52,7 @@ TEST(Settling, ResidualBoundsWhatIsMissing) {
     const RadiositySolution linked = DarkRoom(scene, reflectance, 2001);
     RadiositySolution exact = linked;
     PushPull whole(exact);
-    Settle(whole, exact, {}, IterationScheme::kJacobi, Acceleration::kAnderson, 1e-13, {});
+    Settle(whole, exact, {}, {IterationScheme::kJacobi, Acceleration::kAnderson, 1e-13}, {});
     const double reflected = whole.LargestReflected();
     std::printf("seed 2001, reflectance %.2f:", reflectance);
     std::size_t sweeps[2][2];
@@ -62,7 +62,7 @@ TEST(Settling, ResidualBoundsWhatIsMissing) {
           RadiositySolution solution = linked;
           Darken(solution);
           PushPull push_pull(solution);
-          const Settled settled = Settle(push_pull, solution, {}, scheme, acceleration, cutoff, {});
+          const Settled settled = Settle(push_pull, solution, {}, {scheme, acceleration, cutoff}, {});
           EXPECT_LE(settled.residual, cutoff);
           const double missing = LargestDifference(solution.radiosity, exact.radiosity);
           // The residual is relative to what the light reflects now; 1e-12 is the rounding of some sweeps.
@@ -123,7 +123,7 @@ TEST(Settling, GaussSeidelIsTheSameForAnyThreadCount) {
     RadiositySolution solution = linked;
     Darken(solution);
     PushPull push_pull(solution);
-    Settle(push_pull, solution, {}, IterationScheme::kGaussSeidel, Acceleration::kAnderson, 1e-6, {});
+    Settle(push_pull, solution, {}, {IterationScheme::kGaussSeidel, Acceleration::kAnderson, 1e-6}, {});
     if (threads == 1) first = solution.radiosity;
     EXPECT_EQ(std::memcmp(first.data(), solution.radiosity.data(), first.size() * sizeof(Rgb)), 0);
   }
@@ -162,14 +162,14 @@ TEST(Settling, Ends) {
   {
     PushPull push_pull(solution);
     const Settled settled =
-        Settle(push_pull, solution, {}, IterationScheme::kJacobi, Acceleration::kNone, 0, {});
+        Settle(push_pull, solution, {}, {IterationScheme::kJacobi, Acceleration::kNone, 0}, {});
     EXPECT_LE(settled.residual, 1e-13);
     EXPECT_LT(settled.sweeps, 1000U);
   }
   for (Link& link : solution.links.links) link.form_factor *= 1.2;
   PushPull push_pull(solution);
   const Settled settled =
-      Settle(push_pull, solution, {}, IterationScheme::kJacobi, Acceleration::kNone, 1e-3, {});
+      Settle(push_pull, solution, {}, {IterationScheme::kJacobi, Acceleration::kNone, 1e-3}, {});
   EXPECT_GT(settled.residual, 1e-3);
   EXPECT_LT(settled.sweeps, 1000U);
 }

@@ -35,6 +35,9 @@ inline PointIrradianceResult Direct(const Scene& scene, const ReceiverPoint& at,
   return PointIrradiance(scene, unused, SourceSet::Emitters(scene), options).Anywhere(at);
 }
 
+// The oracles of the library; tests may add others to the registry.
+inline const std::vector<std::string> kOracles = {"transport", "visibility", "gradient", "thesis"};
+
 // All exact ways to a visible form factor by name, and null: the default.
 struct NamedMethod {
   std::string name;

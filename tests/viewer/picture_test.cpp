@@ -135,7 +135,7 @@ TEST(Probe, TellsFacesAndEverySource) {
   Scene scene = mesh_test::EmptyScene();
   constexpr std::int32_t kSquares = 16;
   for (std::int32_t k = 0; k < kSquares; ++k) {
-    mesh_test::AddSquare(scene, 0, 0, k, 1, true);
+    mesh_test::AddSquare(scene, {0, 0, k}, 1, true);
     scene.patches.back().faces = {k};
   }
   scene.patches[0].faces = {20, 21};

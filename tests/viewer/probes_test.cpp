@@ -20,6 +20,7 @@ namespace {
 struct Solved {
   Solved() : scene(viewer_test::ShadowScene()), pipeline(*scene, viewer_test::Options(false).solving) {
     pipeline.Solve(ExecutionContext());
+    pipeline.RefineLight(ExecutionContext());
     pipeline.BuildMesh(MeshKind::kInterpolant, ExecutionContext());
     light = std::make_shared<const LightState>(scene,
                                                std::make_shared<const PatchVisibility>(pipeline.visibility()),
@@ -90,7 +91,7 @@ TEST(Graph, HoldsTheInterpolantsSamplesAtItsNodes) {
   const Solved& s = Shared();
   const std::vector<std::uint32_t> triangles = {0, 1, 2};
   const IrradianceGraph graph =
-      MakeGraph(*s.light, s.mesh->mesh(), triangles, 2, false, true, ExecutionContext());
+      MakeGraph(*s.light, s.mesh->mesh(), triangles, {2, false, true}, ExecutionContext());
   ASSERT_EQ(graph.size(), 3U);
   for (const GraphSheet& sheet : graph) {
     ASSERT_EQ(sheet.exact.size(), 6U);
@@ -109,7 +110,7 @@ TEST(Graph, DynamicGridsFollowTheArea) {
   std::vector<std::uint32_t> all;
   for (std::uint32_t i = 0; i < s.mesh->mesh().triangles.size(); ++i) all.push_back(i);
   for (const GraphSheet& sheet :
-       MakeGraph(*s.light, s.mesh->mesh(), all, 40, true, false, ExecutionContext())) {
+       MakeGraph(*s.light, s.mesh->mesh(), all, {40, true, false}, ExecutionContext())) {
     const ElementId leaf = LeafOf(*s.light, s.mesh->mesh(), sheet.triangle);
     const double share = TriangleArea(s.mesh->mesh(), sheet.triangle) / s.light->solution().forest[leaf].area;
     EXPECT_NEAR(sheet.cells, std::max(1.0, 40 * std::sqrt(share)), 0.51);
@@ -143,7 +144,7 @@ TEST(Links, FiltersKeepTheStrongest) {
   const RadiositySolution& solution = Shared().light->solution();
   OverlaySettings settings;
   EXPECT_TRUE(ShownLinks(solution, settings, {}).empty());
-  settings.visible_links = settings.split_links = settings.partial_links = true;
+  settings.shown = {"visible-links", "split-links", "partial-links"};
   settings.link_limit = 1'000'000;
   const auto all = ShownLinks(solution, settings, {});
   EXPECT_EQ(all.size(), solution.links.links.size());
@@ -157,10 +158,8 @@ TEST(Links, FiltersKeepTheStrongest) {
   // The classes share the links out.
   settings.link_limit = 1'000'000;
   std::size_t sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    settings.visible_links = k == 0;
-    settings.split_links = k == 1;
-    settings.partial_links = k == 2;
+  for (const LinkClass link_class : {LinkClass::kVisible, LinkClass::kSplit, LinkClass::kPartial}) {
+    settings.shown = {SwitchOf(link_class)};
     sum += ShownLinks(solution, settings, {}).size();
   }
   EXPECT_EQ(sum, all.size());

@@ -53,6 +53,7 @@ TEST(SolverSession, StepsLeadToThePipelinesSolution) {
 
   Pipeline pipeline(*scene, Loose());
   pipeline.Solve(ExecutionContext());
+  pipeline.RefineLight(ExecutionContext());
   pipeline.BuildMesh(MeshKind::kInterpolant, ExecutionContext());
   const RadiositySolution& stepped = session.snapshot()->light->solution();
   ASSERT_EQ(stepped.forest.size(), pipeline.solution().forest.size());
@@ -114,6 +115,7 @@ TEST(SolverSession, MeasuresWhatThePipelineMeasures) {
   ASSERT_TRUE(session.snapshot()->measured);
   Pipeline pipeline(*scene, Loose());
   pipeline.Solve(ExecutionContext());
+  pipeline.RefineLight(ExecutionContext());
   pipeline.BuildMesh(MeshKind::kInterpolant, ExecutionContext());
   pipeline.Measure(ExecutionContext());
   EXPECT_DOUBLE_EQ(session.snapshot()->measured->interpolant_error.p99,
@@ -138,6 +140,7 @@ TEST(SolverSession, MeasuresAnewAtAnotherNumberOfPoints) {
     options.error_points = points;
     Pipeline pipeline(*scene, options);
     pipeline.Solve(ExecutionContext());
+    pipeline.RefineLight(ExecutionContext());
     pipeline.BuildMesh(MeshKind::kInterpolant, ExecutionContext());
     pipeline.Measure(ExecutionContext());
     const auto now = session.snapshot();
@@ -218,6 +221,7 @@ TEST(SolverSession, RefinesByWhatIsShown) {
   ASSERT_TRUE(Rest(session));
   Pipeline pipeline(*scene, options);
   pipeline.Solve(ExecutionContext());
+  pipeline.RefineLight(ExecutionContext());
   pipeline.BuildMesh(MeshKind::kInterpolant, ExecutionContext());
   pipeline.Measure(ExecutionContext());
   const auto snapshot = session.snapshot();
@@ -235,6 +239,7 @@ TEST(SolverSession, RefinesByWhatIsShown) {
     return other;
   }());
   transport.Solve(ExecutionContext());
+  transport.RefineLight(ExecutionContext());
   transport.BuildMesh(MeshKind::kInterpolant, ExecutionContext());
   EXPECT_GT(mesh.triangles.size(), transport.mesh().triangles.size());
 }
@@ -244,6 +249,7 @@ TEST(SolverSession, ShowsWhatAnotherSolved) {
   const auto scene = viewer_test::ShadowScene();
   Pipeline pipeline(*scene, Loose());
   pipeline.Solve(ExecutionContext());
+  pipeline.RefineLight(ExecutionContext());
   pipeline.BuildMesh(MeshKind::kInterpolant, ExecutionContext());
   pipeline.Measure(ExecutionContext());
   OpenedScene opened(scene);
@@ -282,7 +288,7 @@ TEST(SolverSession, ShowsWhatAnotherSolved) {
 TEST(SolverSession, SolvesDenseSystemsAndKeepsLimits) {
   const auto scene = viewer_test::ShadowScene();
   PipelineOptions options = Loose();
-  options.dense.emplace();
+  options.solver = "dense";
   options.refine = RefineBy::kBoth;
   SolverSession dense(scene, options);
   dense.Converge();

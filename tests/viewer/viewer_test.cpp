@@ -14,7 +14,7 @@
 #include <set>
 #include <thread>
 
-#include "display/image_io.h"
+#include "display/exr_image.h"
 #include "display/opengl_passes.h"
 #include "display/viewer/analyses.h"
 #include "display/viewer/script.h"
@@ -353,7 +353,7 @@ TEST(ViewerOptionsOfSolve, AreThoseOfListedDiscontinuities) {
   EXPECT_TRUE(light.discontinuities().keep_hidden);
   EXPECT_EQ(light.discontinuities().weight, DiscontinuityWeight::kThesis);
   ViewState view;
-  view.overlays.discontinuities = true;
+  view.overlays.shown.insert("discontinuities");
   Analyses analyses;
   std::shared_ptr<const DiscontinuityList> listed;
   for (int i = 0; i < 3000 && !listed; ++i) {
@@ -392,7 +392,7 @@ TEST_F(SolvedViewer, KeysRunMenusAndFlyWhileWalking) {
   key.kind = InputEvent::Kind::kKeyDown;
   key.key = "m";
   viewer.Handle(key);
-  EXPECT_TRUE(viewer.view().overlays.element_mesh);
+  EXPECT_TRUE(viewer.view().overlays.Shows("element-mesh"));
   viewer.Set("navigation", "walk");
   viewer.Set("walk-speed", "3");
   const Camera before = viewer.view().camera;
@@ -651,7 +651,7 @@ set mode nonsense
     ++frames;
   }
   EXPECT_TRUE(viewer.snapshot().converged);
-  EXPECT_TRUE(viewer.view().overlays.element_mesh);
+  EXPECT_TRUE(viewer.view().overlays.Shows("element-mesh"));
   EXPECT_EQ(viewer.view().mode, DrawMode::kFlat);
   EXPECT_EQ(stage.width, 40);
   EXPECT_THAT(stage.screenshots, testing::ElementsAre("a.png"));

@@ -16,9 +16,9 @@ namespace penumbra::viewer_test {
 inline std::shared_ptr<const Scene> ShadowScene() {
   Scene scene = mesh_test::EmptyScene();
   scene.name = "shadow";
-  mesh_test::AddSquare(scene, 0, 0, 0, 1, true);             // 0: floor
-  mesh_test::AddSquare(scene, 0, 0, 2, 0.5, false, 1);       // 1: lamp
-  mesh_test::AddSquare(scene, 0.1, 0.05, 1, 0.3, false, 0);  // 2: blocker
+  mesh_test::AddSquare(scene, {0, 0, 0}, 1, true);             // 0: floor
+  mesh_test::AddSquare(scene, {0, 0, 2}, 0.5, false, 1);       // 1: lamp
+  mesh_test::AddSquare(scene, {0.1, 0.05, 1}, 0.3, false, 0);  // 2: blocker
   for (std::size_t i = 0; i < scene.patches.size(); ++i) {
     const auto vertices = scene.patches[i].Vertices();
     scene.faces.push_back({{vertices.begin(), vertices.end()}, scene.patches[i].material, 0});
@@ -66,10 +66,10 @@ inline void Click(viewer::Viewer& viewer, viewer::MouseButton button, double x, 
 }
 
 inline void Drag(viewer::Viewer& viewer, viewer::MouseButton button, double x0, double y0, double x1,
-                 double y1, unsigned modifiers = 0) {
-  viewer.Handle(Button(viewer::InputEvent::Kind::kButtonDown, button, x0, y0, modifiers));
-  viewer.Handle(Button(viewer::InputEvent::Kind::kMove, button, x1, y1, modifiers));
-  viewer.Handle(Button(viewer::InputEvent::Kind::kButtonUp, button, x1, y1, modifiers));
+                 double y1) {
+  viewer.Handle(Button(viewer::InputEvent::Kind::kButtonDown, button, x0, y0, 0));
+  viewer.Handle(Button(viewer::InputEvent::Kind::kMove, button, x1, y1, 0));
+  viewer.Handle(Button(viewer::InputEvent::Kind::kButtonUp, button, x1, y1, 0));
 }
 
 // Where the camera sees a point.

@@ -86,30 +86,38 @@ TEST(Beams, DoorwaysOutOfLine) {
   }
 }
 
+// Two patches that face each other, past random walls and furniture that stands about.
+Ends RandomEnds(Random& random, bool turned) {
+  Ends ends = Facing(random.Uniform(-1.5, 1.5));
+  const int walls = 1 + static_cast<int>(random.Index(3));
+  for (int w = 0; w < walls; ++w) {
+    const double lo = random.Uniform(-1.5, 1), wide = random.Uniform(0.05, 0.8);
+    AddWall(ends.scene, -1.2 + 1.2 * w, lo, lo + wide, random.Uniform(0.5, 2.5));
+  }
+  for (int k = 0; k < 3; ++k) {
+    const double x = random.Uniform(-1, 1), y = random.Uniform(-1.9, 1.9);
+    AddBox(ends.scene, {x, y, 0}, {x + 0.3, y + 0.3, random.Uniform(0.2, 1.5)}, false, 0);
+  }
+  if (turned) ends.scene = Mapped(ends.scene, RandomMotion(random, 3));
+  return ends;
+}
+
 // Random walls, and furniture that stands about: what is hidden has no clear segment; every clear one lies in
 // a beam; of every other one a blocker is kept.
 TEST(Beams, AgainstSegments) {
   Random random(651);
   int hidden = 0, clear = 0, blocked = 0, dropped = 0, narrowed = 0;
   for (int i = 0; i < 400; ++i) {
-    Ends ends = Facing(random.Uniform(-1.5, 1.5));
-    const int walls = 1 + static_cast<int>(random.Index(3));
-    for (int w = 0; w < walls; ++w) {
-      const double lo = random.Uniform(-1.5, 1), wide = random.Uniform(0.05, 0.8);
-      AddWall(ends.scene, -1.2 + 1.2 * w, lo, lo + wide, random.Uniform(0.5, 2.5));
-    }
-    for (int k = 0; k < 3; ++k) {
-      const double x = random.Uniform(-1, 1), y = random.Uniform(-1.9, 1.9);
-      AddBox(ends.scene, {x, y, 0}, {x + 0.3, y + 0.3, random.Uniform(0.2, 1.5)}, false, 0);
-    }
-    if (i % 2 == 1) ends.scene = Mapped(ends.scene, RandomMotion(random, 3));
+    const Ends ends = RandomEnds(random, i % 2 == 1);
     const Scene& scene = ends.scene;
     const Patch &a = scene.patches[0], &b = scene.patches[1];
-    std::vector<PatchId> all(scene.patches.size()), blockers, first;
+    std::vector<PatchId> all(scene.patches.size());
+    TubeBlockers found;
     std::iota(all.begin(), all.end(), 0);
     const std::optional<TubeEnds> parts = ClipToEachOther(a.Vertices(), a, b.Vertices(), b);
     ASSERT_TRUE(parts);
-    const bool seen = FindTubeBlockers(scene, *parts, 0, 1, all, blockers, first);
+    const bool seen = FindTubeBlockers(scene, *parts, 0, 1, all, found);
+    const std::vector<PatchId>&blockers = found.all, &first = found.first;
     std::vector<PatchId> same;
     EXPECT_EQ(seen, FindTubeBlockers(scene, *parts, 0, 1, all, same)) << i;
     EXPECT_EQ(blockers, same);

@@ -93,10 +93,11 @@ TEST(FormFactor, SumQuadratureAndBatchAgree) {
     double got = 0;
     FormFactors(batch, i, i + 1, Vec3::Zero(), normals[i], &got);
     by_batch = std::max(by_batch, std::abs(got / wanted[i] - 1));
-    double sum = 0, angles = 0;
-    FormFactorSums(batch, i, i + 1, Vec3::Zero(), normals[i], &sum, &angles);
-    const double scale = std::max(wanted[i], angles / (2 * std::numbers::pi * kFormFactorCancellation));
-    EXPECT_NEAR(sum, wanted[i], 2 * kFormFactorError * scale);
+    FormFactorSums sums;
+    sums.Find(batch, i, i + 1, Vec3::Zero(), normals[i]);
+    const double scale =
+        std::max(wanted[i], sums.SizeAdded(0) / (2 * std::numbers::pi * kFormFactorCancellation));
+    EXPECT_NEAR(sums.Factor(0), wanted[i], 2 * kFormFactorError * scale);
   }
   std::printf("seed 512, %zu polygons, %d below 1e-3: sum off by %.2g, batch by %.2g (bound %.2g each)\n",
               wanted.size(), cancelled, by_sum, by_batch, kFormFactorError);
@@ -130,9 +131,9 @@ TEST(FormFactorBatch, PartsAddUpToTheWhole) {
           1.0 / kParts);
     double want = 0, sum = 0;
     FormFactors(whole, 0, 1, Vec3::Zero(), normal, &want);
-    std::vector<double> factor(parts.size()), angles(parts.size());
-    FormFactorSums(parts, 0, parts.size(), Vec3::Zero(), normal, factor.data(), angles.data());
-    for (const double f : factor) sum += f;
+    FormFactorSums sums;
+    sums.Find(parts, 0, parts.size(), Vec3::Zero(), normal);
+    for (std::size_t k = 0; k < parts.size(); ++k) sum += sums.Factor(k);
     worst = std::max(worst, std::abs(sum / want - 1));
   }
   std::printf("seed 513: sums off by %.2g (bound %.2g)\n", worst, kFormFactorError);

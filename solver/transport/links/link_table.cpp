@@ -13,7 +13,8 @@ constexpr std::size_t kLinkGrain = 2;  // receivers that a task links
 }  // namespace
 
 std::vector<LinkSet> FormLinkGroups(const ElementForest& forest, std::span<const LinkGroup> groups,
-                                    LinkFormFactors form_factors, const ExecutionContext& context) {
+                                    const LinkFormFactorMethod& form_factors,
+                                    const ExecutionContext& context) {
   std::vector<LinkSet> formed(groups.size());
   ParallelFor(groups.size(), kLinkGrain, [&](std::size_t g) {
     if (!context.Cancelled())

@@ -21,7 +21,8 @@ struct LinkGroup {
 
 // The links of all groups, a set each; empty ones once the context is cancelled.
 std::vector<LinkSet> FormLinkGroups(const ElementForest& forest, std::span<const LinkGroup> groups,
-                                    LinkFormFactors form_factors, const ExecutionContext& context);
+                                    const LinkFormFactorMethod& form_factors,
+                                    const ExecutionContext& context);
 
 // The links that are not dropped (one flag a link; empty: none is) and those of `formed`, by receiver, then
 // source. Of no use if it was cancelled.

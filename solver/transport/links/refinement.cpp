@@ -58,23 +58,4 @@ RefinementPlan PlanRefinement(RadiositySolution& solution, const PushPull& push_
   return plan;
 }
 
-RefinementPlan PlanSubdivision(RadiositySolution& solution, const PushPull& push_pull,
-                               std::span<const ElementId> leaves) {
-  RefinementPlan plan;
-  plan.dropped.assign(solution.links.links.size(), 0);
-  for (const ElementId leaf : leaves) {
-    if (!solution.forest[leaf].IsLeaf() || solution.forest[leaf].level >= kMaxLevel) continue;
-    Split split;
-    for (std::size_t i = push_pull.FirstLink(leaf); i < push_pull.EndLink(leaf); ++i) {
-      const Link& link = solution.links.links[i];
-      plan.dropped[i] = 1;
-      ++plan.links_split;
-      split.down.push_back({link.source, solution.links.Blockers(link)});
-    }
-    FirstChild(solution.forest, leaf);  // though it may have no links of its own
-    AddGroups(solution.forest, leaf, std::move(split), plan.groups);
-  }
-  return plan;
-}
-
 }  // namespace penumbra

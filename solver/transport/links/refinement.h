@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "solver/transport/links/link_table.h"
-#include "solver/transport/links/oracle.h"
 #include "solver/transport/links/push_pull.h"
+#include "solver/transport/links/refinement_oracle.h"
 
 namespace penumbra {
 
@@ -26,10 +26,5 @@ struct RefinementPlan {
 // `push_pull` knows the solution's links.
 RefinementPlan PlanRefinement(RadiositySolution& solution, const PushPull& push_pull,
                               const RefinementOracle& oracle);
-
-// Splits the leaves; their links move down to their children. Leaves on the last level stay, and so does what
-// is no leaf.
-RefinementPlan PlanSubdivision(RadiositySolution& solution, const PushPull& push_pull,
-                               std::span<const ElementId> leaves);
 
 }  // namespace penumbra

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "solver/base/kept.h"
+#include "solver/base/lazy_table.h"
 #include "solver/visibility/point/form_factor.h"
 #include "solver/visibility/point/form_factor_batch.h"
 
@@ -19,11 +19,6 @@ std::span<const Vec3> Vertices(const Node& node) {
   return {node.vertex.data(), static_cast<std::size_t>(node.size)};
 }
 
-Clipper& ThreadClipper() {
-  thread_local Clipper clipper;
-  return clipper;
-}
-
 // Sources are as many, and err in as many directions, as lets each of them err by this share of what all may,
 // however little it gives.
 constexpr double kOneOfMany = 0.2;
@@ -32,30 +27,39 @@ constexpr double kOneOfMany = 0.2;
 // light away, where what is seen as one errs to both sides.
 constexpr double kLeftOut = 0.25;
 
-// Polygons whose form factors are still to be added.
-struct Listed {
-  PolygonBatch polygons;
-  std::vector<Rgb> radiosity;
-  std::vector<double> factor, angles;
+}  // namespace
+
+struct Gathering::Buffers {
+  Clipper clipper;
+  LazyTable<Vec2> corner_images;  // of the source at hand in the image at hand, by corner
+  // What GatherAsOne() has found, whose form factors are still to be added.
+  PolygonBatch listed;
+  std::vector<Rgb> listed_radiosity;
+  FormFactorSums sums;
+  std::vector<double> factors;
+  // Of the source at hand: what its leaf is clipped by, the screens that may hide it, and where its blockers
+  // lie.
+  std::vector<Occluder> leaf_occluders;
+  std::vector<PatchId> screen_patches;
+  ConvexRegion region;
+  std::vector<PatchId> candidates;
 
   void Clear() {
-    polygons.Clear();
-    radiosity.clear();
+    clipper.Clear();
+    corner_images.Clear();
+    ClearListed();
+    sums.Clear();
+    factors.clear();
+    leaf_occluders.clear();
+    screen_patches.clear();
+    region.clear();
+    candidates.clear();
+  }
+  void ClearListed() {
+    listed.Clear();
+    listed_radiosity.clear();
   }
 };
-
-Listed& ThreadListed() {
-  thread_local Listed listed;
-  return listed;
-}
-
-// Where the corners of the source at hand are in the image at hand.
-Kept<Vec2>& ThreadCornerImages() {
-  thread_local Kept<Vec2> images;
-  return images;
-}
-
-}  // namespace
 
 double SentBack(const Scene& scene, PatchId patch, PatchId source, double factor) {
   return (scene.MaterialOf(patch).reflectance * scene.MaterialOf(source).reflectance).maxCoeff() * factor *
@@ -71,12 +75,14 @@ Gathering::Gathering(const Scene& scene, const SourceSet& sources, const Receive
       parts_(parts),
       view_(scene, at, options.method ? *options.method : FastestExactMethod(), options.source_push_off),
       occluders_(view_.occluder_stack()),
-      clipper_(ThreadClipper()) {}
+      clipper_(buffers_->clipper) {}
+
+Gathering::~Gathering() = default;
 
 void Gathering::SeeAsOne(double tolerance, const Rgb& known) {
   tolerance_ = tolerance;
   known_ = known;
-  ThreadListed().Clear();
+  buffers_->ClearListed();
 }
 
 // Turns to the source; false if nothing of it can be seen.
@@ -95,7 +101,7 @@ void Gathering::AddSource(PatchId source, std::span<const PatchId> candidates, P
 // Whether the screens together hide all of what is seen of the source at hand.
 bool Gathering::HiddenBy(std::span<const Screen> screens, const DirectionPolygon& seen) {
   if (screens.empty()) return false;
-  thread_local std::vector<PatchId> patches;
+  std::vector<PatchId>& patches = buffers_->screen_patches;
   patches.clear();
   for (const Screen& screen : screens) patches.push_back(screen.patch);
   occluders_.clear();
@@ -108,7 +114,7 @@ bool Gathering::HiddenBy(std::span<const Screen> screens, const DirectionPolygon
   const Clipper::Candidates all = clipper_.Begin(frame, image, occluders_);
   Clipper::Candidates own;
   const Overlap overlap = clipper_.Narrow(image, all, &own);
-  if (overlap == Overlap::kPart) clipper_.CutOut(image, own, 0);
+  if (overlap == Overlap::kPart) clipper_.CutOut(image, own, PieceOwner::Part(0));
   return overlap == Overlap::kAll || (overlap == Overlap::kPart && clipper_.Visible().Pieces() == 0);
 }
 
@@ -116,8 +122,8 @@ void Gathering::AddSource(PatchId source, const PatchHierarchy& patches, std::sp
   DirectionPolygon seen;
   if (!Face(source, &seen) || HiddenBy(screens, seen)) return;
   // Between the point and the source's plane, within what is seen of the source.
-  thread_local ConvexRegion region;
-  thread_local std::vector<PatchId> candidates;
+  ConvexRegion& region = buffers_->region;
+  std::vector<PatchId>& candidates = buffers_->candidates;
   region.clear();
   const Patch& patch = scene_.patches[static_cast<std::size_t>(source)];
   region.push_back({patch.normal, patch.normal.dot(patch.vertex[0])});
@@ -174,7 +180,7 @@ void Gathering::GatherShadowed(Tree tree, std::size_t i) {
   const ImageFrame frame(seen, axis);
   const double factor_before = factor_;
   const Clipper::Candidates all = clipper_.Begin(frame, frame.Image(seen), occluders_);
-  ThreadCornerImages().Begin(sources_.Corners().size());
+  buffers_->corner_images.Begin(sources_.Corners().size());
   GatherNode(tree, i, frame, all);
   AddVisiblePieces(frame, factor_before);
 }
@@ -186,7 +192,7 @@ ImagePolygon Gathering::ImageOf(const Node& node, const ImageFrame& frame) const
     polygon = frame.Image(view_.SeeSource(Vertices(node)));
     return polygon;
   }
-  Kept<Vec2>& images = ThreadCornerImages();
+  LazyTable<Vec2>& images = buffers_->corner_images;
   for (int k = node.size; k-- > 0;) {  // counter-clockwise about a normal that points to the point
     const std::int32_t corner = node.corner[static_cast<std::size_t>(k)];
     const auto [image, is_new] = images[corner];
@@ -208,13 +214,13 @@ void Gathering::GatherNode(Tree tree, std::size_t i, const ImageFrame& frame,
   if (overlap == Overlap::kNone) {
     GatherVisible(tree.subspan(i, skip));
   } else if (overlap == Overlap::kPart && skip > 1 && tolerance_ > 0 && IsOne(node, false)) {
-    clipper_.CutOut(image, own, -1 - static_cast<std::int32_t>(sources_.IndexOf(node)));
+    clipper_.CutOut(image, own, PieceOwner::Group(sources_.IndexOf(node)));
   } else if (overlap == Overlap::kPart && skip == 1) {
-    if (!method_ || parts_) clipper_.CutOut(image, own, node.first_leaf);
+    if (!method_ || parts_) clipper_.CutOut(image, own, PieceOwner::Part(node.first_leaf));
     if (method_) {
-      thread_local std::vector<Occluder> listed;
-      clipper_.List(own, listed);
-      Add(node.first_leaf, method_->VisibleFormFactor(view_.SeeSource(Vertices(node)), listed, at_.normal));
+      clipper_.List(own, buffers_->leaf_occluders);
+      Add(node.first_leaf,
+          method_->VisibleFormFactor(view_.SeeSource(Vertices(node)), buffers_->leaf_occluders, at_.normal));
     }
   } else if (overlap == Overlap::kPart) {
     for (std::size_t child = i + 1; child < i + skip; child += static_cast<std::size_t>(tree[child].skip))
@@ -237,21 +243,23 @@ void Gathering::GatherVisible(Tree nodes) {
   }
   const auto first = static_cast<std::size_t>(nodes[0].first_leaf);
   const auto count = static_cast<std::size_t>(nodes[0].leaf_count);
-  thread_local std::vector<double> factor, angles;
-  factor.resize(count);
-  angles.resize(count);
-  FormFactorSums(sources_.LeafPolygons(), first, first + count, view_.SourceEye(), at_.normal, factor.data(),
-                 angles.data());
+  FormFactorSums& sums = buffers_->sums;
+  sums.Find(sources_.LeafPolygons(), first, first + count, view_.SourceEye(), at_.normal);
   // What the sums may have lost counts beside the light of all leaves together.
   double turned = 0, together = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const double radiosity = sources_.LeafRadiosities()[first + i].maxCoeff();
-    turned += angles[i] * radiosity;
-    together += factor[i] * radiosity;
+    turned += sums.SizeAdded(i) * radiosity;
+    together += sums.Factor(i) * radiosity;
   }
-  if (turned > 2 * std::numbers::pi * kFormFactorCancellation * together)
-    FormFactors(sources_.LeafPolygons(), first, first + count, view_.SourceEye(), at_.normal, factor.data());
-  for (std::size_t i = 0; i < count; ++i) Add(static_cast<std::int32_t>(first + i), factor[i]);
+  if (turned > 2 * std::numbers::pi * kFormFactorCancellation * together) {
+    std::vector<double>& factors = buffers_->factors;
+    factors.resize(count);
+    FormFactors(sources_.LeafPolygons(), first, first + count, view_.SourceEye(), at_.normal, factors.data());
+    for (std::size_t i = 0; i < count; ++i) Add(static_cast<std::int32_t>(first + i), factors[i]);
+  } else {
+    for (std::size_t i = 0; i < count; ++i) Add(static_cast<std::int32_t>(first + i), sums.Factor(i));
+  }
 }
 
 bool Gathering::IsNegligible(const Rgb& light) const {
@@ -299,7 +307,7 @@ bool Gathering::IsOne(const Node& node, bool visible) const {
 // Adds a subtree that nothing hides, in parts that may be seen as one.
 void Gathering::GatherAsOne(Tree nodes) {
   const bool plain = view_.SourceIsPlain();
-  Listed& listed = ThreadListed();
+  Buffers& buffers = *buffers_;
   for (std::size_t i = 0; i < nodes.size();) {
     const Node& node = nodes[i];
     if (node.skip > 1 && !IsOne(node, true)) {
@@ -309,8 +317,8 @@ void Gathering::GatherAsOne(Tree nodes) {
     i += static_cast<std::size_t>(node.skip);
     // Well above the horizon it is seen as it is.
     if (plain || (!view_.SourceInContact() && at_.normal.dot(node.centre - at_.position) > node.radius)) {
-      listed.polygons.Add(Vertices(node));
-      listed.radiosity.push_back(node.radiosity);
+      buffers.listed.Add(Vertices(node));
+      buffers.listed_radiosity.push_back(node.radiosity);
       if (node.skip > 1) AddMoment(node);
     } else {
       Add(node.radiosity, FormFactor(view_.SeeSource(Vertices(node)), at_.normal, CancellationAllowed()));
@@ -322,7 +330,9 @@ void Gathering::GatherAsOne(Tree nodes) {
 void Gathering::AddMoment(const Node& node) {
   const Vec3 r = node.centre - at_.position;
   const double d2 = r.squaredNorm();
-  if (d2 < 4 * node.radius * node.radius) return;
+  // Nearer than two radii the form factor per area is no linear function over the node.
+  constexpr double kFarSquared = 4;
+  if (d2 < kFarSquared * node.radius * node.radius) return;
   const double high = at_.normal.dot(r), deep = -source_normal_.dot(r);
   // Of high deep / (pi d^4), along the source's plane.
   const Vec3 gradient = deep / (std::numbers::pi * d2 * d2) * (at_.normal - 4 * high / d2 * r);
@@ -332,14 +342,11 @@ void Gathering::AddMoment(const Node& node) {
 // Adds what GatherAsOne() has listed. It need not be as exact as the rest.
 void Gathering::AddListed() {
   if (tolerance_ == 0) return;
-  Listed& listed = ThreadListed();
-  const std::size_t count = listed.radiosity.size();
-  listed.factor.resize(count);
-  listed.angles.resize(count);
-  FormFactorSums(listed.polygons, 0, count, view_.SourceEye(), at_.normal, listed.factor.data(),
-                 listed.angles.data());
-  for (std::size_t i = 0; i < count; ++i) irradiance_ += listed.factor[i] * listed.radiosity[i];
-  listed.Clear();
+  Buffers& buffers = *buffers_;
+  const std::size_t count = buffers.listed_radiosity.size();
+  buffers.sums.Find(buffers.listed, 0, count, view_.SourceEye(), at_.normal);
+  for (std::size_t i = 0; i < count; ++i) irradiance_ += buffers.sums.Factor(i) * buffers.listed_radiosity[i];
+  buffers.ClearListed();
 }
 
 // A leaf that fits into no image.
@@ -355,7 +362,7 @@ void Gathering::GatherUnfit(const Node& leaf, const DirectionPolygon& seen) {
     const Clipper::Candidates all = clipper_.Begin(frame, image, occluders_);
     Clipper::Candidates own;
     if (clipper_.Narrow(image, all, &own) == Overlap::kAll) continue;
-    clipper_.CutOut(image, own, leaf.first_leaf, {part.label.data(), part.label.size()});
+    clipper_.CutOut(image, own, PieceOwner::Part(leaf.first_leaf), part.label);
     AddVisiblePieces(frame, factor_before);
   }
 }
@@ -372,12 +379,12 @@ void Gathering::AddVisiblePieces(const ImageFrame& frame, double factor_before) 
   for (std::size_t p = 0; p < visible.Pieces(); ++p) {
     const double factor = cancels ? visible.PieceByQuadrature(frame, at_.normal, p)
                                   : 0.5 * std::numbers::inv_pi * visible.PieceSum(p);
-    const std::int32_t owner = visible.Owner(p);
-    if (owner >= 0) {
-      Add(owner, std::max(0.0, factor));
+    const PieceOwner owner = visible.Owner(p);
+    if (!owner.IsGroup()) {
+      Add(owner.Number(), std::max(0.0, factor));
     } else {
       // Of a node that a shadow crosses the brighter part tends to be seen: its mean would not do.
-      const Node& node = sources_.NodeAt(static_cast<std::size_t>(-1 - owner));
+      const Node& node = sources_.NodeAt(static_cast<std::size_t>(owner.Number()));
       Add(RadiosityToward(node, frame.Direction(visible.Centroid(p))), std::max(0.0, factor));
     }
   }
@@ -405,21 +412,21 @@ double Gathering::CancellationAllowed() const {
 void Gathering::AddGradientOfPieces(const ImageFrame& frame) {
   const ImageEdges& visible = clipper_.Visible();
   for (std::size_t p = 0; p < visible.Pieces(); ++p) {
-    const std::int32_t leaf = visible.Owner(p);
+    const std::int32_t leaf = visible.Owner(p).Number();
     const DirectionPolygon whole = view_.SeeSource(sources_.LeafVertices(leaf));
     Vec3 gradient = Vec3::Zero();
     for (std::size_t i = visible.Begin(p); i < visible.Begin(p + 1); ++i) {
-      const std::int32_t label = visible.Label(i);
-      if (label == kInnerEdge) continue;
+      const EdgeLabel label = visible.Label(i);
+      if (label.IsInner()) continue;
       const Vec3 from = frame.Direction(visible.Start(i)),
                  to = frame.Direction(visible.Start(i) + visible.Difference(i));
-      if (label < kFirstOccluderEdge) {
-        gradient += EdgeGradient(whole[label], whole.Next(label), from, to, at_.normal);
+      if (label.IsOfSource()) {
+        const int edge = label.SourceEdge();
+        gradient += EdgeGradient(whole[edge], whole.Next(edge), from, to, at_.normal);
         continue;
       }
-      const Cone& cone = *occluders_[OccluderOfEdge(label)].cone;
-      const auto plane = static_cast<std::size_t>(PlaneOfEdge(label));
-      gradient += EdgeGradient(cone.direction[plane], cone.end[plane], from, to, at_.normal);
+      const Cone& cone = *occluders_[label.Occluder()].cone;
+      gradient += EdgeGradient(cone.direction[label.Plane()], cone.end[label.Plane()], from, to, at_.normal);
     }
     AddGradient(leaf, gradient);
   }

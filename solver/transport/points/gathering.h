@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/base/scratch.h"
 #include "solver/transport/sources/source_set.h"
 #include "solver/visibility/pair/patch_hierarchy.h"
 #include "solver/visibility/point/clipping.h"
@@ -52,12 +53,16 @@ struct IrradianceParts {
 // rho rho' F^2, the channel where it is most.
 double SentBack(const Scene& scene, PatchId patch, PatchId source, double factor);
 
+// A local variable: its buffers are leases of the thread that makes it (Scratch).
 class Gathering {
  public:
   // Without a method, sources are clipped as whole trees, which is fastest; with one, it is asked about every
   // polygon that blockers cover in part. `parts` may be null. All arguments must outlive the object.
   Gathering(const Scene& scene, const SourceSet& sources, const ReceiverPoint& at,
             const PointIrradianceOptions& options, IrradianceParts* parts);
+  ~Gathering();
+  Gathering(const Gathering&) = delete;
+  Gathering& operator=(const Gathering&) = delete;
 
   // Adds the light of a patch past those of the candidates that stand before it; `own`, the receiver's patch,
   // does not block.
@@ -87,6 +92,7 @@ class Gathering {
 
  private:
   using Tree = std::span<const SourceSet::Node>;
+  struct Buffers;
 
   bool Face(PatchId source, DirectionPolygon* seen);
   bool HiddenBy(std::span<const Screen> screens, const DirectionPolygon& seen);
@@ -117,7 +123,8 @@ class Gathering {
   IrradianceParts* parts_;
   PointView view_;
   std::vector<Occluder>& occluders_;  // of the source at hand
-  Clipper& clipper_;
+  Scratch<Buffers> buffers_;
+  Clipper& clipper_;  // one of the buffers
   double tolerance_ = 0;
   Rgb known_ = Rgb::Zero();       // about what the point receives; zero: not known
   Rgb unhindered_ = Rgb::Zero();  // with a tolerance: what the sources so far would bring unhindered

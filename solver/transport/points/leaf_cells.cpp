@@ -23,6 +23,15 @@ constexpr int kMostPieces = 4;
 // at any distance.
 constexpr int kMostHalved = 40;
 
+// A vertex that is this near to a cut is on it, relative to the part's diameter: a choice, far above
+// roundings and below any piece that counts.
+constexpr double kOnCut = 1e-9;
+// Edges whose directions have a cosine this near to 1 are parallel: to 5e-5 of a radian, over which no light
+// changes.
+constexpr double kParallel = 1 - 1e-9;
+// A second direction is cut across if it is more than 60 degrees from the first: its cosine is below this.
+constexpr double kMostCosine = 0.5;
+
 struct Near {
   double distance;  // of the leaf's centre [m]
   PatchId patch;
@@ -74,6 +83,7 @@ class Divider {
       near_.push_back({Distance(pair.source, centre), pair.source});
       nearest = std::min(nearest, near_.back().distance);
     }
+    // No point of the leaf is farther from its centre than `size`: distances from it differ by that at most.
     std::erase_if(near_, [&](const Near& n) { return n.distance > nearest + 2 * size; });
   }
 
@@ -116,7 +126,7 @@ class Divider {
     std::vector<Direction> directions = Directions(part);
     std::sort(directions.begin(), directions.end(),
               [](const Direction& a, const Direction& b) { return a.error > b.error; });
-    const double snap = 1e-9 * Diameter(part.polygon);  // vertices as near to a cut as that are on it
+    const double snap = kOnCut * Diameter(part.polygon);
     if (!directions.empty() && directions[0].error > options_.error && part.halved < kMostHalved &&
         VectorArea(part.polygon).norm() > options_.min_area) {
       std::vector<Polygon3> halves = {part.polygon};
@@ -129,7 +139,7 @@ class Divider {
     std::vector<Polygon3> pieces = {part.polygon};
     std::vector<Vec3> across;
     for (const Direction& direction : directions) {
-      const bool other = across.empty() || std::abs(across[0].dot(direction.normal)) < 0.5;
+      const bool other = across.empty() || std::abs(across[0].dot(direction.normal)) < kMostCosine;
       if (across.size() == 2 || !other) continue;
       Cut(direction, direction.pieces, snap, pieces);
       across.push_back(direction.normal);
@@ -152,7 +162,7 @@ class Divider {
       Direction direction;
       direction.normal = normal_.cross(edge / length);
       const bool known = std::any_of(directions.begin(), directions.end(), [&](const Direction& d) {
-        return std::abs(d.normal.dot(direction.normal)) > 1 - 1e-9;
+        return std::abs(d.normal.dot(direction.normal)) > kParallel;
       });
       if (known) continue;
       double low = std::numeric_limits<double>::infinity(), high = -low;

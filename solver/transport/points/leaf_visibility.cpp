@@ -83,7 +83,7 @@ class Filter {
         kMargin * Diameter(element.Vertices()) + kMarginOfPatch * Diameter(patch.Vertices());
     const Polygon3 receiver = Widened(element.Vertices(), margin);
     Lists own;
-    std::vector<PatchId> all, first_met;
+    TubeBlockers found;
     for (PatchPair pair : above.pairs) {
       if (context_.Cancelled()) break;
       const std::span<const PatchId> blockers = above.Blockers(pair);
@@ -91,12 +91,11 @@ class Filter {
         Keep(pair, blockers, own);
         continue;
       }
-      all.clear();
       const Patch& source = scene_.patches[pair.source];
       const std::optional<TubeEnds> ends = ClipToEachOther(receiver, patch, source.Vertices(), source);
       if (!ends) continue;
-      if (FindTubeBlockers(scene_, *ends, element.patch, pair.source, blockers, all, first_met))
-        Keep(pair, first_met, own);
+      if (FindTubeBlockers(scene_, *ends, element.patch, pair.source, blockers, found))
+        Keep(pair, found.first, own);
     }
     return own;
   }

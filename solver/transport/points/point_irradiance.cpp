@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/base/check.h"
+#include "solver/base/scratch.h"
 #include "solver/transport/links/solution.h"
 #include "solver/transport/points/gathering.h"
 #include "solver/visibility/exact/backprojection.h"
@@ -27,6 +28,13 @@ constexpr double kLeastScreen = 0.02;
 // Where sources would send this many times the light that arrives, were it not for what hides them, errors
 // beside what they would send are too large: a bright source of which a dark corner is seen.
 constexpr double kMostlyHidden = 4;
+
+// A source, and about the light that it would give unhindered.
+struct RankedSource {
+  double light;  // in the brightest channel
+  Rgb rest;      // at most, of this source and of those after it
+  const PatchPair* pair;
+};
 
 }  // namespace
 
@@ -88,13 +96,8 @@ PointIrradiance PointIrradiance::WithSources(SourceSet sources) const {
 // The last are left out where all of them together cannot matter.
 void PointIrradiance::GatherBrightestFirst(PatchId patch, const ReceiverPoint& at,
                                            Gathering& gathering) const {
-  struct Ranked {
-    double light;  // in the brightest channel
-    Rgb rest;      // at most, of this source and of those after it
-    const PatchPair* pair;
-  };
-  thread_local std::vector<Ranked> ranked;
-  ranked.clear();
+  const Scratch<std::vector<RankedSource>> scratch;
+  std::vector<RankedSource>& ranked = *scratch;
   for (const PatchPair& pair : leaves_->SourcesOf(forest_->LeafAt(patch, at.position))) {
     const std::span<const SourceSet::Node> tree = sources_.Tree(pair.source);
     if (tree.empty()) continue;
@@ -103,7 +106,7 @@ void PointIrradiance::GatherBrightestFirst(PatchId patch, const ReceiverPoint& a
     ranked.push_back({radiosity.maxCoeff() * factor.about, radiosity * factor.most, &pair});
   }
   std::stable_sort(ranked.begin(), ranked.end(),
-                   [](const Ranked& a, const Ranked& b) { return a.light > b.light; });
+                   [](const RankedSource& a, const RankedSource& b) { return a.light > b.light; });
   for (std::size_t i = ranked.size(); i-- > 1;) ranked[i - 1].rest += ranked[i].rest;
   for (const auto& [light, rest, pair] : ranked) {
     if (gathering.IsNegligible(rest)) return;
@@ -189,12 +192,11 @@ double PointIrradiance::Reverberation(PatchId patch, const ReceiverPoint& at) co
 PointIrradianceResult PointIrradiance::Anywhere(const ReceiverPoint& given, IrradianceParts* parts) const {
   const ReceiverPoint at = Nudged(given);
   Gathering gathering(scene_, sources_, at, options_, parts);
-  thread_local std::vector<PatchId> found;
-  thread_local std::vector<Screen> screens;
-  screens.clear();
-  if (source_patches_.size() > kManySources) screens_.Find({&at, 1}, kLeastScreen, kMostScreens, screens);
-  source_patches_.Find({{at.normal, at.normal.dot(at.position)}}, screens, found);
-  for (const PatchId source : found) gathering.AddSource(source, patches_, screens);
+  const Scratch<std::vector<PatchId>> found;
+  const Scratch<std::vector<Screen>> screens;
+  if (source_patches_.size() > kManySources) screens_.Find({&at, 1}, kLeastScreen, kMostScreens, *screens);
+  source_patches_.Find({{at.normal, at.normal.dot(at.position)}}, *screens, *found);
+  for (const PatchId source : *found) gathering.AddSource(source, patches_, *screens);
   return {gathering.irradiance(), gathering.one_sided()};
 }
 

@@ -1,6 +1,8 @@
 #include "solver/transport/solvers/dense_solver.h"
 
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -108,6 +110,51 @@ RadiositySolution ToRadiositySolution(const DenseSystem& system, const DenseLigh
   }
   Average(solution);
   return solution;
+}
+
+DenseSolver::DenseSolver(const Scene& scene, const PatchVisibility& visibility, const DenseOptions& options,
+                         const ExecutionContext& context)
+    : visibility_(visibility) {
+  const ElementForest forest = UniformForest(scene, options.divisions);
+  const std::size_t unknowns = CountUnknowns(forest, options.degree);
+  if (unknowns > kMostDenseUnknowns)
+    throw InputError(scene.name + ": error: the dense solver would have " + std::to_string(unknowns) +
+                     " unknowns and can take " + std::to_string(kMostDenseUnknowns) +
+                     "; ask for fewer divisions or a basis of lower degree");
+  const DenseSystem system = AssembleDense(forest, visibility, options, context);
+  solved_ = !context.Cancelled();
+  if (!solved_) {
+    solution_.forest = ElementForest(scene);
+    PushPull dark(solution_);  // lights the elements by what they emit
+    return;
+  }
+  solution_ = ToRadiositySolution(system, SolveDense(system));
+  report_.dense = {system.size(), MeasureClosure(system), system.form_factor_error};
+}
+
+bool DenseSolver::SetLight(std::span<const Rgb>, std::vector<Fragment>, const ExecutionContext&) {
+  PENUMBRA_CHECK(TakesLight());
+  return false;
+}
+
+std::shared_ptr<const LeafVisibility> DenseSolver::SeenFromLeaves(const ExecutionContext& context) {
+  if (!seen_from_leaves_) {
+    auto seen = std::make_shared<const LeafVisibility>(solution_.forest, visibility_, context);
+    if (context.Cancelled()) return nullptr;
+    seen_from_leaves_ = std::move(seen);
+  }
+  return seen_from_leaves_;
+}
+
+LightSolverRegistry::Method DenseSolverMethod() {
+  return {"dense",
+          "the linear system of a uniform mesh with exact form factors, solved directly: a reference for "
+          "small scenes",
+          {"basis", "divisions"},
+          [](const SolverScene& in, const LightSolverOptions& options, const ExecutionContext& context) {
+            PENUMBRA_CHECK(!in.goes_on_from);
+            return std::make_unique<DenseSolver>(in.scene, in.visibility, options.dense, context);
+          }};
 }
 
 }  // namespace penumbra

@@ -156,8 +156,7 @@ void AddTransport(const DenseSystem& system, const PatchVisibility& visibility, 
          ++s) {
       const DenseElement& source = system.elements[s];
       nodes.clear();
-      AddVisibleSourceNodes(view, at, scene, pair.source, source.polygon, visibility.Blockers(pair), patch,
-                            nodes);
+      AddVisibleSourceNodes(view, source.polygon, visibility.Blockers(pair), patch, nodes);
       if (nodes.empty()) continue;
       ElementBasis::Values monomials{};
       for (const SourceNode& node : nodes) source.basis.AddMonomials(node.position, node.weight, monomials);

@@ -30,6 +30,7 @@ namespace penumbra {
 
 struct DenseOptions {
   BasisDegree degree = BasisDegree::kConstant;
+  int divisions = 4;  // of each patch's sides into elements: a power of two (UniformForest)
   // Of form factors between constant elements, where something stands between: the relative error that is
   // asked for, and the points that a pair may cost (AreaFormFactorOptions). Others are exact but for
   // rounding.

@@ -101,8 +101,12 @@ ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch, st
       const RayCaster::Hit hit = caster.Cast(ray.origin, ray.direction, id);
       if (hit.patch == kNoPatch) ++away[p];
       if (hit.patch == kNoPatch || hit.front) continue;
-      const RayCaster::Hit lid = caster.Cast(ray.origin - 3 * lift * patch.normal, patch.normal, id);
-      ++(lid.patch != kNoPatch && lid.distance <= 4 * lift ? covered : back)[p];
+      // A ray through the patch, from behind it (the ray above began before it): what lies on the patch is a
+      // lid.
+      constexpr double kLiftsBehind = 3;
+      const RayCaster::Hit lid =
+          caster.Cast(ray.origin - kLiftsBehind * lift * patch.normal, patch.normal, id);
+      ++(lid.patch != kNoPatch && lid.distance <= (kLiftsBehind + 1) * lift ? covered : back)[p];
     }
   });
   double area = 0;

@@ -10,6 +10,10 @@
 namespace penumbra {
 namespace {
 
+// Seeds begin this far apart in the sequence. A prime, so that few seeds share a beginning with some ray of
+// others.
+constexpr std::uint64_t kSeedStride = 7919;
+
 Vec3 CosineDirection(const Vec3& normal, double s, double t) {
   const Frame frame = MakeFrame(Vec3::Zero(), normal);
   const double radius = std::sqrt(s), angle = 2 * std::numbers::pi * t;
@@ -21,7 +25,7 @@ Vec3 CosineDirection(const Vec3& normal, double s, double t) {
 DiffuseRay MakeDiffuseRay(std::span<const Vec3> polygon, const Vec3& normal, double lift, std::size_t i,
                           std::uint64_t seed) {
   std::array<double, 4> x;
-  for (std::size_t d = 0; d < 4; ++d) x[d] = AdditiveRecurrence(i + 7919 * seed, kR4Alpha[d]);
+  for (std::size_t d = 0; d < 4; ++d) x[d] = AdditiveRecurrence(i + kSeedStride * seed, kR4Alpha[d]);
   return {PointOn(polygon, x[0], x[1]) + lift * normal, CosineDirection(normal, x[2], x[3])};
 }
 

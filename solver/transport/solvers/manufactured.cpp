@@ -17,8 +17,8 @@ Rgb FieldIrradiance(const Scene& scene, const PatchVisibility& visibility, const
   for (const PatchPair& pair : visibility.SourcesOf(patch)) {
     if (!view.FaceSource(pair.source)) continue;
     nodes.clear();
-    AddVisibleSourceNodes(view, at, scene, pair.source, scene.patches[pair.source].Vertices(),
-                          visibility.Blockers(pair), patch, nodes);
+    AddVisibleSourceNodes(view, scene.patches[pair.source].Vertices(), visibility.Blockers(pair), patch,
+                          nodes);
     for (const SourceNode& node : nodes) irradiance += node.weight * field(pair.source, node.position);
   }
   return irradiance;

@@ -60,8 +60,7 @@ Rgb LightToCome(const PushPull& push_pull, const RadiositySolution& solution,
 }
 
 Settled Settle(PushPull& push_pull, RadiositySolution& solution, std::span<const Rgb> correction,
-               IterationScheme scheme, Acceleration acceleration, double cutoff,
-               const ExecutionContext& context) {
+               const SettlingOptions& options, const ExecutionContext& context) {
   const Rgb to_come = LightToCome(push_pull, solution, context);
   const std::span<const ElementId> leaves = push_pull.leaves();
   std::vector<double> area;
@@ -79,15 +78,15 @@ Settled Settle(PushPull& push_pull, RadiositySolution& solution, std::span<const
   settled.to_come = to_come.maxCoeff();
   while (settled.sweeps < kMaxSweeps && !context.Cancelled()) {
     const std::vector<Rgb> before = light_of_leaves();
-    settled.residual = Residual(push_pull.Sweep(scheme, correction), to_come, push_pull);
+    settled.residual = Residual(push_pull.Sweep(options.scheme, correction), to_come, push_pull);
     ++settled.sweeps;
     // What a sweep leaves is bound by its change from wherever it began: a guess need not be good.
-    if (settled.residual <= cutoff) break;
+    if (settled.residual <= options.cutoff) break;
     stagnant = settled.residual < nearest ? 0 : stagnant + 1;
     nearest = std::min(nearest, settled.residual);
     if (stagnant == kStagnant) break;
     // The last word is a sweep's.
-    if (acceleration == Acceleration::kNone || settled.sweeps == kMaxSweeps) continue;
+    if (options.acceleration == Acceleration::kNone || settled.sweeps == kMaxSweeps) continue;
     std::vector<Rgb> guess = light_of_leaves();
     anderson.Improve(before, guess);
     for (std::size_t i = 0; i < leaves.size(); ++i) push_pull.Light(leaves[i], guess[i]);

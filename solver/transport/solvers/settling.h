@@ -34,9 +34,14 @@ struct Settled {
   double to_come = 0;  // LightToCome() of the channel where it is most
 };
 
-// Sweeps until the residual is at most `cutoff`, or until cancelled.
+struct SettlingOptions {
+  IterationScheme scheme;
+  Acceleration acceleration;
+  double cutoff;  // the residual at which the light has settled
+};
+
+// Sweeps until the light has settled, or until cancelled.
 Settled Settle(PushPull& push_pull, RadiositySolution& solution, std::span<const Rgb> correction,
-               IterationScheme scheme, Acceleration acceleration, double cutoff,
-               const ExecutionContext& context);
+               const SettlingOptions& options, const ExecutionContext& context);
 
 }  // namespace penumbra

@@ -99,10 +99,10 @@ void AddSourceNodes(const ReceiverPoint& at, const Patch& source, std::span<cons
     add.Add({part[0], part[i - 1], part[i], part[i + 1 < part.size() ? i + 1 : i]}, 0);
 }
 
-void AddVisibleSourceNodes(PointView& view, const ReceiverPoint& at, const Scene& scene, PatchId source,
-                           std::span<const Vec3> part, std::span<const PatchId> candidates, PatchId own,
-                           std::vector<SourceNode>& nodes) {
-  const Patch& patch = scene.patches[static_cast<std::size_t>(source)];
+void AddVisibleSourceNodes(PointView& view, std::span<const Vec3> part, std::span<const PatchId> candidates,
+                           PatchId own, std::vector<SourceNode>& nodes) {
+  const ReceiverPoint& at = view.at();
+  const Patch& patch = view.Source();
   const DirectionPolygon seen = view.SeeSource(part);
   if (seen.empty()) return;
   std::vector<Occluder>& occluders = view.occluder_stack();

@@ -39,10 +39,9 @@ void AddSourceNodes(const ReceiverPoint& at, const Patch& source, std::span<cons
                     std::vector<SourceNode>& nodes);
 
 // The same for what the point sees of any convex part of a source, above the horizon and past the candidates,
-// which are cut out exactly; `own` is the receiver's patch. REQUIRES: view.FaceSource(source), which gave
-// true.
-void AddVisibleSourceNodes(PointView& view, const ReceiverPoint& at, const Scene& scene, PatchId source,
-                           std::span<const Vec3> part, std::span<const PatchId> candidates, PatchId own,
-                           std::vector<SourceNode>& nodes);
+// which are cut out exactly; `own` is the receiver's patch. REQUIRES: view.FaceSource() of that source, which
+// gave true.
+void AddVisibleSourceNodes(PointView& view, std::span<const Vec3> part, std::span<const PatchId> candidates,
+                           PatchId own, std::vector<SourceNode>& nodes);
 
 }  // namespace penumbra

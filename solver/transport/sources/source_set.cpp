@@ -55,14 +55,15 @@ std::vector<CellTriangle> JoinQuarters(std::span<const Fragment> fragments) {
       continue;
     }
     open.push_back(pieces.size() - 1);
-    while (open.size() >= 4) {
-      const std::size_t* last = &open[open.size() - 4];
+    constexpr std::size_t kQuarters = 4;
+    while (open.size() >= kQuarters) {
+      const std::size_t* last = &open[open.size() - kQuarters];
       const CellTriangle &a = pieces[last[0]], &b = pieces[last[1]], &c = pieces[last[2]],
                          &middle = pieces[last[3]];
       if (!AreQuarters(a, b, c, middle)) break;
       const CellTriangle whole = {
           {a.corner[0], b.corner[1], c.corner[2]}, 0, 1 + a.pieces + b.pieces + c.pieces + middle.pieces};
-      open.resize(open.size() - 4);
+      open.resize(open.size() - kQuarters);
       pieces.push_back(whole);
       open.push_back(pieces.size() - 1);
     }

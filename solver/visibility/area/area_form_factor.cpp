@@ -23,6 +23,13 @@ constexpr double kShareOfClear = 0.1;
 // Points that each of many pairs may cost at least.
 constexpr std::size_t kLeastOfMany = 2000;
 
+// Pairs that err by no more than this part of what each of them may are left as they are.
+constexpr double kGoodAlready = 0.5;
+
+// What lies outside an edge of a triangle by less than this, relative to the extent of the patch that the
+// triangle is part of, is on the edge: some hundred times the rounding of a height above a plane.
+constexpr double kOnEdge = 1e-13;
+
 // Counts pairs from several threads, and tells the context.
 class PairCounter {
  public:
@@ -77,7 +84,7 @@ std::vector<AreaPart> PartsOfFace(const Scene& scene, std::int32_t face) {
         const Vec3 edge = triangle[(i + 1) % triangle.size()] - triangle[i];
         const Vec3 inwards = patch.normal.cross(edge);
         if (inwards.isZero(0)) continue;
-        part = ClipToHalfSpace(part, inwards.normalized(), triangle[i], 1e-13 * patch.extent);
+        part = ClipToHalfSpace(part, inwards.normalized(), triangle[i], kOnEdge * patch.extent);
       }
       if (part.empty()) continue;
     }
@@ -147,7 +154,7 @@ class PairsOfParts {
       now += FluxError(k);
     }
     if (now <= asked) return;
-    const double share = 0.5 * asked / static_cast<double>(which.size());
+    const double share = kGoodAlready * asked / static_cast<double>(which.size());
     std::erase_if(which, [&](std::size_t k) { return FluxError(k) <= share; });
     AreaFormFactorOptions fine = options;
     fine.tolerance = fine.clear_tolerance = 0;

@@ -1,6 +1,7 @@
 #include "solver/visibility/area/event_lines.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -17,6 +18,27 @@ constexpr double kLowEdge = 0.05, kGrading = 8;
 // Lines between two blockers grow as the square of their number: beyond this, halving finds them.
 constexpr std::size_t kMostPairedBlockers = 40;
 constexpr std::size_t kMostLines = 4096;
+
+// A plane that meets the area's at an angle of a smaller sine than this does so in a line whose direction
+// roundings of 1e-16 turn by 1e-7 and more. Such a line helps nobody; the change is so slow there that
+// halving finds it.
+constexpr double kLeastSine = 1e-9;
+
+// A line has two normals, of which one counts: the one that looks upwards, and to the right if it rises by no
+// more than this. A tenth of the angle that MergeLines() tells apart.
+constexpr double kLevel = 1e-9;
+
+// Where a blocker touches the area the integrand jumps, where it only stands before it the slope does. A
+// choice: lines of contacts are cut along before any others of about their length.
+constexpr double kContactWeight = 8;
+
+// Where along a line it is asked whether the source is behind two blockers, from 0 to 1: near the ends, and
+// evenly between.
+constexpr std::array<double, 5> kAskedAt = {0.02, 0.25, 0.5, 0.75, 0.98};
+
+// The integrand changes over about this share of the distance of what makes a line: half of a change lies on
+// either side of it.
+constexpr double kReachShare = 0.5;
 
 double DistanceToSegment(const Vec3& x, const Vec3& p, const Vec3& q) {
   const Vec3 along = q - p;
@@ -108,11 +130,11 @@ void EventLineFinder::FindLines(std::span<const PatchId> blockers) {
     const Vec3 normal(pair_.frame.u.dot(patch.normal), pair_.frame.v.dot(patch.normal),
                       pair_.frame.n.dot(patch.normal));
     const double length = normal.head<2>().norm();
-    if (length > 1e-9) {
+    if (length > kLeastSine) {
       EventLine line;
       line.normal = normal.head<2>() / length;
       line.offset = normal.dot(local[0]) / length;
-      line.weight = touches ? 8 : 1;
+      line.weight = touches ? kContactWeight : 1;
       for (std::size_t i = 0; i < local.size(); ++i)
         line.events.push_back({kNoPatch, blocker, local[i], local[i], local[(i + 1) % local.size()], true});
       AddStretch(line, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity());
@@ -144,7 +166,7 @@ void EventLineFinder::AddWedge(const Vec3& v, const Vec3& p, const Vec3& q, Patc
   if (v.z() <= rounding) return;
   const Vec3 normal = (p - v).cross(q - v);
   const double length = normal.head<2>().norm();
-  if (length <= 1e-9 * (p - v).norm() * (q - v).norm()) return;
+  if (length <= kLeastSine * (p - v).norm() * (q - v).norm()) return;
   EventLine line;
   line.normal = normal.head<2>() / length;
   line.offset = normal.dot(v) / length;
@@ -176,7 +198,7 @@ void EventLineFinder::AddWedge(const Vec3& v, const Vec3& p, const Vec3& q, Patc
   // Two blockers matter where the source is behind them.
   const EventLine& last = lines_.back();
   bool matters = false;
-  for (const double s : {0.02, 0.25, 0.5, 0.75, 0.98})
+  for (const double s : kAskedAt)
     matters =
         matters ||
         LooksAtSource(last.normal * last.offset + last.Along() * (last.low + s * (last.high - last.low)), v);
@@ -213,7 +235,8 @@ void EventLineFinder::MergeLines() {
   std::vector<Key> keys;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     EventLine& line = lines_[i];
-    const bool flip = line.normal.y() < -1e-9 || (std::abs(line.normal.y()) <= 1e-9 && line.normal.x() < 0);
+    const bool flip =
+        line.normal.y() < -kLevel || (std::abs(line.normal.y()) <= kLevel && line.normal.x() < 0);
     if (flip) {
       line.normal = -line.normal;
       line.offset = -line.offset;
@@ -245,7 +268,7 @@ void EventLineFinder::MergeLines() {
     return a.weight * (a.high - a.low) > b.weight * (b.high - b.low);
   });
   for (EventLine& line : merged)
-    line.reach = std::min(pair_.source_breadth, 0.5 * Reach(line, line.low, line.high));
+    line.reach = std::min(pair_.source_breadth, kReachShare * Reach(line, line.low, line.high));
   all_known_ = merged.size() <= kMostLines;
   if (merged.size() > kMostLines) merged.resize(kMostLines);
   lines_ = std::move(merged);

@@ -41,6 +41,19 @@ constexpr double kLeastAllowed = 2e-17;
 // Of the error that is asked for, the share that may stay in cells that are not refined in a round.
 constexpr double kLeftAlone = 0.3;
 
+// The same, of the error that is asked for: what is below that as a whole need not shrink.
+constexpr double kLeftOfAsked = 0.5;
+
+// The nearest points of a rule see what changes on either side of a line over more than this share of the gap
+// between them.
+constexpr double kSeenInGap = 0.5;
+
+// A point is where it is meant to be but for this many roundings of its coordinates, relative to the extent.
+constexpr double kPointRoundings = 4;
+// A form factor falls with the square of the distance and with two cosines that change no faster than it:
+// relative to itself by four times a move over the distance.
+constexpr double kFallOff = 4;
+
 struct Cell {
   Quad quad;
   std::vector<PatchId> blockers;
@@ -262,10 +275,12 @@ void PairIntegral::Evaluate(Cell& cell, const KronrodRule<N>& rule) const {
 void PairIntegral::FindUnseen(Cell& cell, double largest) const {
   constexpr KronrodRule<7> rule = kSeven;
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  std::array<Vec2, 49> points;
-  for (std::size_t i = 0; i < 49; ++i) points[i] = At(cell.quad, rule.node[i / 7], rule.node[i % 7]);
+  constexpr std::size_t kNodes = 7;
+  std::array<Vec2, kNodes * kNodes> points;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = At(cell.quad, rule.node[i / kNodes], rule.node[i % kNodes]);
   const Polygon2 polygon = ToPolygon(cell.quad);
-  largest = std::max(largest, Visible(points[24], {}));
+  largest = std::max(largest, Visible(points[points.size() / 2], {}));
   double worst = 0;
   for (const std::int32_t l : cell.lines) {
     const EventLine& line = events_.lines[static_cast<std::size_t>(l)];
@@ -277,7 +292,7 @@ void PairIntegral::FindUnseen(Cell& cell, double largest) const {
     }
     const bool one_side = above == kNone || below == kNone;
     const double gap = std::max(above, below);
-    if ((!one_side && line.reach > 0.5 * gap) || !Alive(line, cell.blockers)) continue;
+    if ((!one_side && line.reach > kSeenInGap * gap) || !Alive(line, cell.blockers)) continue;
     const Stretch inside = Inside(line, polygon);
     const double scale = std::min(
         pair_.source_breadth, Reach(line, std::max(line.low, inside.low), std::min(line.high, inside.high)));
@@ -288,7 +303,7 @@ void PairIntegral::FindUnseen(Cell& cell, double largest) const {
       for (const Vec2& p : polygon)
         depth = std::max(depth, (below == kNone ? -1 : 1) * (line.normal.dot(p) - line.offset));
       hidden = depth * length * largest * (depth < scale ? depth / scale : 1);
-    } else if (scale < 0.5 * gap) {
+    } else if (scale < kSeenInGap * gap) {
       hidden = scale * length * largest;
     } else {
       continue;
@@ -379,7 +394,7 @@ FormFactorEstimate PairIntegral::Integrate() {
     double left = 0;
     for (const std::size_t i : order) left += cells_[i].Error();
     std::size_t chosen = 0;
-    const double alone = std::max(kLeftAlone * left, 0.5 * asked);
+    const double alone = std::max(kLeftAlone * left, kLeftOfAsked * asked);
     while (chosen < order.size() && (left > alone || chosen == 0)) left -= cells_[order[chosen++]].Error();
     std::vector<std::vector<Cell>> parts(chosen);
     ParallelFor(chosen, 1, [&](std::size_t k) {
@@ -397,10 +412,10 @@ FormFactorEstimate PairIntegral::Integrate() {
   // depends on how near the source is.
   const double apart = (Centroid(source_part_) - pair_.frame.FromPlane(pair_.area[0])).norm() -
                        pair_.diameter - Diameter(source_part_);
-  const double nearness = std::min(1 / pair_.diameter, apart > 0 ? 4 / apart : 1 / pair_.diameter);
+  const double nearness = std::min(1 / pair_.diameter, apart > 0 ? kFallOff / apart : 1 / pair_.diameter);
   const double rounding =
       kFormFactorError +
-      4 * std::numeric_limits<double>::epsilon() * scene_.patches[receiver_].extent * nearness +
+      kPointRoundings * std::numeric_limits<double>::epsilon() * scene_.patches[receiver_].extent * nearness +
       (shadowed ? kShadowNoise : 0);
   return {value, error + rounding * value, !shadowed, points};
 }

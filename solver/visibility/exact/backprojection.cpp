@@ -111,10 +111,11 @@ BackprojectedSource Backprojection::Project(const DirectionPolygon& source,
       result.triangle.push_back({{first + place[0], first + place[1], first + place[2]}, visible});
     });
     for (std::size_t e = 0; e < image.edges().size(); ++e) {
-      const std::int32_t occluder = image.edges()[e].outline;
+      const EdgeOwner owner = image.edges()[e].owner;
+      if (!owner.IsOccluder()) continue;
       const std::vector<std::int32_t>& on = image.PlacesOn(static_cast<std::int32_t>(e));
-      for (std::size_t k = 1; occluder >= 0 && k < on.size(); ++k)
-        result.blocker_edge.push_back({first + on[k - 1], first + on[k], occluder});
+      for (std::size_t k = 1; k < on.size(); ++k)
+        result.blocker_edge.push_back({first + on[k - 1], first + on[k], owner.OccluderNumber()});
     }
   });
   std::sort(result.blocker_edge.begin(), result.blocker_edge.end(), [](const auto& p, const auto& q) {

@@ -66,9 +66,27 @@ struct ImageBox {
   }
 };
 
-// What an edge belongs to, if not to the occluder with that number.
-inline constexpr std::int32_t kSourceOutline = -1;
-inline constexpr std::int32_t kDiagonal = -2;  // between two parts of one occluder
+// What an edge belongs to.
+class EdgeOwner {
+ public:
+  // The outline of the source.
+  static constexpr EdgeOwner Source() { return EdgeOwner(kSource); }
+  // No outline: the edge is the border between two parts of one occluder.
+  static constexpr EdgeOwner Diagonal() { return EdgeOwner(kDiagonal); }
+  // The outline of an occluder, by its place in the list of occluders.
+  static constexpr EdgeOwner Occluder(std::int32_t occluder) { return EdgeOwner(occluder); }
+
+  constexpr bool IsOccluder() const { return code_ >= 0; }
+  // REQUIRES: the owner is an occluder.
+  constexpr std::int32_t OccluderNumber() const { return code_; }
+  constexpr bool operator==(const EdgeOwner&) const = default;
+
+ private:
+  static constexpr std::int32_t kSource = -1, kDiagonal = -2;
+  constexpr explicit EdgeOwner(std::int32_t code) : code_(code) {}
+
+  std::int32_t code_;
+};
 
 template <class Kernel>
 class ExactImage {
@@ -85,10 +103,10 @@ class ExactImage {
 
   // An edge of the source's or of an occluder's outline.
   struct Edge {
-    Line line;                              // what the outline bounds lies on its positive side
-    std::int32_t outline = kSourceOutline;  // or kDiagonal or the occluder's number
-    bool seen = false;                      // a part of it lies in the source
-    std::size_t from = 0, to = 0;           // that part, as points of this image
+    Line line;  // what the outline bounds lies on its positive side
+    EdgeOwner owner = EdgeOwner::Source();
+    bool seen = false;             // a part of it lies in the source
+    std::size_t from = 0, to = 0;  // that part, as points of this image
   };
 
   // A convex region bounded by the lines of edges[first ... last - 1].
@@ -171,6 +189,8 @@ class ExactImage {
   }
 
  private:
+  // Of an image coordinate where lengths are compared: the rounding of 1, which is the size of the image.
+  static constexpr double kPlaceAccuracy = 1e-16;
   static constexpr double kLastDigits = 2 * std::numeric_limits<double>::epsilon();
 
   static constexpr std::size_t kNoPoint = std::numeric_limits<std::size_t>::max();
@@ -232,6 +252,9 @@ class ExactImage {
   bool ImageSource(std::span<const std::array<Number, 3>> source);
   void ImageOccluder(const Cone& cone, std::int32_t number, double min_segment);
   void AddOccluder(std::span<const Homogeneous> outline, std::int32_t number);
+  using Directions = std::vector<std::array<Number, 3>>;
+  static Directions PartBefore(const Directions& polygon, const Vec3& plane,
+                               const std::array<Number, 3>& zenith);
   void CollapseShort(double length, std::vector<Homogeneous>& outline) const;
   void ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge, std::size_t& point_a,
                     std::size_t& point_b);
@@ -309,7 +332,7 @@ bool ExactImage<Kernel>::ImageSource(std::span<const std::array<Number, 3>> sour
 template <class Kernel>
 void ExactImage<Kernel>::CollapseShort(double length, std::vector<Homogeneous>& outline) const {
   const auto at = [&](const Homogeneous& h) {
-    return Vec2(ToDouble(h.x / h.w, 1e-16), ToDouble(h.y / h.w, 1e-16));
+    return Vec2(ToDouble(h.x / h.w, kPlaceAccuracy), ToDouble(h.y / h.w, kPlaceAccuracy));
   };
   for (std::size_t k = 0; k < outline.size() && outline.size() >= 3;) {
     const std::size_t next = k + 1 == outline.size() ? 0 : k + 1;
@@ -348,7 +371,9 @@ void ExactImage<Kernel>::ImageOccluder(const Cone& cone, std::int32_t number, do
     for (const Point& p : point_)
       for (const Point& q : point_)
         longest = std::max(
-            longest, plane_.Lift({ToDouble(p.x() - q.x(), 1e-16), ToDouble(p.y() - q.y(), 1e-16)}).norm());
+            longest,
+            plane_.Lift({ToDouble(p.x() - q.x(), kPlaceAccuracy), ToDouble(p.y() - q.y(), kPlaceAccuracy)})
+                .norm());
     CollapseShort(min_segment * longest, outline);
   }
   AddOccluder(outline, number);
@@ -389,7 +414,7 @@ void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const Homogeneous &a = outline[k], &b = outline[k + 1 == outline.size() ? 0 : k + 1];
     Edge edge;
-    edge.outline = a.diagonal ? kDiagonal : number;
+    edge.owner = a.diagonal ? EdgeOwner::Diagonal() : EdgeOwner::Occluder(number);
     edge.line = LineThrough(a, b);
     if (!edge.line.is_degenerate()) {
       edges_.push_back(edge);
@@ -531,13 +556,45 @@ void ExactImage<Kernel>::FindPlaces() {
   }
 }
 
+// The part of a polygon of directions before the plane through the point. Where the cut runs over the zenith
+// it may be half a great circle, and must have a vertex there.
+template <class Kernel>
+auto ExactImage<Kernel>::PartBefore(const Directions& polygon, const Vec3& plane,
+                                    const std::array<Number, 3>& zenith) -> Directions {
+  std::vector<Number> height;
+  for (const auto& d : polygon) height.push_back(d[0] * plane.x() + d[1] * plane.y() + d[2] * plane.z());
+  Directions kept;
+  if (std::none_of(height.begin(), height.end(), [](const Number& h) { return h > 0; })) return kept;
+  std::vector<bool> in_plane;
+  const auto add = [&](const std::array<Number, 3>& d, bool cut) {
+    kept.push_back(d);
+    in_plane.push_back(cut);
+  };
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const std::size_t next = k + 1 == polygon.size() ? 0 : k + 1;
+    const auto &a = polygon[k], &b = polygon[next];
+    const Number &ha = height[k], &hb = height[next];
+    if (ha >= 0) add(a, ha == 0);
+    if (!((ha > 0 && hb < 0) || (ha < 0 && hb > 0))) continue;
+    const Number wa = abs(hb), wb = abs(ha);
+    add({wa * a[0] + wb * b[0], wa * a[1] + wb * b[1], wa * a[2] + wb * b[2]}, true);
+  }
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const std::size_t next = k + 1 == kept.size() ? 0 : k + 1;
+    const auto &a = kept[k], &b = kept[next];
+    if (!in_plane[k] || !in_plane[next] || a[0] * b[0] + a[1] * b[1] + a[2] * b[2] >= 0) continue;
+    kept.insert(kept.begin() + static_cast<std::ptrdiff_t>(k) + 1, zenith);
+    break;
+  }
+  return kept;
+}
+
 template <class Kernel>
 template <class Body>
 void ExactImage<Kernel>::ForEachPart(const DirectionPolygon& source, std::span<const Occluder> occluders,
                                      const Vec3& normal, double min_segment, const Body& body) {
   if (source.size() < 3) return;
-  using Polygon = std::vector<std::array<Number, 3>>;
-  Polygon whole;
+  Directions whole;
   for (int v = 0; v < source.size(); ++v)
     whole.push_back({Number(source[v].x()), Number(source[v].y()), Number(source[v].z())});
 
@@ -564,39 +621,10 @@ void ExactImage<Kernel>::ForEachPart(const DirectionPolygon& source, std::span<c
   int across = 0;
   normal.cwiseAbs().minCoeff(&across);
   const Vec3 t = normal.cross(Vec3::Unit(across)).normalized(), u = normal.cross(t);
-  // Where the cut runs over the zenith it may be half a great circle, and must have a vertex there.
   const std::array<Number, 3> zenith = {Number(normal.x()), Number(normal.y()), Number(normal.z())};
-  const auto keep = [&](const Polygon& polygon, const Vec3& plane) {
-    std::vector<Number> height;
-    for (const auto& d : polygon) height.push_back(d[0] * plane.x() + d[1] * plane.y() + d[2] * plane.z());
-    Polygon kept;
-    if (std::none_of(height.begin(), height.end(), [](const Number& h) { return h > 0; })) return kept;
-    std::vector<bool> in_plane;
-    const auto add = [&](const std::array<Number, 3>& d, bool cut) {
-      kept.push_back(d);
-      in_plane.push_back(cut);
-    };
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const std::size_t next = k + 1 == polygon.size() ? 0 : k + 1;
-      const auto &a = polygon[k], &b = polygon[next];
-      const Number &ha = height[k], &hb = height[next];
-      if (ha >= 0) add(a, ha == 0);
-      if (!((ha > 0 && hb < 0) || (ha < 0 && hb > 0))) continue;
-      const Number wa = abs(hb), wb = abs(ha);
-      add({wa * a[0] + wb * b[0], wa * a[1] + wb * b[1], wa * a[2] + wb * b[2]}, true);
-    }
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-      const std::size_t next = k + 1 == kept.size() ? 0 : k + 1;
-      const auto &a = kept[k], &b = kept[next];
-      if (!in_plane[k] || !in_plane[next] || a[0] * b[0] + a[1] * b[1] + a[2] * b[2] >= 0) continue;
-      kept.insert(kept.begin() + static_cast<std::ptrdiff_t>(k) + 1, zenith);
-      break;
-    }
-    return kept;
-  };
   for (const double st : {1.0, -1.0})
     for (const double su : {1.0, -1.0}) {
-      const Polygon part = keep(keep(whole, st * t), su * u);
+      const Directions part = PartBefore(PartBefore(whole, st * t, zenith), su * u, zenith);
       if (part.size() >= 3)
         body(ExactImage(ImagePlane(normal + st * t + su * u), part, occluders, min_segment));
     }

@@ -79,11 +79,10 @@ void ClipToReach(std::span<const Vec3> from, std::span<const Vec3> through, doub
   if (!polygon.empty()) clip(through, from);
 }
 
-// Where segments between corners of the two cross the wall's plane; until the next call.
-std::span<const Vec3> Crossings(const Wall& wall, std::span<const Vec3> before,
-                                std::span<const Vec3> behind) {
-  thread_local std::vector<Vec3> points;
-  points.clear();
+// Where segments between corners of the two cross the wall's plane.
+std::vector<Vec3> Crossings(const Wall& wall, std::span<const Vec3> before, std::span<const Vec3> behind) {
+  std::vector<Vec3> points;
+  points.reserve(before.size() * behind.size());
   for (const Vec3& p : before) {
     const double hp = Height(wall.normal, wall.on, p);
     for (const Vec3& q : behind) {
@@ -172,7 +171,7 @@ bool BeamFinder::Separates(const Wall& wall, std::span<const Vec3> before,
 // The share of the segments between corners that the wall's parts cut.
 double BeamFinder::CornersHidden(const Wall& wall, std::span<const Vec3> before,
                                  std::span<const Vec3> behind) const {
-  const std::span<const Vec3> crossings = Crossings(wall, before, behind);
+  const std::vector<Vec3> crossings = Crossings(wall, before, behind);
   std::size_t hidden = 0;
   for (const Vec3& p : crossings)
     hidden += std::any_of(wall.parts.begin(), wall.parts.end(), [&](PatchId id) {
@@ -236,13 +235,15 @@ bool BeamFinder::Narrow(Stations& stations, const Wall& wall, Polygon3 piece) co
     before[i] = ahead(1);
     behind[i] = ahead(-1);
   }
+  // A plane through three corners has the rounding of each.
+  constexpr double kPlaneRoundings = 3;
   const auto clip = [&](const Polygon3& from, Polygon3& to) {
     // Heights are off by `rounding` at both polygons that span a plane, and by as many times that beyond them
     // as `to` is farther.
     double near = std::numeric_limits<double>::infinity(), far = 0;
     for (const Vec3& v : from) near = std::min(near, std::abs(Height(wall.normal, wall.on, v)));
     for (const Vec3& v : to) far = std::max(far, std::abs(Height(wall.normal, wall.on, v)));
-    const double slack = 3 * (rounding_ + kCoplanar * scale_) * (1 + far / near);
+    const double slack = kPlaneRoundings * (rounding_ + kCoplanar * scale_) * (1 + far / near);
     ClipToReach(from, piece, rounding_, slack, to);
     return !to.empty();
   };

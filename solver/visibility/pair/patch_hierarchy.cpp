@@ -14,6 +14,10 @@ double Reach(const HalfSpace& space, const Vec3& centre, const Vec3& half, doubl
   return space.normal.dot(centre) - space.offset + sign * space.normal.cwiseAbs().dot(half);
 }
 
+// What may be wrong about whether a box reaches into a half-space, in roundings of a height: those of the
+// box's centre and sizes, of the plane, and of the distance between them.
+constexpr double kMarginRoundings = 4;
+
 }  // namespace
 
 PatchHierarchy::PatchHierarchy(const Scene& scene, std::vector<PatchId> patches)
@@ -21,7 +25,7 @@ PatchHierarchy::PatchHierarchy(const Scene& scene, std::vector<PatchId> patches)
   if (order_.empty()) return;
   nodes_.reserve(2 * order_.size());
   Build(scene, 0, order_.size());
-  margin_ = 4 * HeightRounding(MaxAbs(nodes_[0].centre) + MaxAbs(nodes_[0].half));
+  margin_ = kMarginRoundings * HeightRounding(MaxAbs(nodes_[0].centre) + MaxAbs(nodes_[0].half));
 }
 
 void PatchHierarchy::Build(const Scene& scene, std::size_t first, std::size_t last) {

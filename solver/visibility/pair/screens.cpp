@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "solver/base/scratch.h"
 #include "solver/geometry/polygon.h"
 #include "solver/visibility/point/direction_polygon.h"
 
@@ -13,6 +14,9 @@ namespace {
 
 // No more patches than this, the largest of all, are looked at as screens.
 constexpr std::size_t kMostDiscs = 1024;
+
+// This many times as many patches are looked at as are asked for: some lie in the shadows of others.
+constexpr std::size_t kLookedAtForEach = 4;
 
 // From one point. The first half-space is what lies beyond the patch's plane.
 ConvexRegion PointShadow(const ReceiverPoint& at, const Patch& patch) {
@@ -69,7 +73,8 @@ void ScreenFinder::Find(std::span<const ReceiverPoint> from, double least, std::
                         std::vector<Screen>& screens) const {
   Vec3 eye = Vec3::Zero();
   for (const ReceiverPoint& at : from) eye += at.position / static_cast<double>(from.size());
-  thread_local std::vector<double> angle;
+  const Scratch<std::vector<double>> angles;
+  std::vector<double>& angle = *angles;
   const std::size_t size = patch_.size();
   angle.resize(size);
   // Not the cosine: a wall close by, seen at a flat angle from its middle, hides half of the world.
@@ -77,11 +82,11 @@ void ScreenFinder::Find(std::span<const ReceiverPoint> from, double least, std::
     const double x = centre_[0][i] - eye.x(), y = centre_[1][i] - eye.y(), z = centre_[2][i] - eye.z();
     angle[i] = area_[i] / (x * x + y * y + z * z + area_[i] / (2 * std::numbers::pi));
   }
-  thread_local std::vector<std::pair<double, std::size_t>> large;
-  large.clear();
+  const Scratch<std::vector<std::pair<double, std::size_t>>> large_ones;
+  std::vector<std::pair<double, std::size_t>>& large = *large_ones;
   for (std::size_t i = 0; i < size; ++i)
     if (angle[i] >= least) large.emplace_back(-angle[i], i);
-  const std::size_t looked_at = std::min(4 * count, large.size());
+  const std::size_t looked_at = std::min(kLookedAtForEach * count, large.size());
   std::partial_sort(large.begin(), large.begin() + static_cast<std::ptrdiff_t>(looked_at), large.end());
   screens.clear();
   for (std::size_t k = 0; k < looked_at && screens.size() < count; ++k) {

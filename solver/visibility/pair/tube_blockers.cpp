@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solver/base/scratch.h"
 #include "solver/visibility/pair/beams.h"
 #include "solver/visibility/pair/tube.h"
 
@@ -26,34 +27,40 @@ Polygon3 PartBefore(std::span<const Vec3> polygon, const Patch& patch, bool* cli
   return ClipToHalfSpace(polygon, patch.normal, patch.vertex[0], kCoplanar * scale);
 }
 
-// False, with nothing appended, if one candidate hides the ends from each other.
-bool FilterByTube(const Scene& scene, const Tube& tube, PatchId receiver, PatchId source,
-                  std::span<const PatchId> candidates, std::vector<PatchId>& blockers) {
-  const std::size_t before = blockers.size();
-  for (const PatchId candidate : candidates) {
-    if (candidate == receiver || candidate == source) continue;
-    const Patch& patch = scene.patches[candidate];
-    if (tube.Misses(patch.Vertices(), patch.normal)) continue;
-    if (tube.HiddenBy(patch.Vertices(), patch.normal)) {
-      blockers.resize(before);
-      return false;
-    }
-    blockers.push_back(candidate);
-  }
-  return true;
-}
+// A search for what stands in one tube.
+struct TubeSearch {
+  const Scene& scene;
+  const Tube& tube;
+  const TubeEnds& ends;
+  PatchId receiver, source;
 
-// The same, and false if walls hide them.
-bool FindInTube(const Scene& scene, const Tube& tube, const TubeEnds& ends, PatchId receiver, PatchId source,
-                std::span<const PatchId> candidates, std::vector<PatchId>& blockers) {
-  const std::size_t before = blockers.size();
-  if (!FilterByTube(scene, tube, receiver, source, candidates, blockers)) return false;
-  if (blockers.size() < before + kFewestOfWalls ||
-      !HiddenByWalls(scene, ends.receiver, ends.source, std::span(blockers).subspan(before)))
+  // False, with nothing appended, if one candidate hides the ends from each other.
+  bool Filter(std::span<const PatchId> candidates, std::vector<PatchId>& blockers) const {
+    const std::size_t before = blockers.size();
+    for (const PatchId candidate : candidates) {
+      if (candidate == receiver || candidate == source) continue;
+      const Patch& patch = scene.patches[candidate];
+      if (tube.Misses(patch.Vertices(), patch.normal)) continue;
+      if (tube.HiddenBy(patch.Vertices(), patch.normal)) {
+        blockers.resize(before);
+        return false;
+      }
+      blockers.push_back(candidate);
+    }
     return true;
-  blockers.resize(before);
-  return false;
-}
+  }
+
+  // The same, and false if walls hide them.
+  bool Find(std::span<const PatchId> candidates, std::vector<PatchId>& blockers) const {
+    const std::size_t before = blockers.size();
+    if (!Filter(candidates, blockers)) return false;
+    if (blockers.size() < before + kFewestOfWalls ||
+        !HiddenByWalls(scene, ends.receiver, ends.source, std::span(blockers).subspan(before)))
+      return true;
+    blockers.resize(before);
+    return false;
+  }
+};
 
 }  // namespace
 
@@ -70,35 +77,35 @@ std::optional<TubeEnds> ClipToEachOther(std::span<const Vec3> receiver, const Pa
 
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       std::span<const PatchId> candidates, std::vector<PatchId>& blockers) {
-  return candidates.empty() ||
-         FindInTube(scene, Tube(ends.receiver, ends.source), ends, receiver, source, candidates, blockers);
+  if (candidates.empty()) return true;
+  const Tube tube(ends.receiver, ends.source);
+  return TubeSearch{scene, tube, ends, receiver, source}.Find(candidates, blockers);
 }
 
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       const PatchHierarchy& hierarchy, std::vector<PatchId>& blockers) {
   const Tube tube(ends.receiver, ends.source);
-  thread_local std::vector<PatchId> candidates;
-  hierarchy.Find(tube.Region(), {}, candidates);
-  return FindInTube(scene, tube, ends, receiver, source, candidates, blockers);
+  const Scratch<std::vector<PatchId>> candidates;
+  hierarchy.Find(tube.Region(), {}, *candidates);
+  return TubeSearch{scene, tube, ends, receiver, source}.Find(*candidates, blockers);
 }
 
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
-                      std::span<const PatchId> candidates, std::vector<PatchId>& blockers,
-                      std::vector<PatchId>& first) {
-  first.clear();
+                      std::span<const PatchId> candidates, TubeBlockers& found) {
+  found.all.clear();
+  found.first.clear();
   if (candidates.empty()) return true;
   const Tube tube(ends.receiver, ends.source);
-  if (!FilterByTube(scene, tube, receiver, source, candidates, first)) return false;
-  const std::size_t before = blockers.size();
-  blockers.insert(blockers.end(), first.begin(), first.end());
-  if (first.size() < kFewestOfWalls) return true;
-  const Beams beams = FindBeams(scene, ends.receiver, ends.source, first);
+  if (!TubeSearch{scene, tube, ends, receiver, source}.Filter(candidates, found.all)) return false;
+  found.first = found.all;
+  if (found.all.size() < kFewestOfWalls) return true;
+  const Beams beams = FindBeams(scene, ends.receiver, ends.source, found.first);
   if (beams.hidden()) {
-    blockers.resize(before);
-    first.clear();
+    found.all.clear();
+    found.first.clear();
     return false;
   }
-  KeepBlockersOfBeams(scene, beams, first);
+  KeepBlockersOfBeams(scene, beams, found.first);
   return true;
 }
 

@@ -34,10 +34,15 @@ bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       const PatchHierarchy& hierarchy, std::vector<PatchId>& blockers);
 
-// The same, and `first` gets only as many of them as tell which segments between the ends are blocked: of
-// what stands in a blocked segment's way one at least is there, walls first (KeepBlockersOfBeams).
+struct TubeBlockers {
+  std::vector<PatchId> all;
+  // As many of them as tell which segments between the ends are blocked: of what stands in a blocked
+  // segment's way one at least is there, walls first (KeepBlockersOfBeams).
+  std::vector<PatchId> first;
+};
+
+// The same, with the blockers in place of what `found` held; none where the ends are hidden from each other.
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
-                      std::span<const PatchId> candidates, std::vector<PatchId>& blockers,
-                      std::vector<PatchId>& first);
+                      std::span<const PatchId> candidates, TubeBlockers& found);
 
 }  // namespace penumbra

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "solver/base/scratch.h"
 #include "solver/base/vector_dispatch.h"
 #include "solver/visibility/point/form_factor.h"
 
@@ -51,7 +52,7 @@ using LaneBits = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::in
 
 // A part of a source in the image.
 struct Piece : ImagePolygon {
-  std::array<std::int32_t, kCapacity> label;  // of the edge from vertex i to the next
+  std::array<EdgeLabel, kCapacity> label;  // of the edge from vertex i to the next
 
   Piece() {}  // NOLINT: the array stays as it is
   Piece(const Piece& other) : ImagePolygon() { *this = other; }
@@ -60,12 +61,12 @@ struct Piece : ImagePolygon {
     std::copy_n(other.label.begin(), size, label.begin());
     return *this;
   }
-  // With these labels; from 0 if none are given.
-  Piece(const ImagePolygon& polygon, std::span<const std::int32_t> labels) : ImagePolygon(polygon) {
-    for (int i = 0; i < size; ++i) label[i] = labels.empty() ? i : labels[i];
+  // With these labels; those of the source's edges if none are given.
+  Piece(const ImagePolygon& polygon, std::span<const EdgeLabel> labels) : ImagePolygon(polygon) {
+    for (int i = 0; i < size; ++i) label[i] = labels.empty() ? EdgeLabel::OfSource(i) : labels[i];
   }
 
-  void Add(double px, double py, std::int32_t label_to_next) {
+  void Add(double px, double py, EdgeLabel label_to_next) {
     label[size] = label_to_next;
     ImagePolygon::Add(px, py);
   }
@@ -164,13 +165,12 @@ struct Clipper::Impl {
   std::size_t depth = 0;  // of the stack; what lies above keeps its memory
   ImageEdges visible;
   std::span<const Occluder> occluders;
-  std::int32_t owner = 0;  // of the pieces that are found
+  PieceOwner owner = PieceOwner::Part(0);  // of the pieces that are found
   double snap = 0, dust = 0;
 
   bool Beside(const ImageCone& cone, const ImagePolygon& piece) const;
   Overlap Classify(Candidate& candidate, const ImagePolygon& piece, const Bounds& bounds) const;
-  void Split(const Piece& piece, const ImageLine& line, std::int32_t label, Piece* inside,
-             Piece* outside) const;
+  void Split(const Piece& piece, const ImageLine& line, EdgeLabel label, Piece* inside, Piece* outside) const;
   Overlap Narrow(const ImagePolygon& piece, std::size_t first, std::size_t last);
   void Sort(const Piece& piece, std::size_t first, std::size_t last, int halvings);
   void Halve(const Work& work, int halvings);
@@ -238,7 +238,7 @@ Clipper::~Clipper() = default;
 }
 
 // `inside` and `outside` become the parts of the piece on either side of a line; the cut gets the label.
-void Clipper::Impl::Split(const Piece& piece, const ImageLine& line, std::int32_t label, Piece* inside,
+void Clipper::Impl::Split(const Piece& piece, const ImageLine& line, EdgeLabel label, Piece* inside,
                           Piece* outside) const {
   std::array<double, Piece::kCapacity> height;
   for (int i = 0; i < piece.size; ++i) {
@@ -309,7 +309,7 @@ void Clipper::Impl::Halve(const Work& work, int halvings) {
   Piece low, high;
   Split(work.piece,
         along_x ? ImageLine{1, 0, -0.5 * (b.low_x + b.high_x)} : ImageLine{0, 1, -0.5 * (b.low_y + b.high_y)},
-        kInnerEdge, &high, &low);
+        EdgeLabel::Inner(), &high, &low);
   const std::size_t first = work.first, last = work.last;  // the stack may move from here on
   Sort(high, first, last, halvings);
   Sort(low, first, last, halvings);
@@ -330,7 +330,7 @@ void Clipper::Impl::CutOut(Work& work) {
   for (std::uint32_t lines = cutter.lines; lines != 0 && rest->size >= 3; lines &= lines - 1) {
     const int k = std::countr_zero(lines);
     const ImageCone& cone = cones[cutter.cone];
-    Split(*rest, {cone.a[k], cone.b[k], cone.h[k]}, OccluderEdge(cone.occluder, k), next, &outside);
+    Split(*rest, {cone.a[k], cone.b[k], cone.h[k]}, EdgeLabel::OfOccluder(cone.occluder, k), next, &outside);
     std::swap(rest, next);
     Sort(outside, first + 1, last, halvings);
   }
@@ -348,6 +348,14 @@ void Clipper::Impl::Run() {
       CutOut(work);
     }
   }
+}
+
+void Clipper::Clear() {
+  impl_->cones.clear();
+  impl_->candidates.clear();
+  impl_->depth = 0;
+  impl_->visible.Clear();
+  impl_->occluders = {};
 }
 
 Clipper::Candidates Clipper::Begin(const ImageFrame& frame, const ImagePolygon& whole,
@@ -380,8 +388,8 @@ Overlap Clipper::Narrow(const ImagePolygon& polygon, const Candidates& candidate
 
 void Clipper::Restore(const Candidates& candidates) { impl_->candidates.resize(candidates.last); }
 
-void Clipper::CutOut(const ImagePolygon& polygon, const Candidates& candidates, std::int32_t owner,
-                     std::span<const std::int32_t> label) {
+void Clipper::CutOut(const ImagePolygon& polygon, const Candidates& candidates, PieceOwner owner,
+                     std::span<const EdgeLabel> label) {
   Impl& impl = *impl_;
   impl.owner = owner;
   if (candidates.empty()) {
@@ -410,36 +418,41 @@ ImageEdges& Clipper::Visible() { return impl_->visible; }
 
 namespace {
 
-// Calls use(frame) for each image of the source, with what is visible of it in the clipper.
+// What clipping one source needs.
+struct Workshop {
+  Clipper clipper;
+  std::vector<ImagePart> parts;
+
+  void Clear() {
+    clipper.Clear();
+    parts.clear();
+  }
+};
+
+// Calls use(frame, clipper) for each image of the source, with what is visible of it in the clipper.
 template <class Use>
-void ForEachImage(Clipper& clipper, const DirectionPolygon& source, std::span<const Occluder> occluders,
-                  const Vec3& normal, const Use& use) {
-  thread_local std::vector<ImagePart> parts;
-  parts.clear();
-  SplitForImages(source, normal, parts);
-  for (const ImagePart& part : parts) {
+void ForEachImage(const DirectionPolygon& source, std::span<const Occluder> occluders, const Vec3& normal,
+                  const Use& use) {
+  const Scratch<Workshop> workshop;
+  Clipper& clipper = workshop->clipper;
+  SplitForImages(source, normal, workshop->parts);
+  for (const ImagePart& part : workshop->parts) {
     const ImageFrame frame(part.polygon, part.axis);
     const ImagePolygon image = frame.Image(part.polygon);
     const Clipper::Candidates all = clipper.Begin(frame, image, occluders);
     Clipper::Candidates own;
     if (clipper.Narrow(image, all, &own) == Overlap::kAll) continue;
-    clipper.CutOut(image, own, 0, part.label);
-    use(frame);
+    clipper.CutOut(image, own, PieceOwner::Part(0), part.label);
+    use(frame, clipper);
   }
-}
-
-Clipper& ThreadClipper() {
-  thread_local Clipper clipper;
-  return clipper;
 }
 
 }  // namespace
 
 void ForEachVisiblePiece(const DirectionPolygon& source, std::span<const Occluder> occluders,
                          const Vec3& normal, const std::function<void(std::span<const Vec3>)>& visit) {
-  Clipper& clipper = ThreadClipper();
   std::vector<Vec3> directions;
-  ForEachImage(clipper, source, occluders, normal, [&](const ImageFrame& frame) {
+  ForEachImage(source, occluders, normal, [&](const ImageFrame& frame, Clipper& clipper) {
     const ImageEdges& visible = clipper.Visible();
     for (std::size_t p = 0; p < visible.Pieces(); ++p) {
       directions.clear();
@@ -457,7 +470,7 @@ void AddVisible(ImageEdges& visible, const ImageFrame& frame, const Vec3& normal
   const ImageEdges::Sum sum = visible.FormFactorSum(frame, normal);
   const bool cancels = sum.angles > kFormFactorCancellation * std::abs(sum.value);
   for (std::size_t p = 0; p < visible.Pieces(); ++p)
-    factors[static_cast<std::size_t>(visible.Owner(p))] +=
+    factors[static_cast<std::size_t>(visible.Owner(p).Number())] +=
         cancels ? visible.PieceByQuadrature(frame, normal, p)
                 : visible.PieceSum(p) * (0.5 * std::numbers::inv_pi);
 }
@@ -473,14 +486,15 @@ void VisibleFormFactors(const DirectionPolygon& whole, std::span<const Direction
     return;
   }
   std::fill(factors.begin(), factors.end(), 0.0);
-  Clipper& clipper = ThreadClipper();
+  const Scratch<Workshop> workshop;
+  Clipper& clipper = workshop->clipper;
   const ImageFrame frame(whole, axis);
   const Clipper::Candidates all = clipper.Begin(frame, frame.Image(whole), occluders);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const ImagePolygon image = frame.Image(parts[i]);
     Clipper::Candidates own;
     if (clipper.Narrow(image, all, &own) != Overlap::kAll)
-      clipper.CutOut(image, own, static_cast<std::int32_t>(i));
+      clipper.CutOut(image, own, PieceOwner::Part(static_cast<std::int32_t>(i)));
     clipper.Restore(all);
   }
   AddVisible(clipper.Visible(), frame, normal, factors);
@@ -489,9 +503,8 @@ void VisibleFormFactors(const DirectionPolygon& whole, std::span<const Direction
 
 double Clipping::VisibleFormFactor(const DirectionPolygon& source, std::span<const Occluder> occluders,
                                    const Vec3& normal) const {
-  Clipper& clipper = ThreadClipper();
   double factor = 0;
-  ForEachImage(clipper, source, occluders, normal, [&](const ImageFrame& frame) {
+  ForEachImage(source, occluders, normal, [&](const ImageFrame& frame, Clipper& clipper) {
     AddVisible(clipper.Visible(), frame, normal, {&factor, 1});
   });
   return std::max(0.0, factor);

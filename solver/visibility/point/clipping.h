@@ -18,7 +18,7 @@
 namespace penumbra {
 
 // Cuts shadows out of the polygons of one image. Occluders and the lists of them keep their buffers from one
-// image to the next. One object a thread.
+// image to the next: lease one for many (Scratch).
 class Clipper {
  public:
   // Some of the occluders, on a stack.
@@ -32,6 +32,8 @@ class Clipper {
   Clipper(const Clipper&) = delete;
   Clipper& operator=(const Clipper&) = delete;
 
+  // Forgets the image.
+  void Clear();
   // Turns to the image `frame` of `whole`, which holds all polygons to come. Returns all occluders as
   // candidates. The occluders must stay.
   Candidates Begin(const ImageFrame& frame, const ImagePolygon& whole, std::span<const Occluder> occluders);
@@ -43,10 +45,10 @@ class Clipper {
   void Restore(const Candidates& candidates);
 
   // Cuts the candidates, which Narrow() found for this very polygon, out of it. What remains goes to
-  // Visible(), with its owner and labels: those of the polygon's edges, from 0 if none are given, and
-  // OccluderEdge() of the cuts.
-  void CutOut(const ImagePolygon& polygon, const Candidates& candidates, std::int32_t owner,
-              std::span<const std::int32_t> label = {});
+  // Visible(), with its owner and labels: `label` those of the polygon's edges, those of the source's if none
+  // are given.
+  void CutOut(const ImagePolygon& polygon, const Candidates& candidates, PieceOwner owner,
+              std::span<const EdgeLabel> label = {});
 
   // The candidates as they came.
   void List(const Candidates& candidates, std::vector<Occluder>& occluders) const;

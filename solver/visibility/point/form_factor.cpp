@@ -50,6 +50,10 @@ constexpr GaussRule<8> kEight = {
 constexpr double kFarForFour = 0.03, kFarForSix = 0.15, kFarForEight = 0.4;
 constexpr int kMostHalvings = 120;
 
+// An edge is seen end-on where the sine of the angle between it and the line of sight is below this: some
+// hundred roundings, so that nothing is known of the plane through the point and the edge.
+constexpr double kEndOn = 1e-14;
+
 // A convex quadrilateral as the image of the unit square: p(s, t) = corner + s u + t v + s t w. Two vertices
 // may coincide.
 struct Bilinear {
@@ -151,7 +155,7 @@ double FormFactor(const DirectionPolygon& polygon, const Vec3& normal, double ca
 Vec3 EdgeGradient(const Vec3& a, const Vec3& b, const Vec3& from, const Vec3& to, const Vec3& normal) {
   const Vec3 m = EdgeNormal(a, b);
   const double length = (b - a).norm(), area = m.norm();
-  if (area <= 1e-14 * length * std::max(a.norm(), b.norm())) return Vec3::Zero();
+  if (area <= kEndOn * length * std::max(a.norm(), b.norm())) return Vec3::Zero();
   // The foot of the perpendicular lies at distance area / length; angles along the edge count from there.
   const Vec3 along = (b - a) / length, left = m / area, foot = along.cross(left);
   const double from_angle = std::atan2(along.dot(from), foot.dot(from)),

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "solver/base/check.h"
+#include "solver/base/scratch.h"
 #include "solver/base/vector_dispatch.h"
 #include "solver/visibility/point/arc_tangent.h"
 #include "solver/visibility/point/form_factor.h"
@@ -12,25 +13,50 @@
 namespace penumbra {
 namespace {
 
-// One edge's share of 2 pi times the negated form factor; its angle is added to `angles`. a is the edge's
-// start, b its end, p the point, n its normal.
-[[gnu::always_inline]] inline double EdgeTerm(double ax, double ay, double az, double bx, double by,
-                                              double bz, double px, double py, double pz, double nx,
-                                              double ny, double nz, double& angles) {
+// Plain numbers, which the compiler vectorises across polygons.
+struct Triple {
+  double x, y, z;
+};
+
+[[gnu::always_inline]] inline Triple operator-(const Triple& a, const Triple& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+[[gnu::always_inline]] inline Triple operator+(const Triple& a, const Triple& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+[[gnu::always_inline]] inline double Dot(const Triple& a, const Triple& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+[[gnu::always_inline]] inline Triple Cross(const Triple& a, const Triple& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+[[gnu::always_inline]] inline Triple Choose(bool first, const Triple& a, const Triple& b) {
+  return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
+}
+
+// The k-th vertices of all polygons, a column an axis.
+struct VertexColumns {
+  const double* __restrict x;
+  const double* __restrict y;
+  const double* __restrict z;
+
+  VertexColumns(const std::array<const double*, 12>& columns, std::size_t k)
+      : x(columns[3 * k]), y(columns[3 * k + 1]), z(columns[3 * k + 2]) {}
+  [[gnu::always_inline]] inline Triple operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+};
+
+// What the edge from a to b adds to 2 pi times the negated form factor of the point p with normal n; its
+// angle is added to `angles`.
+[[gnu::always_inline]] inline double EdgeTerm(const Triple& a, const Triple& b, const Triple& p,
+                                              const Triple& n, double& angles) {
   // The edge from the original coordinates: what is close to it keeps its digits.
-  const double ex = bx - ax, ey = by - ay, ez = bz - az;
-  const double rx = ax - px, ry = ay - py, rz = az - pz;
-  const double qx = bx - px, qy = by - py, qz = bz - pz;
+  const Triple e = b - a, r = a - p, q = b - p;
   // a x b = a x e = b x e, with the most digits from the end that is nearer.
-  const bool near = rx * rx + ry * ry + rz * rz < qx * qx + qy * qy + qz * qz;
-  const double sx = near ? rx : qx, sy = near ? ry : qy, sz = near ? rz : qz;
-  const double mx = sy * ez - sz * ey, my = sz * ex - sx * ez, mz = sx * ey - sy * ex;
-  const double length = std::sqrt(mx * mx + my * my + mz * mz);
-  const double cosine = rx * qx + ry * qy + rz * qz;
-  const double rise = nx * mx + ny * my + nz * mz;
-  const double angle = internal::AngleOf(length, cosine);
+  const Triple m = Cross(Choose(Dot(r, r) < Dot(q, q), r, q), e);
+  const double length = std::sqrt(Dot(m, m));
+  const double angle = internal::AngleOf(length, Dot(r, q));
   angles += angle;
-  return rise / (length > 0 ? length : 1.0) * angle;
+  return Dot(n, m) / (length > 0 ? length : 1.0) * angle;
 }
 
 // Polygons of which no edge has a larger squared sine as seen are small.
@@ -46,95 +72,85 @@ constexpr std::array<double, 9> kArcSine = {1.0 / 6,       3.0 / 40,        5.0 
 // angle.
 constexpr double kRoundingsOfSmall = 5;
 
-// What an edge a -> b of a small polygon adds to the sum about a vertex at squared distance `square`, which
-// `a` and `b` are `da` and `db` further from, squared: n . (a x b) (angle / |a x b| - 1 / square). The size
-// of that without n is added to `sizes`, and `sine2` becomes at least the edge's squared sine, or 1 if its
-// angle is not acute.
-[[gnu::always_inline]] inline double SmallEdgeTerm(double ax, double ay, double az, double bx, double by,
-                                                   double bz, double ex, double ey, double ez, double da,
-                                                   double db, double square, double nx, double ny, double nz,
-                                                   double& sizes, double& sine2) {
-  const double aa = square + da, bb = square + db;
-  const bool near = aa < bb;
-  const double sx = near ? ax : bx, sy = near ? ay : by, sz = near ? az : bz;
-  const double mx = sy * ez - sz * ey, my = sz * ex - sx * ez, mz = sx * ey - sy * ex;
+// A vertex of a small polygon from the point, and its squared distance less that of the first vertex.
+struct SmallVertex {
+  Triple at;
+  double farther;
+};
+
+// What the edges of a small polygon add up to, but for their terms.
+struct SmallSums {
+  double sizes = 0;  // of the terms, as if without n
+  double sine2 = 0;  // the largest squared sine of an edge; 1 if an angle is not acute
+};
+
+// What an edge a -> b = a + e of a small polygon, of which the first vertex is at squared distance `square`,
+// adds to the sum about that vertex: n . (a x b) (angle / |a x b| - 1 / square).
+[[gnu::always_inline]] inline double SmallEdgeTerm(const SmallVertex& a, const SmallVertex& b,
+                                                   const Triple& e, double square, const Triple& n,
+                                                   SmallSums& sums) {
+  const double aa = square + a.farther, bb = square + b.farther;
+  const Triple m = Cross(Choose(aa < bb, a.at, b.at), e);
   const double product = std::sqrt(aa * bb);
-  const double sine2_here = (mx * mx + my * my + mz * mz) / (aa * bb);
+  const double sine2 = Dot(m, m) / (aa * bb);
   double h = kArcSine[8];
 #pragma GCC unroll 8
-  for (int k = 7; k >= 0; --k) h = h * sine2_here + kArcSine[static_cast<std::size_t>(k)];
+  for (int k = 7; k >= 0; --k) h = h * sine2 + kArcSine[static_cast<std::size_t>(k)];
   // 1 / product - 1 / square, without cancellation.
-  const double change = -(square * (da + db) + da * db) / (product * square * (square + product));
-  const double weight = change + h * sine2_here / product;
-  const double cosine = ax * bx + ay * by + az * bz;
-  const double sine2_or_more = cosine > 0 ? sine2_here : 1.0;
-  sine2 = sine2 > sine2_or_more ? sine2 : sine2_or_more;
-  sizes += (std::abs(mx) + std::abs(my) + std::abs(mz)) * std::abs(weight);
-  return (nx * mx + ny * my + nz * mz) * weight;
+  const double change =
+      -(square * (a.farther + b.farther) + a.farther * b.farther) / (product * square * (square + product));
+  const double weight = change + h * sine2 / product;
+  const double sine2_or_more = Dot(a.at, b.at) > 0 ? sine2 : 1.0;
+  sums.sine2 = sums.sine2 > sine2_or_more ? sums.sine2 : sine2_or_more;
+  sums.sizes += (std::abs(m.x) + std::abs(m.y) + std::abs(m.z)) * std::abs(weight);
+  return Dot(n, m) * weight;
 }
 
 // Where polygon i is small: out[i] is its sum, added[i] the size of what was added. Elsewhere added[i] is
-// negative.
+// negative. columns[3 k + axis] points to the coordinates of the k-th vertices.
 PENUMBRA_VECTOR_CLONES
-void SmallKernel(const std::array<const double*, 12>& c, std::size_t count, double px, double py, double pz,
-                 double nx, double ny, double nz, double* __restrict out, double* __restrict added) {
-  const double* __restrict x0 = c[0], * __restrict y0 = c[1], * __restrict z0 = c[2];
-  const double* __restrict x1 = c[3], * __restrict y1 = c[4], * __restrict z1 = c[5];
-  const double* __restrict x2 = c[6], * __restrict y2 = c[7], * __restrict z2 = c[8];
-  const double* __restrict x3 = c[9], * __restrict y3 = c[10], * __restrict z3 = c[11];
+void SmallKernel(const std::array<const double*, 12>& columns, std::size_t count, Triple p, Triple n,
+                 double* __restrict out, double* __restrict added) {
+  const VertexColumns v0(columns, 0), v1(columns, 1), v2(columns, 2), v3(columns, 3);
   for (std::size_t i = 0; i < count; ++i) {
-    const double ax = x0[i] - px, ay = y0[i] - py, az = z0[i] - pz;
-    const double ux = x1[i] - x0[i], uy = y1[i] - y0[i], uz = z1[i] - z0[i];
-    const double vx = x2[i] - x0[i], vy = y2[i] - y0[i], vz = z2[i] - z0[i];
-    const double wx = x3[i] - x0[i], wy = y3[i] - y0[i], wz = z3[i] - z0[i];
-    const double bx = ax + ux, by = ay + uy, bz = az + uz;
-    const double qx = ax + vx, qy = ay + vy, qz = az + vz;
-    const double dx = ax + wx, dy = ay + wy, dz = az + wz;
-    const double square = ax * ax + ay * ay + az * az;
-    const double du = ux * (ax + bx) + uy * (ay + by) + uz * (az + bz);
-    const double dv = vx * (ax + qx) + vy * (ay + qy) + vz * (az + qz);
-    const double dw = wx * (ax + dx) + wy * (ay + dy) + wz * (az + dz);
-    double sizes = 0, sine2 = 0;
-    const double first =
-        SmallEdgeTerm(ax, ay, az, bx, by, bz, ux, uy, uz, 0, du, square, nx, ny, nz, sizes, sine2);
-    const double second = SmallEdgeTerm(bx, by, bz, qx, qy, qz, x2[i] - x1[i], y2[i] - y1[i], z2[i] - z1[i],
-                                        du, dv, square, nx, ny, nz, sizes, sine2);
-    const double third = SmallEdgeTerm(qx, qy, qz, dx, dy, dz, x3[i] - x2[i], y3[i] - y2[i], z3[i] - z2[i],
-                                       dv, dw, square, nx, ny, nz, sizes, sine2);
-    const double fourth =
-        SmallEdgeTerm(dx, dy, dz, ax, ay, az, -wx, -wy, -wz, dw, 0, square, nx, ny, nz, sizes, sine2);
-    // Twice the area vector, about the first vertex.
-    const double gx = (uy * vz - uz * vy) + (vy * wz - vz * wy),
-                 gy = (uz * vx - ux * vz) + (vz * wx - vx * wz),
-                 gz = (ux * vy - uy * vx) + (vx * wy - vy * wx);
-    sizes += (std::abs(gx) + std::abs(gy) + std::abs(gz)) / square;
-    const double sum = -((nx * gx + ny * gy + nz * gz) / square + ((first + second) + (third + fourth)));
+    const Triple a = v0[i] - p;
+    const Triple u = v1[i] - v0[i], v = v2[i] - v0[i], w = v3[i] - v0[i];
+    const Triple b = a + u, c = a + v, d = a + w;
+    const double square = Dot(a, a);
+    const SmallVertex at_a{a, 0}, at_b{b, Dot(u, a + b)}, at_c{c, Dot(v, a + c)}, at_d{d, Dot(w, a + d)};
+    SmallSums sums;
+    const double first = SmallEdgeTerm(at_a, at_b, u, square, n, sums);
+    const double second = SmallEdgeTerm(at_b, at_c, v2[i] - v1[i], square, n, sums);
+    const double third = SmallEdgeTerm(at_c, at_d, v3[i] - v2[i], square, n, sums);
+    const double fourth = SmallEdgeTerm(at_d, at_a, {-w.x, -w.y, -w.z}, square, n, sums);
+    const Triple twice_area = Cross(u, v) + Cross(v, w);  // about the first vertex
+    const double sizes =
+        sums.sizes + (std::abs(twice_area.x) + std::abs(twice_area.y) + std::abs(twice_area.z)) / square;
+    const double sum = -(Dot(n, twice_area) / square + ((first + second) + (third + fourth)));
     out[i] = (sum > 0 ? sum : 0) * (0.5 / std::numbers::pi);
-    added[i] = sine2 <= kSmallSine2 ? kRoundingsOfSmall * sizes : -1;
+    added[i] = sums.sine2 <= kSmallSine2 ? kRoundingsOfSmall * sizes : -1;
   }
 }
 
-// out[i] is the sum over the edges of polygon i, added[i] that of their angles. c[3 k + axis] points to the
-// coordinates of the k-th vertices.
+// out[i] is the sum over the edges of polygon i, added[i] that of their angles.
 PENUMBRA_VECTOR_CLONES
-void Kernel(const std::array<const double*, 12>& c, std::size_t count, double px, double py, double pz,
-            double nx, double ny, double nz, double* __restrict out, double* __restrict added) {
-  const double* __restrict x0 = c[0], * __restrict y0 = c[1], * __restrict z0 = c[2];
-  const double* __restrict x1 = c[3], * __restrict y1 = c[4], * __restrict z1 = c[5];
-  const double* __restrict x2 = c[6], * __restrict y2 = c[7], * __restrict z2 = c[8];
-  const double* __restrict x3 = c[9], * __restrict y3 = c[10], * __restrict z3 = c[11];
+void LargeKernel(const std::array<const double*, 12>& columns, std::size_t count, Triple p, Triple n,
+                 double* __restrict out, double* __restrict added) {
+  const VertexColumns v0(columns, 0), v1(columns, 1), v2(columns, 2), v3(columns, 3);
   for (std::size_t i = 0; i < count; ++i) {
     double angles = 0;
-    const double first = EdgeTerm(x0[i], y0[i], z0[i], x1[i], y1[i], z1[i], px, py, pz, nx, ny, nz, angles);
-    const double second = EdgeTerm(x1[i], y1[i], z1[i], x2[i], y2[i], z2[i], px, py, pz, nx, ny, nz, angles);
-    const double third = EdgeTerm(x2[i], y2[i], z2[i], x3[i], y3[i], z3[i], px, py, pz, nx, ny, nz, angles);
-    const double fourth = EdgeTerm(x3[i], y3[i], z3[i], x0[i], y0[i], z0[i], px, py, pz, nx, ny, nz, angles);
+    const double first = EdgeTerm(v0[i], v1[i], p, n, angles);
+    const double second = EdgeTerm(v1[i], v2[i], p, n, angles);
+    const double third = EdgeTerm(v2[i], v3[i], p, n, angles);
+    const double fourth = EdgeTerm(v3[i], v0[i], p, n, angles);
     // Counter-clockwise about a normal that points to the point: the sum is negative.
     const double sum = -((first + second) + (third + fourth));
     out[i] = (sum > 0 ? sum : 0) * (0.5 / std::numbers::pi);
     added[i] = angles;
   }
 }
+
+Triple TripleOf(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
 
@@ -171,41 +187,42 @@ void PolygonBatch::Clear() {
   for (std::vector<double>& coordinates : coordinate_) coordinates.clear();
 }
 
-void FormFactorSums(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
-                    const Vec3& normal, double* out, double* added) {
-  SmallKernel(batch.Columns(begin), end - begin, position.x(), position.y(), position.z(), normal.x(),
-              normal.y(), normal.z(), out, added);
-  thread_local std::vector<std::size_t> large;
-  large.clear();
-  for (std::size_t i = 0; i < end - begin; ++i)
-    if (added[i] < 0) large.push_back(i);
-  if (large.empty()) return;
-  thread_local PolygonBatch gathered;
-  thread_local std::vector<double> factor, angles;
-  gathered.Clear();
-  for (const std::size_t i : large) gathered.AddFrom(batch, begin + i);
-  factor.resize(large.size());
-  angles.resize(large.size());
-  Kernel(gathered.Columns(0), large.size(), position.x(), position.y(), position.z(), normal.x(), normal.y(),
-         normal.z(), factor.data(), angles.data());
-  for (std::size_t k = 0; k < large.size(); ++k) {
-    out[large[k]] = factor[k];
-    added[large[k]] = angles[k];
+void FormFactorSums::Find(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
+                          const Vec3& normal) {
+  const std::size_t count = end - begin;
+  const Triple p = TripleOf(position), n = TripleOf(normal);
+  factor_.resize(count);
+  size_added_.resize(count);
+  SmallKernel(batch.Columns(begin), count, p, n, factor_.data(), size_added_.data());
+  large_.clear();
+  for (std::size_t i = 0; i < count; ++i)
+    if (size_added_[i] < 0) large_.push_back(i);
+  if (large_.empty()) return;
+  large_polygons_.Clear();
+  for (const std::size_t i : large_) large_polygons_.AddFrom(batch, begin + i);
+  large_factor_.resize(large_.size());
+  large_size_added_.resize(large_.size());
+  LargeKernel(large_polygons_.Columns(0), large_.size(), p, n, large_factor_.data(),
+              large_size_added_.data());
+  for (std::size_t k = 0; k < large_.size(); ++k) {
+    factor_[large_[k]] = large_factor_[k];
+    size_added_[large_[k]] = large_size_added_[k];
   }
+}
+
+void FormFactorSums::Clear() {
+  factor_.clear();
+  size_added_.clear();
 }
 
 void FormFactors(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
                  const Vec3& normal, double* out) {
-  constexpr std::size_t kBlock = 128;
-  std::array<double, kBlock> added;
-  for (std::size_t first = begin; first < end; first += kBlock) {
-    const std::size_t count = std::min(kBlock, end - first);
-    double* factor = out + (first - begin);
-    FormFactorSums(batch, first, first + count, position, normal, factor, added.data());
-    for (std::size_t i = 0; i < count; ++i)
-      if (added[i] > 2 * std::numbers::pi * kFormFactorCancellation * factor[i])
-        factor[i] = FormFactorByQuadrature(batch, first + i, position, normal);
-  }
+  const Scratch<FormFactorSums> sums;
+  sums->Find(batch, begin, end, position, normal);
+  for (std::size_t i = 0; i < end - begin; ++i)
+    out[i] = sums->SizeAdded(i) > 2 * std::numbers::pi * kFormFactorCancellation * sums->Factor(i)
+                 ? FormFactorByQuadrature(batch, begin + i, position, normal)
+                 : sums->Factor(i);
 }
 
 }  // namespace penumbra

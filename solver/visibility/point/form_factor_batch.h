@@ -42,11 +42,28 @@ void FormFactors(const PolygonBatch& batch, std::size_t begin, std::size_t end, 
 
 // The sums over edges alone, which cancel in part where a polygon is seen flatly or lies near the horizon. A
 // polygon that is small as seen is summed about its first vertex, which keeps its digits however small it is
-// (thesis_notes/derivations.md, "Small polygons"). added[i - begin], the sum of the sizes of what was added,
-// tells: a factor is within kFormFactorError of this over 2 pi kFormFactorCancellation, or of its value where
-// that is more.
-void FormFactorSums(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
-                    const Vec3& normal, double* out, double* added);
+// (thesis_notes/derivations.md, "Small polygons").
+class FormFactorSums {
+ public:
+  // The same polygons, point and requirements as of FormFactors().
+  void Find(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
+            const Vec3& normal);
+
+  // The form factor to the i-th of these polygons.
+  double Factor(std::size_t i) const { return factor_[i]; }
+  // The sum of the sizes of what was added to make it: the factor is within kFormFactorError of
+  // SizeAdded(i) / (2 pi kFormFactorCancellation), or of its value where that is more.
+  double SizeAdded(std::size_t i) const { return size_added_[i]; }
+
+  void Clear();
+
+ private:
+  std::vector<double> factor_, size_added_;
+  // Polygons that are not small, copied side by side.
+  std::vector<std::size_t> large_;
+  PolygonBatch large_polygons_;
+  std::vector<double> large_factor_, large_size_added_;
+};
 // One of the factors, by quadrature, which does not cancel.
 double FormFactorByQuadrature(const PolygonBatch& batch, std::size_t i, const Vec3& position,
                               const Vec3& normal);

@@ -9,11 +9,20 @@
 namespace penumbra {
 namespace {
 
-// In the frame's coordinates the edge starts at a = (x + p, y + q, 1) and runs along e = (dx, dy, 0).
+// In the frame's coordinates an edge starts at a = (x + p, y + q, 1) and runs along e = (dx, dy, 0), and n is
+// the normal of the point.
+struct FrameNumbers {
+  double p, q;
+  double n1, n2, n3;
+};
+
+// `edge` points to x, y, dx and dy of all edges.
 PENUMBRA_VECTOR_CLONES
-void Terms(const double* __restrict x, const double* __restrict y, const double* __restrict dx,
-           const double* __restrict dy, std::size_t count, double p, double q, double n1, double n2,
-           double n3, double* __restrict term, double* __restrict angle) {
+void Terms(const std::array<const double*, 4>& edge, std::size_t count, FrameNumbers frame,
+           double* __restrict term, double* __restrict angle) {
+  const double* __restrict x = edge[0], * __restrict y = edge[1];
+  const double* __restrict dx = edge[2], * __restrict dy = edge[3];
+  const auto [p, q, n1, n2, n3] = frame;
   for (std::size_t i = 0; i < count; ++i) {
     const double ax = x[i] + p, ay = y[i] + q;
     const double turn = ax * dy[i] - ay * dx[i];  // a x e = (-dy, dx, turn)
@@ -34,8 +43,8 @@ void ImageEdges::Clear() {
   owner_.clear();
 }
 
-void ImageEdges::AddPiece(const double* x, const double* y, const std::int32_t* label, int size,
-                          std::int32_t owner) {
+void ImageEdges::AddPiece(const double* x, const double* y, const EdgeLabel* label, int size,
+                          PieceOwner owner) {
   const std::size_t begin = label_.size(), end = begin + static_cast<std::size_t>(size);
   start_.push_back(begin);
   owner_.push_back(owner);
@@ -70,8 +79,9 @@ Vec2 ImageEdges::Centroid(std::size_t piece) const {
 ImageEdges::Sum ImageEdges::FormFactorSum(const ImageFrame& frame, const Vec3& normal) {
   term_.resize(edge_[0].size());
   angle_.resize(edge_[0].size());
-  Terms(edge_[0].data(), edge_[1].data(), edge_[2].data(), edge_[3].data(), term_.size(), frame.Shift().x(),
-        frame.Shift().y(), normal.dot(frame.E1()), normal.dot(frame.E2()), normal.dot(frame.Axis()),
+  Terms({edge_[0].data(), edge_[1].data(), edge_[2].data(), edge_[3].data()}, term_.size(),
+        {frame.Shift().x(), frame.Shift().y(), normal.dot(frame.E1()), normal.dot(frame.E2()),
+         normal.dot(frame.Axis())},
         term_.data(), angle_.data());
   Sum sum;
   for (std::size_t i = 0; i < term_.size(); ++i) {

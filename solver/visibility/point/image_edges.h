@@ -12,6 +12,27 @@
 
 namespace penumbra {
 
+// What a piece is left of: a part of the source, or a group of its parts that counts as one. Both have
+// numbers, which the user of the pieces chooses. Not set at first.
+class PieceOwner {
+ public:
+  PieceOwner() = default;
+
+  static constexpr PieceOwner Part(std::int32_t number) { return PieceOwner(number, false); }
+  static constexpr PieceOwner Group(std::size_t number) {
+    return PieceOwner(static_cast<std::int32_t>(number), true);
+  }
+
+  constexpr bool IsGroup() const { return group_; }
+  constexpr std::int32_t Number() const { return number_; }
+
+ private:
+  constexpr PieceOwner(std::int32_t number, bool group) : number_(number), group_(group) {}
+
+  std::int32_t number_;
+  bool group_;
+};
+
 class ImageEdges {
  public:
   struct Sum {
@@ -21,18 +42,17 @@ class ImageEdges {
 
   void Clear();
   // Appends the edges of a convex polygon with the given image coordinates and the labels of its edges.
-  // `owner` says what it is a piece of.
-  void AddPiece(const double* x, const double* y, const std::int32_t* label, int size, std::int32_t owner);
+  void AddPiece(const double* x, const double* y, const EdgeLabel* label, int size, PieceOwner owner);
 
   std::size_t Pieces() const { return start_.size(); }
-  std::int32_t Owner(std::size_t piece) const { return owner_[piece]; }
+  PieceOwner Owner(std::size_t piece) const { return owner_[piece]; }
   // The edges of a piece: [Begin(p), Begin(p + 1)).
   std::size_t Begin(std::size_t piece) const { return piece < start_.size() ? start_[piece] : label_.size(); }
   Vec2 Start(std::size_t edge) const { return {edge_[0][edge], edge_[1][edge]}; }
   Vec2 Difference(std::size_t edge) const { return {edge_[2][edge], edge_[3][edge]}; }
   // The centroid of a piece's image; the first vertex of one without area.
   Vec2 Centroid(std::size_t piece) const;
-  std::int32_t Label(std::size_t edge) const { return label_[edge]; }
+  EdgeLabel Label(std::size_t edge) const { return label_[edge]; }
 
   // Over all edges, for a point with unit normal `normal`. The same for any vector width.
   Sum FormFactorSum(const ImageFrame& frame, const Vec3& normal);
@@ -43,9 +63,9 @@ class ImageEdges {
 
  private:
   std::array<std::vector<double>, 4> edge_;  // start x, y; difference x, y
-  std::vector<std::int32_t> label_;
+  std::vector<EdgeLabel> label_;
   std::vector<std::size_t> start_;  // of each piece
-  std::vector<std::int32_t> owner_;
+  std::vector<PieceOwner> owner_;
   std::vector<double> term_, angle_;
 };
 

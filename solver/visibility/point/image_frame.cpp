@@ -11,14 +11,18 @@ namespace {
 constexpr double kLeastCosine = 0.25;
 
 // The edge of the polygon that the edge from a to b of a part of it runs along.
-std::int32_t EdgeAlong(const DirectionPolygon& polygon, const Vec3& a, const Vec3& b) {
-  constexpr double kAlong = 1e-12;
+EdgeLabel EdgeAlong(const DirectionPolygon& polygon, const Vec3& a, const Vec3& b) {
+  constexpr double kAlong = 1e-12;  // sine of an angle: cutting moves what lies on an edge by some 1e-16
   for (int k = 0; k < polygon.size(); ++k) {
     const Vec3 m = EdgeNormal(polygon[k], polygon.Next(k)).normalized();
-    if (std::abs(m.dot(a)) <= kAlong * a.norm() && std::abs(m.dot(b)) <= kAlong * b.norm()) return k;
+    if (std::abs(m.dot(a)) <= kAlong * a.norm() && std::abs(m.dot(b)) <= kAlong * b.norm())
+      return EdgeLabel::OfSource(k);
   }
-  return kInnerEdge;
+  return EdgeLabel::Inner();
 }
+
+// Of what is shorter the square is no normal number.
+constexpr double kLeastLength = 1e-150;
 
 __extension__ typedef __float128 Quadruple;
 
@@ -51,7 +55,7 @@ ImageLine ImageFrame::Line(const Cone& cone, int k, Digits digits) const {
   }
   const double length = std::sqrt(line.a * line.a + line.b * line.b);
   // The plane of directions beside the axis has no line in the image.
-  if (length < 1e-150) return {0, 0, line.h};
+  if (length < kLeastLength) return {0, 0, line.h};
   const double scale = 1 / length;
   return {scale * line.a, scale * line.b, scale * line.h};
 }
@@ -75,7 +79,7 @@ void SplitForImages(const DirectionPolygon& polygon, const Vec3& normal, std::ve
   const Vec3 axis = ImageAxis(polygon);
   if (!axis.isZero(0)) {
     ImagePart& part = parts.emplace_back(ImagePart{polygon, axis, {}});
-    for (int i = 0; i < polygon.size(); ++i) part.label[i] = i;
+    for (int i = 0; i < polygon.size(); ++i) part.label[i] = EdgeLabel::OfSource(i);
     return;
   }
   const Frame frame = MakeFrame(Vec3::Zero(), normal);

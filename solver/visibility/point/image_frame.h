@@ -59,7 +59,7 @@ class ImageFrame {
     const Vec3 offset = direction - first_;
     // A difference keeps the digits of what is close to the first vertex, and loses those of a vertex that is
     // close to the point.
-    if (offset.squaredNorm() > 0.01 * direction.squaredNorm())
+    if (offset.squaredNorm() > kNearFirstSquared * direction.squaredNorm())
       return Vec2(e1_.dot(direction), e2_.dot(direction)) / w - shift_;
     return (Vec2(e1_.dot(offset), e2_.dot(offset)) - axis_.dot(offset) * shift_) / w;
   }
@@ -91,30 +91,50 @@ class ImageFrame {
   ImageLine Line(const Cone& cone, int k, Digits digits) const;
 
  private:
+  // The square of a distance from the first vertex, relative to that from the point: a tenth. What lies
+  // farther off loses less than a digit by not being a difference.
+  static constexpr double kNearFirstSquared = 0.01;
+
   Vec3 axis_, e1_, e2_;
   Vec3 first_;   // the polygon's first vertex as seen
   Vec3 origin_;  // the same direction, one unit along the axis
   Vec2 shift_;   // its coordinates along e1 and e2
 };
 
-// What an edge of a piece of a source runs along: kInnerEdge, where nothing ends, but two pieces meet; an
-// edge of the source, 0 and up; or an edge of an occluder.
-inline constexpr std::int32_t kInnerEdge = -1;
-inline constexpr std::int32_t kFirstOccluderEdge = 32;
-constexpr std::int32_t OccluderEdge(std::size_t occluder, int plane) {
-  return kFirstOccluderEdge + 16 * static_cast<std::int32_t>(occluder) + plane;
-}
+// What an edge of a piece of a source runs along. Not set at first, so that arrays of them cost nothing.
+class EdgeLabel {
+ public:
+  EdgeLabel() = default;
 
-constexpr std::size_t OccluderOfEdge(std::int32_t label) {
-  return static_cast<std::size_t>((label - kFirstOccluderEdge) / 16);
-}
-constexpr int PlaneOfEdge(std::int32_t label) { return (label - kFirstOccluderEdge) % 16; }
+  // Along nothing: two pieces of the same source meet there.
+  static constexpr EdgeLabel Inner() { return EdgeLabel(kInner, 0); }
+  // Along an edge of the source, from vertex `edge` to the next.
+  static constexpr EdgeLabel OfSource(int edge) { return EdgeLabel(kSource, edge); }
+  // Along a plane of the cone of an occluder, by its place in the list of occluders.
+  static constexpr EdgeLabel OfOccluder(std::size_t occluder, int plane) {
+    return EdgeLabel(static_cast<std::int32_t>(occluder), plane);
+  }
+
+  constexpr bool IsInner() const { return occluder_ == kInner; }
+  constexpr bool IsOfSource() const { return occluder_ == kSource; }
+  // REQUIRES: the label is of the source.
+  constexpr int SourceEdge() const { return edge_; }
+  // REQUIRES: the label is of an occluder.
+  constexpr std::size_t Occluder() const { return static_cast<std::size_t>(occluder_); }
+  constexpr std::size_t Plane() const { return static_cast<std::size_t>(edge_); }
+
+ private:
+  static constexpr std::int32_t kInner = -1, kSource = -2;
+  constexpr EdgeLabel(std::int32_t occluder, std::int32_t edge) : occluder_(occluder), edge_(edge) {}
+
+  std::int32_t occluder_, edge_;
+};
 
 // A part of a polygon of directions that fits into an image.
 struct ImagePart {
   DirectionPolygon polygon;
   Vec3 axis;
-  std::array<std::int32_t, DirectionPolygon::kCapacity> label;  // of its edges
+  std::array<EdgeLabel, DirectionPolygon::kCapacity> label;  // of its edges
 };
 
 // The axis of an image that holds the polygon; zero if none can.

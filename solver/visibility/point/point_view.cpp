@@ -3,46 +3,43 @@
 #include <algorithm>
 #include <deque>
 
-#include "solver/base/kept.h"
+#include "solver/base/lazy_table.h"
 #include "solver/visibility/point/form_factor.h"
 #include "solver/visibility/point/solid_outline.h"
 
 namespace penumbra {
 
 struct PointView::Buffers {
-  Kept<BlockerView> patches, solids;  // whole, a point
-  Kept<char> as_one;                  // solids that stand for their patches, a search for blockers
-  std::deque<BlockerView> cut;        // blockers cut at the plane of the source at hand; addresses stay
+  LazyTable<BlockerView> patches, solids;  // as the point sees them, whole
+  LazyTable<char> as_one;       // by solid, in one search for blockers: whether it stands for its patches
+  std::deque<BlockerView> cut;  // blockers cut at the plane of the source at hand; addresses stay
   std::vector<Occluder> occluders;
 
-  void Begin(const Scene& scene) {
-    patches.Begin(scene.patches.size());
-    solids.Begin(scene.solids.size());
+  void Clear() {
+    patches.Clear();
+    solids.Clear();
+    as_one.Clear();
     cut.clear();
     occluders.clear();
   }
 };
 
-PointView::Buffers& PointView::ThreadBuffers() {
-  thread_local Buffers buffers;
-  return buffers;
-}
-
 PointView::PointView(const Scene& scene, const ReceiverPoint& at, const OcclusionMethod& method,
                      double source_push_off)
-    : scene_(scene), at_(at), source_at_(at), method_(method), buffers_(ThreadBuffers()) {
+    : scene_(scene), at_(at), source_at_(at), method_(method) {
   source_at_.position -= source_push_off * at.normal;
-  buffers_.Begin(scene);
+  buffers_->patches.Begin(scene.patches.size());
+  buffers_->solids.Begin(scene.solids.size());
 }
 
 PointView::~PointView() = default;
 
-std::vector<Occluder>& PointView::occluder_stack() { return buffers_.occluders; }
+std::vector<Occluder>& PointView::occluder_stack() { return buffers_->occluders; }
 
 bool PointView::FaceSource(PatchId source) {
   source_ = &scene_.patches[source];
   source_solid_ = scene_.SolidOf(source);
-  buffers_.cut.clear();
+  buffers_->cut.clear();
   const Side side = SideOf(source_at_, source_->normal, source_->vertex[0], source_->extent);
   if (side != Side::kFront && side != Side::kFrontInLimit) return false;
   source_in_contact_ = side == Side::kFrontInLimit;
@@ -97,7 +94,7 @@ const PointView::BlockerView* PointView::FindBlocker(PatchId blocker, const Dire
   const double rounding = HeightRounding(std::max(patch.extent, source_->extent));
   const auto [lowest, highest] = HeightsBefore(*source_, patch.Vertices());
   if (highest <= rounding) return nullptr;
-  const auto [whole, is_new] = buffers_.patches[blocker];
+  const auto [whole, is_new] = buffers_->patches[blocker];
   if (is_new) whole = ViewBlocker(patch.Vertices(), patch);
   if (lowest < -rounding) {
     // What misses the source as a whole misses it as a part.
@@ -105,7 +102,7 @@ const PointView::BlockerView* PointView::FindBlocker(PatchId blocker, const Dire
       return nullptr;
     const Polygon3 before = ClipToHalfSpace(patch.Vertices(), source_->normal, source_->vertex[0], rounding);
     if (before.empty()) return nullptr;
-    return &buffers_.cut.emplace_back(ViewBlocker(before, patch));
+    return &buffers_->cut.emplace_back(ViewBlocker(before, patch));
   }
   return &whole;
 }
@@ -127,7 +124,7 @@ bool PointView::FindSolid(SolidId id, const DirectionPolygon& seen, const Blocke
   const auto [lowest, highest] = HeightsBefore(*source_, solid.corners);
   *view = nullptr;
   if (highest <= rounding) return true;
-  const auto [whole, is_new] = buffers_.solids[id];
+  const auto [whole, is_new] = buffers_->solids[id];
   if (is_new) whole = ViewSolid(solid, nullptr);
   if (whole.cone.size == 0) return false;
   if (whole.entered && lowest <= rounding) return false;
@@ -138,7 +135,7 @@ bool PointView::FindSolid(SolidId id, const DirectionPolygon& seen, const Blocke
     *view = nullptr;
     return true;
   }
-  *view = &buffers_.cut.emplace_back(ViewSolid(solid, source_));
+  *view = &buffers_->cut.emplace_back(ViewSolid(solid, source_));
   return (*view)->cone.size > 0;
 }
 
@@ -146,14 +143,14 @@ bool PointView::FindBlockers(std::span<const PatchId> candidates, PatchId own, c
                              std::vector<Occluder>& occluders) {
   const std::size_t before = occluders.size();
   const SolidId own_solid = scene_.SolidOf(own);
-  buffers_.as_one.Begin(scene_.solids.size());
+  buffers_->as_one.Begin(scene_.solids.size());
   for (const PatchId blocker : candidates) {
     if (blocker == own || &scene_.patches[blocker] == source_) continue;
     const BlockerView* view = nullptr;
     const SolidId solid = scene_.SolidOf(blocker);
     bool as_one = false;
     if (solid != kNoSolid && solid != own_solid && solid != source_solid_) {
-      const auto [known, is_new] = buffers_.as_one[solid];
+      const auto [known, is_new] = buffers_->as_one[solid];
       if (is_new)
         known = FindSolid(solid, seen, &view) ? 1 : 0;
       else if (known != 0)

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/base/scratch.h"
 #include "solver/scene/scene.h"
 #include "solver/visibility/point/direction_polygon.h"
 #include "solver/visibility/point/occlusion_method.h"
@@ -15,8 +16,8 @@
 
 namespace penumbra {
 
-// At most one PointView is alive a thread at any time: all share the thread's buffers. All arguments must
-// outlive it.
+// A local variable: its buffers are a lease of the thread that makes it (Scratch). All arguments must outlive
+// it.
 class PointView {
  public:
   // Sources are seen as if lifted by `source_push_off` along the receiver's normal [m] (thesis 6.4).
@@ -25,6 +26,10 @@ class PointView {
   ~PointView();
   PointView(const PointView&) = delete;
   PointView& operator=(const PointView&) = delete;
+
+  const ReceiverPoint& at() const { return at_; }
+  // The source that the view is turned to.
+  const Patch& Source() const { return *source_; }
 
   // From where sources are seen: the point, unless they are lifted.
   const Vec3& SourceEye() const { return source_at_.position; }
@@ -67,7 +72,6 @@ class PointView {
   };
   struct Buffers;
 
-  static Buffers& ThreadBuffers();
   BlockerView ViewBlocker(std::span<const Vec3> polygon, const Patch& patch) const;
   BlockerView ViewSolid(const ConvexSolid& solid, const Patch* before) const;
   const BlockerView* FindBlocker(PatchId blocker, const DirectionPolygon& seen);
@@ -77,7 +81,7 @@ class PointView {
   const ReceiverPoint& at_;
   ReceiverPoint source_at_;
   const OcclusionMethod& method_;
-  Buffers& buffers_;
+  Scratch<Buffers> buffers_;
   const Patch* source_ = nullptr;
   SolidId source_solid_ = kNoSolid;
   bool source_in_contact_ = false;

@@ -1,0 +1,12 @@
+// display/viewer/discontinuity_overlay.h
+
+#pragma once
+
+#include "display/viewer/overlay.h"
+
+namespace penumbra::viewer {
+
+// All potential discontinuities, violet (thesis B.4.4).
+OverlayRegistry::Method DiscontinuityOverlayMethod();
+
+}  // namespace penumbra::viewer

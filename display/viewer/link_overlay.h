@@ -1,0 +1,12 @@
+// display/viewer/link_overlay.h
+
+#pragma once
+
+#include "display/viewer/overlay.h"
+
+namespace penumbra::viewer {
+
+// Links as arrows from source to receiver, coloured by class (thesis B.4.3).
+OverlayRegistry::Method LinkOverlayMethod();
+
+}  // namespace penumbra::viewer

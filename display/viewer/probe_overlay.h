@@ -1,0 +1,12 @@
+// display/viewer/probe_overlay.h
+
+#pragma once
+
+#include "display/viewer/overlay.h"
+
+namespace penumbra::viewer {
+
+// The irradiance at a probed point as a white stick (thesis B.4.9).
+OverlayRegistry::Method ProbeOverlayMethod();
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,13 @@
+// display/viewer/selection_overlay.h
+
+#pragma once
+
+#include "display/viewer/overlay.h"
+
+namespace penumbra::viewer {
+
+// The outlines of what is selected (thesis B.4.6): an element; a link; its tube, with the blockers; a
+// triangle; a discontinuity, with source, blocker and receiver.
+OverlayRegistry::Method SelectionOverlayMethod();
+
+}  // namespace penumbra::viewer

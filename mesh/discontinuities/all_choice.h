@@ -1,0 +1,12 @@
+// mesh/discontinuities/all_choice.h
+
+#pragma once
+
+#include "mesh/discontinuities/discontinuity_choice.h"
+
+namespace penumbra {
+
+// All, however many a leaf gets.
+DiscontinuityChoiceRegistry::Method AllChoiceMethod();
+
+}  // namespace penumbra

@@ -1,0 +1,12 @@
+// mesh/discontinuities/discontinuity_choices.h
+
+#pragma once
+
+#include "mesh/discontinuities/discontinuity_choice.h"
+
+namespace penumbra {
+
+// Every way there is to choose discontinuities. The first is the default.
+DiscontinuityChoiceRegistry& DiscontinuityChoices();
+
+}  // namespace penumbra

@@ -1,0 +1,30 @@
+// mesh/pipeline/option_range.h
+//
+// The numbers that an option may have.
+
+#pragma once
+
+#include <cstdint>
+
+namespace penumbra {
+
+// Squares and products of numbers between these neither vanish nor overflow.
+inline constexpr double kTiniestOption = 1e-100, kLargestOption = 1e100;
+
+// The numbers from `low` to `high`, and 0 as well if `or_zero`.
+struct NumberRange {
+  double low = 0, high = 0;
+  bool or_zero = false;
+  bool Holds(double x) const { return (x >= low && x <= high) || (or_zero && x == 0); }
+};
+
+// The integers from `low` to `high`; of these the powers of two alone if `powers_of_two`.
+struct IntegerRange {
+  std::uint64_t low = 0, high = 0;
+  bool powers_of_two = false;
+  bool Holds(std::uint64_t n) const {
+    return n >= low && n <= high && (!powers_of_two || (n & (n - 1)) == 0);
+  }
+};
+
+}  // namespace penumbra

@@ -1,0 +1,99 @@
+#include "mesh/pipeline/option_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mesh/pipeline/option_entries.h"
+#include "solver/base/check.h"
+
+namespace penumbra {
+namespace {
+
+void SetFromFile(const SolveOption& option, const std::optional<OptionValue>& told,
+                 PipelineOptions* options) {
+  if (told)
+    option.field.set(told, options);
+  else if (option.in_older_files)
+    option.field.set(option.in_older_files(*options), options);
+  else if (!option.field.optional || option.resolved)  // what came to a value is told
+    throw InputError(fmt::format("'{}' is missing", OptionKey(option)));
+}
+
+}  // namespace
+
+const std::vector<SolveOption>& OptionTable() {
+  static const std::vector<SolveOption> table = OptionEntries();
+  return table;
+}
+
+const SolveOption* FindOption(std::string_view name) {
+  for (const SolveOption& option : OptionTable())
+    if (option.name == name) return &option;
+  return nullptr;
+}
+
+std::string OptionKey(const SolveOption& option) {
+  std::string key = option.name;
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
+
+std::string CommandLineName(const SolveOption& option) {
+  return fmt::format("--{}{}", option.flag_clears ? "no-" : "", option.name);
+}
+
+std::string SettingName(const SolveOption& option) { return *option.setting ? option.setting : option.name; }
+
+std::vector<std::string> UsualChoices(const SolveOption& option) {
+  std::vector<std::string> names = option.field.choices();
+  std::erase_if(names, [&](const std::string& name) {
+    return std::any_of(option.study_choices.begin(), option.study_choices.end(),
+                       [&](const StudyChoice& choice) { return choice.name == name; });
+  });
+  return names;
+}
+
+std::string OptionHelp(const SolveOption& option) {
+  std::string help = option.help;
+  if (*option.unit) help += fmt::format(" [{}]", option.unit);
+  if (option.field.kind == OptionKind::kInteger || option.field.kind == OptionKind::kNumber)
+    help += "; " + AllowedValues(option.field);
+  if (option.tiny_distance) help += ", at most a thousandth of the scene's diagonal";
+  if (*option.otherwise) help += fmt::format(" (default: {})", option.otherwise);
+  return help;
+}
+
+std::optional<OptionValue> DefaultValue(const SolveOption& option) {
+  PipelineOptions options;
+  return option.field.get(options);
+}
+
+bool IsObeyed(const SolveOption& option, const PipelineOptions& options) {
+  return option.solver.empty() || option.solver == options.solver;
+}
+
+std::vector<std::pair<const SolveOption*, OptionValue>> UsedOptions(const PipelineOptions& options,
+                                                                    const ResolvedOptions& resolved) {
+  std::vector<std::pair<const SolveOption*, OptionValue>> used;
+  for (const SolveOption& option : OptionTable()) {
+    if (!IsObeyed(option, options)) continue;
+    const std::optional<OptionValue> value =
+        option.resolved ? option.resolved(resolved) : option.field.get(options);
+    if (value) used.emplace_back(&option, *value);
+  }
+  return used;
+}
+
+PipelineOptions OptionsToldBy(
+    const std::function<std::optional<OptionValue>(const SolveOption& option)>& told) {
+  PipelineOptions options;
+  // The others depend on it.
+  const SolveOption& solver = *FindOption("solver");
+  SetFromFile(solver, told(solver), &options);
+  for (const SolveOption& option : OptionTable())
+    if (&option != &solver && IsObeyed(option, options)) SetFromFile(option, told(option), &options);
+  return options;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,24 @@
+#include "solver/transport/links/cubature_link_form_factor.h"
+
+#include "solver/transport/links/link_cubature.h"
+
+namespace penumbra {
+namespace {
+
+class CubatureLinkFormFactor final : public LinkFormFactorMethod {
+ public:
+  void Find(ReceiverLinks* links, const ExecutionContext& context) const override {
+    FindByCubature(links, context);
+  }
+};
+
+}  // namespace
+
+LinkFormFactorRegistry::Method CubatureLinkFormFactorMethod() {
+  return {"cubature",
+          "the mean of exact point factors over a few points of the receiver",
+          {},
+          [](const LinkFormFactorOptions&) { return std::make_unique<const CubatureLinkFormFactor>(); }};
+}
+
+}  // namespace penumbra

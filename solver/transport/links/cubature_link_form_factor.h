@@ -1,0 +1,12 @@
+// solver/transport/links/cubature_link_form_factor.h
+
+#pragma once
+
+#include "solver/transport/links/link_form_factor_method.h"
+
+namespace penumbra {
+
+// The mean over a few points of the receiver, as FindByCubature() finds it.
+LinkFormFactorRegistry::Method CubatureLinkFormFactorMethod();
+
+}  // namespace penumbra

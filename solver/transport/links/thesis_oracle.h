@@ -1,0 +1,13 @@
+// solver/transport/links/thesis_oracle.h
+
+#pragma once
+
+#include "solver/transport/links/refinement_oracle.h"
+
+namespace penumbra {
+
+// As printed in the thesis (4.4.1): compares B x deviation(F) with eps, whatever the area, and splits the
+// larger element.
+OracleRegistry::Method ThesisOracleMethod();
+
+}  // namespace penumbra

@@ -1,0 +1,12 @@
+// solver/transport/solvers/light_solvers.h
+
+#pragma once
+
+#include "solver/transport/solvers/light_solver.h"
+
+namespace penumbra {
+
+// Every solver there is; the first is the default.
+LightSolverRegistry& LightSolvers();
+
+}  // namespace penumbra
