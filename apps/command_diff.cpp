@@ -43,12 +43,13 @@ constexpr const char* kChannels[3] = {"red", "green", "blue"};
 RgbImage ReadPicture(const std::string& path) {
   RgbImage image = ReadExr(path);
   for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      for (const float value : image.At(x, y))
-        if (!std::isfinite(value))
-          throw InputError(fmt::format(
-              "{}: error: the pixel in column {}, row {} is no number; give a picture without such pixels",
-              path, x, y));
+    for (int x = 0; x < image.width; ++x) {
+      const glm::vec3 pixel = image.At(x, y);
+      if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y) || !std::isfinite(pixel.z))
+        throw InputError(fmt::format(
+            "{}: error: the pixel in column {}, row {} is no number; give a picture without such pixels",
+            path, x, y));
+    }
   return image;
 }
 

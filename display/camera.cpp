@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "display/glm_conversion.h"
+#include "display/unit_vectors.h"
 #include "solver/base/check.h"
 
 namespace penumbra {
@@ -15,15 +17,24 @@ namespace {
 constexpr double kParallelSine = 1e-6;
 
 struct Axes {
-  Vec3 right, up, forward;
+  glm::dvec3 right, up, forward;
 };
 
+glm::dvec3 Forward(const Camera& camera) {
+  return StableNormalized(ToGlm(camera.look_at) - ToGlm(camera.eye));
+}
+
+bool IsUpFor(const glm::dvec3& forward, const glm::dvec3& up) {
+  return glm::length(glm::cross(forward, StableNormalized(up))) >= kParallelSine;
+}
+
 Axes CameraAxes(const Camera& camera) {
-  const Vec3 forward = (camera.look_at - camera.eye).stableNormalized();
-  for (const Vec3& up : {camera.up.stableNormalized().eval(), Vec3::UnitZ().eval(), Vec3::UnitY().eval()}) {
-    if (!CanBeUp(up, camera)) continue;
-    const Vec3 unit = forward.cross(up).normalized();
-    return {unit, unit.cross(forward), forward};
+  const glm::dvec3 forward = Forward(camera);
+  for (const glm::dvec3& up :
+       {StableNormalized(ToGlm(camera.up)), glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0)}) {
+    if (!IsUpFor(forward, up)) continue;
+    const glm::dvec3 right = Normalized(glm::cross(forward, up));
+    return {right, glm::cross(right, forward), forward};
   }
   PENUMBRA_CHECK(false && "no direction is parallel to both z and y");
   return {};
@@ -33,10 +44,7 @@ double HalfHeight(const Camera& camera) { return std::tan(camera.vertical_fov * 
 
 }  // namespace
 
-bool CanBeUp(const Vec3& up, const Camera& camera) {
-  const Vec3 forward = (camera.look_at - camera.eye).stableNormalized();
-  return forward.cross(up.stableNormalized()).norm() >= kParallelSine;
-}
+bool CanBeUp(const Vec3& up, const Camera& camera) { return IsUpFor(Forward(camera), ToGlm(up)); }
 
 void ValidateCamera(const Camera& camera) {
   const std::string name = camera.name.empty() ? "camera" : fmt::format("camera '{}'", camera.name);
@@ -57,34 +65,44 @@ PixelRays MakePixelRays(const Camera& camera, int width, int height) {
   const Axes axes = CameraAxes(camera);
   const double pixel = 2 * HalfHeight(camera) / height;
   PixelRays rays;
-  rays.eye = camera.eye;
+  rays.eye = ToGlm(camera.eye);
   rays.dx = pixel * axes.right;
   rays.dy = -pixel * axes.up;
   rays.corner = axes.forward - 0.5 * width * rays.dx - 0.5 * height * rays.dy;
   return rays;
 }
 
+Projection MakeProjection(const PixelRays& rays) {
+  // The rows of the inverse of the matrix with the columns dx, dy and corner.
+  const glm::dvec3 x = glm::cross(rays.dy, rays.corner), y = glm::cross(rays.corner, rays.dx),
+                   depth = glm::cross(rays.dx, rays.dy);
+  const double scale = 1 / glm::dot(rays.dx, x);
+  return {x * scale, y * scale, depth * scale};
+}
+
 Camera FrameScene(const Scene& scene) {
-  const auto [low, high] = scene.Bounds();
-  const Vec3 centre = 0.5 * (low + high);
-  const Vec3 from = Vec3(0.45, -1, 0.75).normalized();
+  const auto bounds = scene.Bounds();
+  const glm::dvec3 low = ToGlm(bounds.first), high = ToGlm(bounds.second);
+  const glm::dvec3 centre = 0.5 * (low + high);
+  const glm::dvec3 from = Normalized({0.45, -1, 0.75});
   Camera camera;
   camera.name = "framed";
-  camera.look_at = centre;
-  camera.eye = centre + from;
+  camera.look_at = ToEigen(centre);
+  camera.eye = ToEigen(centre + from);
   const Axes axes = CameraAxes(camera);
 
   // The least distance from which each corner of the box is in the picture.
   const double half = HalfHeight(camera);
   double distance = 0;
   for (int i = 0; i < 8; ++i) {
-    const Vec3 corner =
-        Vec3((i & 1 ? high : low).x(), (i & 2 ? high : low).y(), (i & 4 ? high : low).z()) - centre;
-    const double across = std::max(std::abs(corner.dot(axes.right)), std::abs(corner.dot(axes.up)));
-    distance = std::max(distance, across / half - corner.dot(axes.forward));
+    const glm::dvec3 corner =
+        glm::dvec3((i & 1 ? high : low).x, (i & 2 ? high : low).y, (i & 4 ? high : low).z) - centre;
+    const double across =
+        std::max(std::abs(glm::dot(corner, axes.right)), std::abs(glm::dot(corner, axes.up)));
+    distance = std::max(distance, across / half - glm::dot(corner, axes.forward));
   }
   constexpr double kMargin = 1.04;
-  camera.eye = centre + (distance > 0 ? kMargin * distance : 1.0) * from;
+  camera.eye = ToEigen(centre + (distance > 0 ? kMargin * distance : 1.0) * from);
   return camera;
 }
 

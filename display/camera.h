@@ -5,6 +5,9 @@
 
 #pragma once
 
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
 #include "solver/scene/scene.h"
 
 namespace penumbra {
@@ -13,19 +16,35 @@ namespace penumbra {
 // picture, x increases to the right and y downwards, and pixel (i, j) has its centre at (i + 1/2, j + 1/2).
 // Pixels are square.
 struct PixelRays {
-  Vec3 eye = Vec3::Zero();
-  Vec3 corner = Vec3::Zero();  // direction through (0, 0), with component 1 along the view axis
-  Vec3 dx = Vec3::Zero(), dy = Vec3::Zero();  // change of the direction per pixel
+  glm::dvec3 eye{0.0};
+  glm::dvec3 corner{0.0};       // direction through (0, 0), with component 1 along the view axis
+  glm::dvec3 dx{0.0}, dy{0.0};  // change of the direction per pixel
 
   // The direction through the point (x, y) of the picture, scaled such that eye + z * Direction(x, y) has the
   // depth z [m].
-  Vec3 Direction(double x, double y) const { return corner + x * dx + y * dy; }
+  glm::dvec3 Direction(double x, double y) const { return corner + x * dx + y * dy; }
+};
+
+// The inverse of PixelRays::Direction(): from vectors that begin at the eye to homogeneous picture
+// coordinates (x, y, z). The end of the vector appears at (x / z, y / z) and has the depth z [m].
+struct Projection {
+  glm::dvec3 x{0.0}, y{0.0}, depth{0.0};
+
+  // The sum of the depth starts with its last two terms. Another order rounds differently and would change
+  // some bytes of pictures.
+  glm::dvec3 operator()(const glm::dvec3& from_eye) const {
+    return {glm::dot(x, from_eye), glm::dot(y, from_eye),
+            depth.x * from_eye.x + (depth.y * from_eye.y + depth.z * from_eye.z)};
+  }
 };
 
 // The rays of a picture of width x height pixels. If camera.up is zero or parallel to the view, it is
 // replaced by z, or by y if the camera looks along z. Throws InputError for an invalid camera: see
 // ValidateCamera(). REQUIRES: width > 0, height > 0.
 PixelRays MakePixelRays(const Camera& camera, int width, int height);
+
+// The projection that inverts rays.Direction(). REQUIRES: rays of MakePixelRays().
+Projection MakeProjection(const PixelRays& rays);
 
 // Whether `up` can serve as camera.up: it is not zero and not parallel to the view.
 bool CanBeUp(const Vec3& up, const Camera& camera);

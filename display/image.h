@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 namespace penumbra {
@@ -32,13 +33,15 @@ struct RgbImage {
   std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
-  std::array<float, 3> At(int x, int y) const {
-    const std::size_t i = Index(x, y);
-    return {channel[0][i], channel[1][i], channel[2][i]};
+  // A pixel by its index or its place: red, green, blue in x, y, z.
+  glm::vec3 At(std::size_t i) const { return {channel[0][i], channel[1][i], channel[2][i]}; }
+  glm::vec3 At(int x, int y) const { return At(Index(x, y)); }
+  void Set(std::size_t i, const glm::vec3& rgb) {
+    channel[0][i] = rgb.x;
+    channel[1][i] = rgb.y;
+    channel[2][i] = rgb.z;
   }
-  void Set(int x, int y, const std::array<float, 3>& rgb) {
-    for (std::size_t c = 0; c < 3; ++c) channel[c][Index(x, y)] = rgb[c];
-  }
+  void Set(int x, int y, const glm::vec3& rgb) { Set(Index(x, y), rgb); }
 };
 
 // A picture for a screen: 8-bit sRGB, three bytes per pixel.

@@ -1,6 +1,5 @@
 #include "display/opengl_passes.h"
 
-#include <Eigen/LU>
 #define GL_GLEXT_PROTOTYPES 1  // for their types; none is linked
 #include <GL/glcorearb.h>
 #include <fmt/format.h>
@@ -9,10 +8,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "display/glm_conversion.h"
 #include "display/opengl_context.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
@@ -99,36 +102,34 @@ struct GlFunctions {
 
 // A corner as the graphics system gets it, with what it has to know of its triangle.
 struct DrawnVertex {
-  float x, y, z, w;
-  float planes[3][3];  // of the three coordinates, in pixels from `origin`; proportional to them
-  float origin[2];     // the centre of a pixel
+  glm::vec4 position;
+  std::array<glm::vec3, 3> planes;  // of the three coordinates, in pixels from `origin`; proportional to them
+  glm::vec2 origin;                 // the centre of a pixel
   std::uint32_t triangle;
 };
 
 // The plane through the eye, b and a, as a function of picture coordinates (Olano and Greer 1997).
-Vec3 EdgePlane(const Vec3& a, const Vec3& b) { return b.cross(a); }
+glm::dvec3 EdgePlane(const glm::dvec3& a, const glm::dvec3& b) { return glm::cross(b, a); }
 
 // Fills `planes` and `origin` from the corners in homogeneous picture coordinates.
-void SetPlanes(const std::array<Vec3, 3>& triangle, int width, int height, DrawnVertex* vertex) {
+void SetPlanes(const std::array<glm::dvec3, 3>& triangle, int width, int height, DrawnVertex* vertex) {
   // Near the triangle where all of it is before the eye: floats then lose nothing on the way to it.
-  Vec3 origin(width / 2 + 0.5, height / 2 + 0.5, 1);
-  if (triangle[0].z() > 0 && triangle[1].z() > 0 && triangle[2].z() > 0) {
-    Vec3 centre = Vec3::Zero();
-    for (const Vec3& v : triangle) centre += v / v.z() / 3;
-    origin.x() = std::floor(std::clamp(centre.x(), 0.0, width - 1.0)) + 0.5;
-    origin.y() = std::floor(std::clamp(centre.y(), 0.0, height - 1.0)) + 0.5;
+  glm::dvec3 origin(width / 2 + 0.5, height / 2 + 0.5, 1);
+  if (triangle[0].z > 0 && triangle[1].z > 0 && triangle[2].z > 0) {
+    glm::dvec3 centre(0.0);
+    for (const glm::dvec3& v : triangle) centre += v / v.z / 3.0;
+    origin.x = std::floor(std::clamp(centre.x, 0.0, width - 1.0)) + 0.5;
+    origin.y = std::floor(std::clamp(centre.y, 0.0, height - 1.0)) + 0.5;
   }
-  std::array<Vec3, 3> planes;
+  std::array<glm::dvec3, 3> planes;
   double largest = std::numeric_limits<double>::min();
   for (std::size_t k = 0; k < 3; ++k) {
     planes[k] = EdgePlane(triangle[(k + 1) % 3], triangle[(k + 2) % 3]);
-    planes[k].z() = planes[k].dot(origin);
-    largest = std::max(largest, planes[k].cwiseAbs().maxCoeff());
+    planes[k].z = glm::dot(planes[k], origin);
+    largest = std::max({largest, std::abs(planes[k].x), std::abs(planes[k].y), std::abs(planes[k].z)});
   }
-  for (std::size_t k = 0; k < 3; ++k)
-    for (int i = 0; i < 3; ++i) vertex->planes[k][i] = static_cast<float>(planes[k][i] / largest);
-  vertex->origin[0] = static_cast<float>(origin.x());
-  vertex->origin[1] = static_cast<float>(origin.y());
+  for (std::size_t k = 0; k < 3; ++k) vertex->planes[k] = ToFloats(planes[k] / largest);
+  vertex->origin = glm::vec2(ToFloats(origin));
 }
 
 class OpenGl : public Passes {
@@ -149,7 +150,7 @@ class OpenGl : public Passes {
   void Project(const PixelRays& rays);
   void Draw(GLuint frame_buffer, GLuint program);
 
-  std::vector<std::array<Vec3, 3>> triangles_;
+  std::vector<std::array<glm::dvec3, 3>> triangles_;
   double near_ = 0;  // [m]
   OpenGlContext context_;
   GlFunctions gl_{context_};
@@ -163,16 +164,17 @@ class OpenGl : public Passes {
 
 OpenGl::OpenGl(const IrradianceMesh& mesh, OpenGlCoordinates coordinates) {
   const Current current(context_);
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();
-  if (!mesh.positions.empty()) low = high = mesh.positions.front();
+  glm::dvec3 low(0.0), high(0.0);
+  if (!mesh.positions.empty()) low = high = ToGlm(mesh.positions.front());
   for (const Vec3& p : mesh.positions) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
+    low = glm::min(low, ToGlm(p));
+    high = glm::max(high, ToGlm(p));
   }
-  near_ = std::max(kNear * (high - low).norm(), static_cast<double>(std::numeric_limits<float>::min()));
+  near_ = std::max(kNear * glm::length(high - low), static_cast<double>(std::numeric_limits<float>::min()));
   for (const IrradianceMesh::Triangle& triangle : mesh.triangles)
-    triangles_.push_back({mesh.positions[triangle.vertex[0]], mesh.positions[triangle.vertex[1]],
-                          mesh.positions[triangle.vertex[2]]});
+    triangles_.push_back({ToGlm(mesh.positions[triangle.vertex[0]]),
+                          ToGlm(mesh.positions[triangle.vertex[1]]),
+                          ToGlm(mesh.positions[triangle.vertex[2]])});
   vertices_.resize(3 * triangles_.size());
 
   id_program_ = MakeProgram(kIdShader);
@@ -210,10 +212,10 @@ void OpenGl::MakeVertexArray() {
   };
   constexpr GLsizei kStride = sizeof(DrawnVertex);
   for (GLuint attribute = 0; attribute < 6; ++attribute) gl_.EnableVertexAttribArray(attribute);
-  gl_.VertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, kStride, at(offsetof(DrawnVertex, x)));
+  gl_.VertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, kStride, at(offsetof(DrawnVertex, position)));
   for (GLuint k = 0; k < 3; ++k)
     gl_.VertexAttribPointer(1 + k, 3, GL_FLOAT, GL_FALSE, kStride,
-                            at(offsetof(DrawnVertex, planes) + k * sizeof(DrawnVertex::planes[0])));
+                            at(offsetof(DrawnVertex, planes) + k * sizeof(glm::vec3)));
   gl_.VertexAttribPointer(4, 2, GL_FLOAT, GL_FALSE, kStride, at(offsetof(DrawnVertex, origin)));
   gl_.VertexAttribIPointer(5, 1, GL_UNSIGNED_INT, kStride, at(offsetof(DrawnVertex, triangle)));
 }
@@ -281,22 +283,17 @@ void OpenGl::Resize(int width, int height) {
 
 // In binary64 from the eye on, so that a scene far from the origin loses nothing.
 void OpenGl::Project(const PixelRays& rays) {
-  Eigen::Matrix3d to_space;
-  to_space << rays.dx, rays.dy, rays.corner;
-  const Eigen::Matrix3d to_picture = to_space.inverse();
+  const Projection to_picture = MakeProjection(rays);
   const double across = 2.0 / width_, down = 2.0 / height_;
   ParallelFor(triangles_.size(), kTrianglesPerTask, [&](std::size_t i) {
-    std::array<Vec3, 3> triangle;
-    for (std::size_t k = 0; k < 3; ++k) triangle[k] = to_picture * (triangles_[i][k] - rays.eye);
+    std::array<glm::dvec3, 3> triangle;
+    for (std::size_t k = 0; k < 3; ++k) triangle[k] = to_picture(triangles_[i][k] - rays.eye);
     DrawnVertex vertex{};
     SetPlanes(triangle, width_, height_, &vertex);
     vertex.triangle = static_cast<std::uint32_t>(i);
-    vertex.z = static_cast<float>(near_);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3& p = triangle[k];
-      vertex.x = static_cast<float>(across * p.x() - p.z());
-      vertex.y = static_cast<float>(down * p.y() - p.z());
-      vertex.w = static_cast<float>(p.z());
+      const glm::dvec3& p = triangle[k];
+      vertex.position = ToFloats(glm::dvec4(across * p.x - p.z, down * p.y - p.z, near_, p.z));
       vertices_[3 * i + k] = vertex;
     }
   });

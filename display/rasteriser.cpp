@@ -1,14 +1,15 @@
 #include "display/rasteriser.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 #include <tuple>
 #include <utility>
 
+#include "display/glm_conversion.h"
 #include "display/tile_grid.h"
+#include "display/unit_vectors.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
 #include "solver/base/scratch.h"
@@ -71,21 +72,23 @@ struct Bin {
 struct Cluster {
   std::uint32_t first_triangle, end_triangle;
   std::uint32_t first_vertex, end_vertex;
-  Vec3 normal = Vec3::Zero();
+  glm::dvec3 normal{0.0};
   double deviation = 0;  // of the triangles' normals from it
   double low = 0;        // the least height of a vertex along it [m]
-  Vec3 centre = Vec3::Zero();
+  glm::dvec3 centre{0.0};
   double radius = 0;  // of a ball that holds all vertices [m]
 };
 
 // The planes of the picture's pyramid as functions of directions from the eye, positive inside.
 struct Pyramid {
-  std::array<Vec3, 5> side;  // left, right, top, bottom, front
+  std::array<glm::dvec3, 5> side;  // left, right, top, bottom, front
 
   // Whether all of the ball is beyond one of them.
-  bool Misses(const Vec3& centre, double radius) const {
-    return std::any_of(side.begin(), side.end(), [&](const Vec3& s) {
-      return s.dot(centre) < -(1 + kTurnedAway) * s.norm() * radius - kTurnedAway * s.norm() * centre.norm();
+  bool Misses(const glm::dvec3& centre, double radius) const {
+    return std::any_of(side.begin(), side.end(), [&](const glm::dvec3& s) {
+      const double length = glm::length(s);
+      return glm::dot(s, centre) <
+             -(1 + kTurnedAway) * length * radius - kTurnedAway * length * glm::length(centre);
     });
   }
 };
@@ -126,7 +129,7 @@ std::pair<int, int> PixelRange(double low, double high, int size) {
 }  // namespace
 
 struct Rasteriser::Impl {
-  std::vector<Vec3> positions;           // cluster by cluster
+  std::vector<glm::dvec3> positions;     // cluster by cluster
   std::vector<VertexIndices> triangles;  // indices in `positions`
   std::vector<Cluster> clusters;
   std::vector<std::size_t> first_cluster;  // of each bin, and the end
@@ -134,16 +137,16 @@ struct Rasteriser::Impl {
   // The picture that is being drawn.
   int width = 0, height = 0;
   TileGrid tiles;
-  Vec3 eye = Vec3::Zero();
-  Eigen::Matrix3d to_picture = Eigen::Matrix3d::Identity();
+  glm::dvec3 eye{0.0};
+  Projection to_picture;
   Pyramid pyramid;
   std::vector<ScreenVertex> vertices;  // valid for clusters that may be seen
   std::vector<Bin> bins;
   std::vector<Plane> barycentric;  // three a triangle, valid for those in a bin: proportional to the
                                    // coordinates of its vertices, their sum is 1 / depth
 
-  Impl(const std::vector<Vec3>& all_positions, std::vector<VertexIndices> all_triangles);
-  void AddCluster(std::size_t begin, std::size_t end, const std::vector<Vec3>& all_positions,
+  Impl(const std::vector<glm::dvec3>& all_positions, std::vector<VertexIndices> all_triangles);
+  void AddCluster(std::size_t begin, std::size_t end, const std::vector<glm::dvec3>& all_positions,
                   std::vector<std::uint32_t>* local);
   void Aim(const PixelRays& rays);
   bool MayBeSeen(const Cluster& cluster) const;
@@ -158,29 +161,33 @@ struct Rasteriser::Impl {
 namespace {
 
 // Twice the area, along the front's normal.
-Vec3 AreaNormal(const std::vector<Vec3>& positions, const VertexIndices& t) {
-  return (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]);
+glm::dvec3 AreaNormal(const std::vector<glm::dvec3>& positions, const VertexIndices& t) {
+  return glm::cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
+}
+
+glm::dvec3 NormalOf(const std::vector<glm::dvec3>& positions, const VertexIndices& t) {
+  return StableNormalized(AreaNormal(positions, t));
 }
 
 }  // namespace
 
-Rasteriser::Impl::Impl(const std::vector<Vec3>& all_positions, std::vector<VertexIndices> all_triangles)
+Rasteriser::Impl::Impl(const std::vector<glm::dvec3>& all_positions, std::vector<VertexIndices> all_triangles)
     : triangles(std::move(all_triangles)) {
   double extent = 0;
-  for (const Vec3& p : all_positions) extent = std::max(extent, (p - all_positions.front()).norm());
+  for (const glm::dvec3& p : all_positions) extent = std::max(extent, glm::length(p - all_positions.front()));
   std::vector<std::uint32_t> local(all_positions.size(), kNoTriangle);
   first_cluster.push_back(0);
   for (std::size_t begin = 0; begin < triangles.size();) {
     // As many as lie in the plane of the first, up to the end of its bin.
     const std::size_t limit = std::min(triangles.size(), (begin / kTrianglesPerBin + 1) * kTrianglesPerBin);
-    const Vec3 normal = AreaNormal(all_positions, triangles[begin]).stableNormalized();
-    const Vec3& foot = all_positions[triangles[begin][0]];
+    const glm::dvec3 normal = NormalOf(all_positions, triangles[begin]);
+    const glm::dvec3& foot = all_positions[triangles[begin][0]];
     const auto fits = [&](const VertexIndices& t) {
       return std::all_of(t.begin(), t.end(),
                          [&](std::uint32_t v) {
-                           return std::abs(normal.dot(all_positions[v] - foot)) <= kFlat * extent;
+                           return std::abs(glm::dot(normal, all_positions[v] - foot)) <= kFlat * extent;
                          }) &&
-             (AreaNormal(all_positions, t).stableNormalized() - normal).norm() <= kFlat;
+             glm::length(NormalOf(all_positions, t) - normal) <= kFlat;
     };
     std::size_t end = begin + 1;
     while (end < limit && fits(triangles[end])) ++end;
@@ -194,18 +201,18 @@ Rasteriser::Impl::Impl(const std::vector<Vec3>& all_positions, std::vector<Verte
 }
 
 // `local` is empty before and afterwards: where a vertex of the cluster is in `positions`.
-void Rasteriser::Impl::AddCluster(std::size_t begin, std::size_t end, const std::vector<Vec3>& all_positions,
+void Rasteriser::Impl::AddCluster(std::size_t begin, std::size_t end,
+                                  const std::vector<glm::dvec3>& all_positions,
                                   std::vector<std::uint32_t>* local) {
   Cluster cluster{};
   cluster.first_triangle = static_cast<std::uint32_t>(begin);
   cluster.end_triangle = static_cast<std::uint32_t>(end);
   cluster.first_vertex = static_cast<std::uint32_t>(positions.size());
-  cluster.normal = AreaNormal(all_positions, triangles[begin]).stableNormalized();
+  cluster.normal = NormalOf(all_positions, triangles[begin]);
   std::vector<std::uint32_t> used;
   for (std::size_t i = begin; i < end; ++i) {
     cluster.deviation =
-        std::max(cluster.deviation,
-                 (AreaNormal(all_positions, triangles[i]).stableNormalized() - cluster.normal).norm());
+        std::max(cluster.deviation, glm::length(NormalOf(all_positions, triangles[i]) - cluster.normal));
     for (std::uint32_t& v : triangles[i]) {
       std::uint32_t& place = (*local)[v];
       if (place == kNoTriangle) {
@@ -218,24 +225,27 @@ void Rasteriser::Impl::AddCluster(std::size_t begin, std::size_t end, const std:
   }
   for (const std::uint32_t v : used) (*local)[v] = kNoTriangle;
   cluster.end_vertex = static_cast<std::uint32_t>(positions.size());
-  Vec3 low = positions[cluster.first_vertex], high = low;
+  glm::dvec3 low = positions[cluster.first_vertex], high = low;
   cluster.low = std::numeric_limits<double>::infinity();
   for (std::uint32_t v = cluster.first_vertex; v < cluster.end_vertex; ++v) {
-    low = low.cwiseMin(positions[v]);
-    high = high.cwiseMax(positions[v]);
-    cluster.low = std::min(cluster.low, cluster.normal.dot(positions[v]));
+    low = glm::min(low, positions[v]);
+    high = glm::max(high, positions[v]);
+    cluster.low = std::min(cluster.low, glm::dot(cluster.normal, positions[v]));
   }
   cluster.centre = 0.5 * (low + high);
   for (std::uint32_t v = cluster.first_vertex; v < cluster.end_vertex; ++v)
-    cluster.radius = std::max(cluster.radius, (positions[v] - cluster.centre).norm());
+    cluster.radius = std::max(cluster.radius, glm::length(positions[v] - cluster.centre));
   clusters.push_back(cluster);
 }
 
-Rasteriser::Rasteriser(std::vector<Vec3> positions, std::vector<VertexIndices> triangles) {
+Rasteriser::Rasteriser(std::span<const Vec3> positions, std::vector<VertexIndices> triangles) {
   PENUMBRA_CHECK(triangles.size() < kNoTriangle);
   for (const VertexIndices& triangle : triangles)
     for (const std::uint32_t v : triangle) PENUMBRA_CHECK(v < positions.size());
-  impl_ = std::make_unique<Impl>(positions, std::move(triangles));
+  std::vector<glm::dvec3> vertices;
+  vertices.reserve(positions.size());
+  for (const Vec3& p : positions) vertices.push_back(ToGlm(p));
+  impl_ = std::make_unique<Impl>(vertices, std::move(triangles));
 }
 
 Rasteriser::~Rasteriser() = default;
@@ -245,28 +255,27 @@ Rasteriser& Rasteriser::operator=(Rasteriser&&) noexcept = default;
 std::size_t Rasteriser::TriangleCount() const { return impl_->triangles.size(); }
 
 void Rasteriser::Impl::Aim(const PixelRays& rays) {
-  Eigen::Matrix3d to_space;
-  to_space << rays.dx, rays.dy, rays.corner;
-  to_picture = to_space.inverse();
+  to_picture = MakeProjection(rays);
   eye = rays.eye;
-  const Vec3 x = to_picture.row(0), y = to_picture.row(1), z = to_picture.row(2);
-  pyramid.side = {x, width * z - x, y, height * z - y, z};
+  const auto& [x, y, depth] = to_picture;
+  const double right = width, bottom = height;
+  pyramid.side = {x, right * depth - x, y, bottom * depth - y, depth};
 }
 
 // False only where none of its triangles would be drawn.
 bool Rasteriser::Impl::MayBeSeen(const Cluster& cluster) const {
-  const Vec3 centre = cluster.centre - eye;
+  const glm::dvec3 centre = cluster.centre - eye;
   if (pyramid.Misses(centre, cluster.radius)) return false;
   // How far the eye is before the plane of any of the triangles, at most.
-  const double reach = centre.norm() + cluster.radius;
-  const double before = cluster.normal.dot(eye) - cluster.low + cluster.deviation * reach;
-  return before >= -kTurnedAway * (reach + eye.norm());
+  const double reach = glm::length(centre) + cluster.radius;
+  const double before = glm::dot(cluster.normal, eye) - cluster.low + cluster.deviation * reach;
+  return before >= -kTurnedAway * (reach + glm::length(eye));
 }
 
 void Rasteriser::Impl::Transform(const Cluster& cluster) {
   for (std::uint32_t i = cluster.first_vertex; i < cluster.end_vertex; ++i) {
-    const Vec3 p = to_picture * (positions[i] - eye);
-    ScreenVertex v{p.x(), p.y(), p.z(), 0, 0, 0};
+    const glm::dvec3 p = to_picture(positions[i] - eye);
+    ScreenVertex v{p.x, p.y, p.z, 0, 0, 0};
     v.outside =
         static_cast<std::uint8_t>((v.x < 0 ? 1 : 0) | (v.x > width * v.z ? 2 : 0) | (v.y < 0 ? 4 : 0) |
                                   (v.y > height * v.z ? 8 : 0) | (v.z > 0 ? 0 : kBehind));

@@ -34,7 +34,7 @@ namespace penumbra {
 class Rasteriser : public Passes {
  public:
   // REQUIRES: valid indices in `positions`, fewer than kNoTriangle triangles, finite positions.
-  Rasteriser(std::vector<Vec3> positions, std::vector<VertexIndices> triangles);
+  Rasteriser(std::span<const Vec3> positions, std::vector<VertexIndices> triangles);
   ~Rasteriser() override;
   Rasteriser(Rasteriser&&) noexcept;
   Rasteriser& operator=(Rasteriser&&) noexcept;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "display/camera.h"
+#include "display/glm_conversion.h"
 #include "mesh/interpolants/mesh_locator.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
@@ -64,14 +65,14 @@ RayDisplay::RayDisplay(const Scene& scene, RayShader shader, int samples)
 }
 
 RaySample RayDisplay::Sample(const PixelRays& rays, double x, double y) const {
-  const Vec3 direction = rays.Direction(x, y);
-  const RayCaster::Hit hit = rays_.CastToFront(rays.eye, direction);
+  const Vec3 eye = ToEigen(rays.eye), direction = ToEigen(rays.Direction(x, y));
+  const RayCaster::Hit hit = rays_.CastToFront(eye, direction);
   RaySample sample;
   if (hit.patch == kNoPatch) return sample;
   const Material& material = scene_.MaterialOf(hit.patch);
   sample.radiosity = material.emittance;
   if ((material.reflectance > 0).any())
-    sample.radiosity += material.reflectance * shader_(MeetPlane(scene_, hit, rays.eye, direction));
+    sample.radiosity += material.reflectance * shader_(MeetPlane(scene_, hit, eye, direction));
   sample.kind = (material.emittance > 0).any() ? PixelKind::kEmitter : PixelKind::kSurface;
   return sample;
 }
@@ -90,8 +91,7 @@ const SampledPicture& RayDisplay::Render(const Camera& camera, int width, int he
     const double y = static_cast<double>(pixel / across) + AdditiveRecurrence(sample, kR2Alpha[1]);
     const RaySample sampled = Sample(rays, x, y);
     const std::size_t at = pixel * per_pixel + sample;
-    for (std::size_t c = 0; c < 3; ++c)
-      picture_.linear.channel[c][at] = static_cast<float>(sampled.radiosity[static_cast<Eigen::Index>(c)]);
+    picture_.linear.Set(at, ToPixel(sampled.radiosity));
     picture_.kind[at] = sampled.kind;
   };
   const std::size_t pixels = across * static_cast<std::size_t>(height);

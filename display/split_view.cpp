@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "display/false_colour.h"
+#include "display/glm_conversion.h"
+#include "display/unit_vectors.h"
 #include "solver/base/check.h"
 
 namespace penumbra {
@@ -30,15 +32,15 @@ std::uint8_t GreyCode(double value) {
 // 1 / depth of each pixel [1/m], 0 where there is nothing.
 std::vector<double> InverseDepths(const RenderedFrame& frame, const PixelRays& rays,
                                   const IrradianceMesh& mesh) {
-  Vec3 axis = rays.dx.cross(rays.dy).stableNormalized();
-  if (axis.dot(rays.corner) < 0) axis = -axis;
+  glm::dvec3 axis = StableNormalized(glm::cross(rays.dx, rays.dy));
+  if (glm::dot(axis, rays.corner) < 0) axis = -axis;
   std::vector<double> inverse(frame.triangle.size(), 0.0);
   for (std::size_t i = 0; i < inverse.size(); ++i) {
     if (frame.triangle[i] == kNoTriangle) continue;
     const auto& [a, b, c] = mesh.triangles[frame.triangle[i]].vertex;
     const double s = static_cast<double>(frame.s[i]), t = static_cast<double>(frame.t[i]);
     const Vec3 p = (1 - s - t) * mesh.positions[a] + s * mesh.positions[b] + t * mesh.positions[c];
-    const double depth = axis.dot(p - rays.eye);
+    const double depth = glm::dot(axis, ToGlm(p) - rays.eye);
     if (depth > 0) inverse[i] = 1 / depth;
   }
   return inverse;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "display/glm_conversion.h"
 #include "display/tile_grid.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
@@ -33,7 +34,8 @@ class Lap {
 };
 
 void Store(const Rgb& rgb, float* out) {
-  for (int c = 0; c < 3; ++c) out[c] = static_cast<float>(rgb[c]);
+  const glm::vec3 pixel = ToPixel(rgb);
+  for (int c = 0; c < 3; ++c) out[c] = pixel[c];
 }
 
 TriangleShade MakeShade(const QuadraticInterpolant& irradiance, const Material& material) {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "display/camera.h"
-#include "display/image_io.h"
+#include "display/png_image.h"
 #include "display/tone_mapping.h"
 #include "display/two_pass_display.h"
 #include "mesh/pipeline/pipeline.h"

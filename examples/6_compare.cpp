@@ -107,7 +107,6 @@ int main(int argc, char** argv) try {
   const double top = 1.1 * *std::max_element(exact.begin(), exact.end());
   std::ofstream file(path);
   file << fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {} {}">)", kWidth, kHeight)
-       << "\n"
        << Curve(exact, top, "#bbbbbb", 5) << Curve(linear, top, "#c0392b", 1.5)
        << Curve(quadratic, top, "#1f4e9c", 1.5) << Label(0, "#888888", "exact")
        << Label(1, "#c0392b", "linear, solver's elements")

@@ -1,5 +1,5 @@
 # The direction of dependency (thesis_notes/design.md): a library includes the libraries above it, never one below,
-# and what is heavy to compile stays in .cpp files. Greps the includes of the checkout, then plants violations of
+# what is heavy to compile stays in .cpp files, and GLM in the display. Greps the includes of the checkout, then plants violations of
 # every kind in a scratch folder and demands that each is found.
 #
 #   cmake -D ROOT=checkout -D SCRATCH=folder -P tests/layering_test.cmake
@@ -13,6 +13,8 @@ set(LAYERS solver/base solver/geometry solver/scene
   display apps)
 set(OUTSIDE tests experiments examples)  # may include every layer; no layer may include them
 set(HEAVY "^(CGAL|embree[0-9]*|tbb|oneapi|EGL|GL|GLFW|OpenEXR|stb)/|^Imf|^imgui|^stb_|^hdf5|^H5")
+
+set(DISPLAY_ONLY "^glm/")  # solver and mesh have Eigen's vectors
 
 # The place of the library that `path` belongs to; -1 for none.
 function(layer_of path result)
@@ -43,6 +45,9 @@ function(judge file kind name result)
   layer_of("${name}" to)
   if(file MATCHES "\\.h$" AND name MATCHES "${HEAVY}")
     list(APPEND faults "${file} includes ${name}: only .cpp files may")
+  endif()
+  if(file MATCHES "^(solver|mesh)/" AND name MATCHES "${DISPLAY_ONLY}")
+    list(APPEND faults "${file} includes ${name}: only the display may")
   endif()
   if(NOT from EQUAL -1 AND kind STREQUAL "\"")
     if(to EQUAL -1)
@@ -116,6 +121,9 @@ expect_faults(1 mesh/pipeline/planted.h "<hdf5.h>")
 expect_faults(1 display/planted.h "<stb_image_write.h>")
 expect_faults(1 display/viewer/planted.h "<GLFW/glfw3.h>")
 expect_faults(1 tests/display/planted.h "<imgui.h>")
+expect_faults(1 solver/geometry/planted.h "<glm/vec3.hpp>")
+expect_faults(1 mesh/interpolants/planted.cpp "<glm/glm.hpp>")
+expect_faults(0 display/planted.h "<glm/vec3.hpp>")
 expect_faults(0 mesh/pipeline/planted.cpp "<CGAL/Constrained_Delaunay_triangulation_2.h>")
 expect_faults(0 display/planted.h "\"mesh/interpolants/irradiance_mesh.h\"")
 expect_faults(0 mesh/pipeline/planted.h "\"mesh/discontinuities/dset.h\"")

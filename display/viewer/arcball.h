@@ -5,6 +5,8 @@
 
 #pragma once
 
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 
 #include "solver/scene/scene.h"
@@ -30,13 +32,13 @@ class ArcballDrag {
   Camera At(double x, double y) const;
 
  private:
-  Vec3 OnBall(double x, double y) const;
+  glm::dvec3 OnBall(double x, double y) const;
 
   Camera start_;
   PictureSize size_;
-  Eigen::Matrix3d axes_;  // columns: right, up, backward
-  std::optional<Vec3> constraint_;
-  Vec3 from_;
+  glm::dmat3 axes_;  // columns: right, up, backward
+  std::optional<glm::dvec3> constraint_;
+  glm::dvec3 from_;
 };
 
 // The camera and what it looks at, moved with what lies at look_at's depth under the pointer, which went

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
+#include "display/glm_conversion.h"
+#include "display/unit_vectors.h"
 #include "solver/base/parallel.h"
 
 namespace penumbra::viewer {
@@ -24,27 +28,27 @@ struct ScreenLine {
 struct View {
   explicit View(const PixelRays& pixel_rays)
       : rays(pixel_rays),
-        forward(rays.dx.cross(rays.dy).normalized()),
-        dx(rays.dx / rays.dx.squaredNorm()),
-        dy(rays.dy / rays.dy.squaredNorm()),
-        x0(rays.corner.dot(dx)),
-        y0(rays.corner.dot(dy)) {}
+        forward(Normalized(glm::cross(rays.dx, rays.dy))),
+        dx(rays.dx / glm::dot(rays.dx, rays.dx)),
+        dy(rays.dy / glm::dot(rays.dy, rays.dy)),
+        x0(glm::dot(rays.corner, dx)),
+        y0(glm::dot(rays.corner, dy)) {}
 
-  double Depth(const Vec3& p) const { return forward.dot(p - rays.eye); }
-  ScreenPoint Place(const Vec3& p) const {
+  double Depth(const glm::dvec3& p) const { return glm::dot(forward, p - rays.eye); }
+  ScreenPoint Place(const glm::dvec3& p) const {
     const double inverse = 1 / Depth(p);
-    const Vec3 direction = (p - rays.eye) * inverse;
-    return {direction.dot(dx) - x0, direction.dot(dy) - y0, inverse};
+    const glm::dvec3 direction = (p - rays.eye) * inverse;
+    return {glm::dot(direction, dx) - x0, glm::dot(direction, dy) - y0, inverse};
   }
 
   const PixelRays& rays;
-  Vec3 forward, dx, dy;
+  glm::dvec3 forward, dx, dy;
   double x0, y0;
 };
 
 // The part of the line before the eye and within the picture, with a margin.
 std::optional<ScreenLine> ToScreen(const View& view, const OverlayLine& line, int width, int height) {
-  Vec3 a = line.a, b = line.b;
+  glm::dvec3 a = ToGlm(line.a), b = ToGlm(line.b);
   const double da = view.Depth(a), db = view.Depth(b);
   const double near = kNearOfLine * std::max(std::abs(da), std::abs(db));
   if (da < near && db < near) return std::nullopt;
@@ -137,19 +141,22 @@ void PaintPoint(const ScreenPoint& at, const OverlayPoint& point, int row_begin,
 void PaintTriangle(const View& view, const OverlayTriangle& triangle, int row_begin, int row_end,
                    const DepthMap& depth, Srgb8Image* picture) {
   const PixelRays& rays = view.rays;
-  const std::array<Vec3, 3> p = {triangle.vertex[0] - rays.eye, triangle.vertex[1] - rays.eye,
-                                 triangle.vertex[2] - rays.eye};
-  const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]);
-  const double height = normal.dot(p[0]);
+  const std::array<glm::dvec3, 3> vertex = {ToGlm(triangle.vertex[0]), ToGlm(triangle.vertex[1]),
+                                            ToGlm(triangle.vertex[2])};
+  const std::array<glm::dvec3, 3> p = {vertex[0] - rays.eye, vertex[1] - rays.eye, vertex[2] - rays.eye};
+  const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+  const double height = glm::dot(normal, p[0]);
   if (height == 0) return;
-  std::array<Vec3, 4> plane = {p[0].cross(p[1]), p[1].cross(p[2]), p[2].cross(p[0]), normal / height};
+  std::array<glm::dvec3, 4> plane = {glm::cross(p[0], p[1]), glm::cross(p[1], p[2]), glm::cross(p[2], p[0]),
+                                     normal / height};
   for (int k = 0; k < 3; ++k) plane[static_cast<std::size_t>(k)] *= height > 0 ? 1.0 : -1.0;
   // Where all vertices lie before the eye, only the box around them is walked.
   double low_x = 0, high_x = picture->width, low_y = row_begin, high_y = row_end;
-  if (std::all_of(triangle.vertex.begin(), triangle.vertex.end(),
-                  [&](const Vec3& v) { return view.Depth(v) > kNearOfLine * (v - rays.eye).norm(); })) {
+  if (std::all_of(vertex.begin(), vertex.end(), [&](const glm::dvec3& v) {
+        return view.Depth(v) > kNearOfLine * glm::length(v - rays.eye);
+      })) {
     double box[4] = {1e30, -1e30, 1e30, -1e30};
-    for (const Vec3& v : triangle.vertex) {
+    for (const glm::dvec3& v : vertex) {
       const ScreenPoint at = view.Place(v);
       box[0] = std::min(box[0], at.x);
       box[1] = std::max(box[1], at.x);
@@ -163,10 +170,12 @@ void PaintTriangle(const View& view, const OverlayTriangle& triangle, int row_be
   }
   for (int y = static_cast<int>(low_y); y < static_cast<int>(high_y); ++y)
     for (int x = static_cast<int>(low_x); x < static_cast<int>(high_x); ++x) {
-      const Vec3 direction = rays.Direction(x + 0.5, y + 0.5);
-      const double inverse = plane[3].dot(direction);
+      const glm::dvec3 direction = rays.Direction(x + 0.5, y + 0.5);
+      const double inverse = glm::dot(plane[3], direction);
       if (inverse <= 0 || inverse < static_cast<double>(depth.Threshold(x, y))) continue;
-      if (plane[0].dot(direction) < 0 || plane[1].dot(direction) < 0 || plane[2].dot(direction) < 0) continue;
+      if (glm::dot(plane[0], direction) < 0 || glm::dot(plane[1], direction) < 0 ||
+          glm::dot(plane[2], direction) < 0)
+        continue;
       Blend(picture, x, y, triangle.colour, static_cast<double>(triangle.opacity));
     }
 }
@@ -193,14 +202,14 @@ DepthMap::DepthMap(const PixelRays& rays, const RenderedFrame& frame, const Irra
         continue;
       }
       const auto& at = mesh.triangles[id].vertex;
-      const Vec3 p = mesh.positions[at[0]] - rays.eye;
-      const Vec3 normal = (mesh.positions[at[1]] - mesh.positions[at[0]])
-                              .cross(mesh.positions[at[2]] - mesh.positions[at[0]]);
-      // 1 / depth = (normal . direction) / (normal . p).
-      const Vec3 plane = normal / normal.dot(p);
-      const double slope = std::abs(plane.dot(rays.dx)) + std::abs(plane.dot(rays.dy));
+      const glm::dvec3 a = ToGlm(mesh.positions[at[0]]), b = ToGlm(mesh.positions[at[1]]),
+                       c = ToGlm(mesh.positions[at[2]]);
+      const glm::dvec3 normal = glm::cross(b - a, c - a);
+      // 1 / depth = (normal . direction) / (normal . (a - eye)).
+      const glm::dvec3 plane = normal / glm::dot(normal, a - rays.eye);
+      const double slope = std::abs(glm::dot(plane, rays.dx)) + std::abs(glm::dot(plane, rays.dy));
       for (; x < frame.width && ids[row * width + static_cast<std::size_t>(x)] == id; ++x) {
-        const double inverse = plane.dot(rays.Direction(x + 0.5, y + 0.5));
+        const double inverse = glm::dot(plane, rays.Direction(x + 0.5, y + 0.5));
         inverse_[Index(x, y)] =
             static_cast<float>(std::max(0.0, inverse * (1 - kRounding) - std::min(slope, 0.5 * inverse)));
       }
@@ -208,7 +217,7 @@ DepthMap::DepthMap(const PixelRays& rays, const RenderedFrame& frame, const Irra
   });
 }
 
-ScreenPoint Project(const PixelRays& rays, const Vec3& point) { return View(rays).Place(point); }
+ScreenPoint Project(const PixelRays& rays, const Vec3& point) { return View(rays).Place(ToGlm(point)); }
 
 void PaintOverlay(const OverlayDrawing& drawing, const DepthMap& depth, Srgb8Image* picture) {
   const View view(depth.rays());
@@ -234,7 +243,8 @@ void PaintOverlay(const OverlayDrawing& drawing, const DepthMap& depth, Srgb8Ima
       PaintTriangle(view, triangle, begin, end, depth, picture);
     for (const std::uint32_t i : in_band[band]) PaintLine(lines[i], begin, end, depth, picture);
     for (const OverlayPoint& point : drawing.points)
-      if (view.Depth(point.at) > 0) PaintPoint(view.Place(point.at), point, begin, end, depth, picture);
+      if (const glm::dvec3 at = ToGlm(point.at); view.Depth(at) > 0)
+        PaintPoint(view.Place(at), point, begin, end, depth, picture);
   });
 }
 
@@ -246,14 +256,14 @@ Selection PickLine(const OverlayDrawing& drawing, const DepthMap& depth, double 
     if (!line.pick) continue;
     const auto on_screen = ToScreen(view, line, depth.width(), depth.height());
     if (!on_screen) continue;
-    const Vec2 a(on_screen->x0, on_screen->y0),
+    const glm::dvec2 pointer(x, y), a(on_screen->x0, on_screen->y0),
         d(on_screen->x1 - on_screen->x0, on_screen->y1 - on_screen->y0);
-    const double t =
-        d.squaredNorm() > 0 ? std::clamp(d.dot(Vec2(x, y) - a) / d.squaredNorm(), 0.0, 1.0) : 0.0;
-    const Vec2 at = a + t * d;
-    const double distance = (at - Vec2(x, y)).norm();
+    const double square = glm::dot(d, d);
+    const double t = square > 0 ? std::clamp(glm::dot(d, pointer - a) / square, 0.0, 1.0) : 0.0;
+    const glm::dvec2 at = a + t * d;
+    const double distance = glm::length(at - pointer);
     if (distance >= nearest) continue;
-    const int px = static_cast<int>(std::floor(at.x())), py = static_cast<int>(std::floor(at.y()));
+    const int px = static_cast<int>(std::floor(at.x)), py = static_cast<int>(std::floor(at.y));
     if (px < 0 || px >= depth.width() || py < 0 || py >= depth.height()) continue;
     if (on_screen->z0 + t * (on_screen->z1 - on_screen->z0) < static_cast<double>(depth.Threshold(px, py)))
       continue;

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <thread>
 
+#include "display/glm_conversion.h"
 #include "display/ray_display.h"
 #include "solver/base/parallel.h"
 #include "solver/base/progress.h"
@@ -66,8 +67,7 @@ struct RayPicture::Job {
       const std::lock_guard lock(mutex);
       for (std::size_t i = 0; i < count; ++i) {
         const std::size_t pixel = pixels[begin + i];
-        for (std::size_t c = 0; c < 3; ++c)
-          linear.channel[c][pixel] = static_cast<float>(samples[i].radiosity[static_cast<Eigen::Index>(c)]);
+        linear.Set(pixel, ToPixel(samples[i].radiosity));
         kind[pixel] = samples[i].kind;
         known[pixel] = 1;
       }
@@ -132,7 +132,7 @@ void RayPicture::Paint(RgbImage* linear, std::vector<PixelKind>* kinds) {
         const std::size_t from = linear->Index(x - x % stride, y - y % stride);
         if (!job_->known[from]) continue;
         const std::size_t to = linear->Index(x, y);
-        for (std::size_t c = 0; c < 3; ++c) linear->channel[c][to] = job_->linear.channel[c][from];
+        linear->Set(to, job_->linear.At(from));
         (*kinds)[to] = job_->kind[from];
         break;
       }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "display/glm_conversion.h"
 #include "display/viewer/links.h"
 #include "display/viewer/mesh_tools.h"
 #include "display/viewer/triangulation_overlay.h"
@@ -146,10 +147,10 @@ std::optional<ProbedPoint> PointAt(const Scene& scene, const IrradianceMesh& dra
   if (id == kNoTriangle) return std::nullopt;
   const PatchId patch = drawn.triangles[id].patch;
   const Patch& p = scene.patches[static_cast<std::size_t>(patch)];
-  const Vec3 direction = rays.Direction(px + 0.5, py + 0.5);
-  const double depth = p.normal.dot(p.vertex[0] - rays.eye) / p.normal.dot(direction);
+  const Vec3 eye = ToEigen(rays.eye), direction = ToEigen(rays.Direction(px + 0.5, py + 0.5));
+  const double depth = p.normal.dot(p.vertex[0] - eye) / p.normal.dot(direction);
   if (!std::isfinite(depth)) return std::nullopt;
-  return ProbedPoint{patch, rays.eye + depth * direction};
+  return ProbedPoint{patch, eye + depth * direction};
 }
 
 Selection SelectSurface(const OverlayContext& context, const ProbedPoint& at) {

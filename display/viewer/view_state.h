@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -72,7 +73,7 @@ struct ViewState {
   Navigation navigation = Navigation::kArcball;
   double walk_speed = 2;  // [m/s]
   bool mouse_look = false;
-  Vec3 up_axis = Vec3::UnitZ();  // of walking
+  glm::dvec3 up_axis{0, 0, 1};  // of walking
 
   DrawMode mode = DrawMode::kFlat;
   Backend backend = Backend::kSoftware;

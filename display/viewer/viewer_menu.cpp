@@ -58,10 +58,12 @@ void Viewer::AddViewingMenu() {
   Item("Viewing/Arcball or walk", "n", "Change the viewing mode",
        [this] { Set("navigation", view_.navigation == Navigation::kWalk ? "arcball" : "walk"); });
   ToggleItem("Viewing/Mouse look", "ctrl+m", "mouse-look");
-  for (int axis = 0; axis < 3; ++axis)
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 up(0.0);
+    up[axis] = 1;
     menu_.Add({std::string("Viewing/") + "XYZ"[axis] + " up", "", "The direction that is up while walking",
-               [this, axis] { view_.up_axis = Vec3::Unit(axis); },
-               [this, axis] { return view_.up_axis == Vec3(Vec3::Unit(axis)); }});
+               [this, up] { view_.up_axis = up; }, [this, up] { return view_.up_axis == up; }});
+  }
   Item("Viewing/Faster", "+", "Walk faster",
        [this] { view_.walk_speed = std::min(2 * view_.walk_speed, 1e4); });
   Item("Viewing/Slower", "-", "Walk slower",

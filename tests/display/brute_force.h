@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "display/camera.h"
+#include "display/glm_conversion.h"
 #include "display/rasteriser.h"
 #include "display/vector_kernels.h"
 
@@ -40,19 +41,19 @@ struct Meeting {
 };
 
 inline Meeting Meet(const PixelRays& rays, double x, double y, const Triangles& mesh, std::size_t id) {
-  std::array<Vec3, 3> v;
-  for (std::size_t k = 0; k < 3; ++k) v[k] = mesh.positions[mesh.triangles[id][k]] - rays.eye;
+  std::array<glm::dvec3, 3> v;
+  for (std::size_t k = 0; k < 3; ++k) v[k] = ToGlm(mesh.positions[mesh.triangles[id][k]]) - rays.eye;
   Meeting meeting;
-  const double volume = -v[0].dot((v[1] - v[0]).cross(v[2] - v[0]));
+  const double volume = -glm::dot(v[0], glm::cross(v[1] - v[0], v[2] - v[0]));
   meeting.front = volume > 0;
   if (!meeting.front) return meeting;
-  const Vec3 direction = rays.Direction(x, y);
+  const glm::dvec3 direction = rays.Direction(x, y);
   std::array<double, 3> b;
   meeting.pixels_inside = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 plane = v[(k + 2) % 3].cross(v[(k + 1) % 3]);
-    b[k] = plane.dot(direction);
-    const double slope = std::hypot(plane.dot(rays.dx), plane.dot(rays.dy));
+    const glm::dvec3 plane = glm::cross(v[(k + 2) % 3], v[(k + 1) % 3]);
+    b[k] = glm::dot(plane, direction);
+    const double slope = std::hypot(glm::dot(plane, rays.dx), glm::dot(plane, rays.dy));
     meeting.pixels_inside = std::min(meeting.pixels_inside, b[k] / slope);
   }
   const double sum = b[0] + b[1] + b[2];

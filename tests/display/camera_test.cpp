@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "display/glm_conversion.h"
 #include "solver/base/check.h"
 #include "solver/base/random.h"
 
@@ -31,15 +32,16 @@ TEST(MakePixelRays, SpansTheFieldOfView) {
               height = 1 + static_cast<int>(random.Index(2000));
     const PixelRays rays = MakePixelRays(camera, width, height);
     const Vec3 view = (camera.look_at - camera.eye).normalized();
-    const Vec3 top = rays.Direction(0.5 * width, 0).normalized(),
-               bottom = rays.Direction(0.5 * width, height).normalized();
+    const auto direction = [&](double x, double y) { return ToEigen(rays.Direction(x, y)); };
+    const Vec3 top = direction(0.5 * width, 0).normalized(),
+               bottom = direction(0.5 * width, height).normalized();
+    const Vec3 dx = ToEigen(rays.dx), dy = ToEigen(rays.dy);
     const double angle = std::atan2(top.cross(bottom).norm(), top.dot(bottom)) * 180 / std::numbers::pi;
-    worst =
-        std::max({worst, (rays.Direction(0.5 * width, 0.5 * height) - view).norm(),
-                  std::abs(angle / camera.vertical_fov - 1), std::abs(rays.dx.norm() / rays.dy.norm() - 1),
-                  std::abs(rays.dx.dot(view)), std::abs(rays.dx.normalized().dot(rays.dy.normalized()))});
-    EXPECT_LT(rays.dy.dot(camera.up), 0);
-    EXPECT_GT(rays.dx.dot(view.cross(camera.up)), 0);
+    worst = std::max({worst, (direction(0.5 * width, 0.5 * height) - view).norm(),
+                      std::abs(angle / camera.vertical_fov - 1), std::abs(dx.norm() / dy.norm() - 1),
+                      std::abs(dx.dot(view)), std::abs(dx.normalized().dot(dy.normalized()))});
+    EXPECT_LT(dy.dot(camera.up), 0);
+    EXPECT_GT(dx.dot(view.cross(camera.up)), 0);
   }
   std::cout << "largest error: " << worst << "\n";
   EXPECT_LT(worst, 1e-12);
@@ -50,13 +52,14 @@ TEST(MakePixelRays, ReplacesAnUpAlongTheView) {
   for (const Vec3& view : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(0, 1, 0), Vec3(1, 2, 3)})
     for (const Vec3& up : {view, Vec3(-view), Vec3(Vec3::Zero()), Vec3(1e-9 * view), Vec3(1e200 * view)}) {
       const PixelRays rays = MakePixelRays({"", {1, 1, 1}, Vec3(1, 1, 1) + view, up, 45}, 10, 10);
-      EXPECT_TRUE(rays.corner.allFinite() && rays.dx.allFinite() && rays.dy.allFinite());
-      EXPECT_NEAR(rays.dx.norm(), rays.dy.norm(), 1e-12);
-      EXPECT_GT(rays.dx.norm(), 0.01);
+      EXPECT_TRUE(ToEigen(rays.corner).allFinite() && ToEigen(rays.dx).allFinite() &&
+                  ToEigen(rays.dy).allFinite());
+      EXPECT_NEAR(glm::length(rays.dx), glm::length(rays.dy), 1e-12);
+      EXPECT_GT(glm::length(rays.dx), 0.01);
       if (view.x() == 0 && view.y() == 0) {
-        EXPECT_LT(rays.dy.y(), 0) << "y is up where the view runs along z";
+        EXPECT_LT(rays.dy.y, 0) << "y is up where the view runs along z";
       } else {
-        EXPECT_LT(rays.dy.z(), 0) << "z is up";
+        EXPECT_LT(rays.dy.z, 0) << "z is up";
       }
     }
 }
@@ -66,8 +69,24 @@ TEST(MakePixelRays, BearsAnyDistanceOfThePointLookedAt) {
   const PixelRays one = MakePixelRays({"", Vec3::Zero(), {1, 2, 3}, Vec3::UnitZ(), 45}, 4, 3);
   for (const double scale : {1e-300, 1e-160, 1e160, 1e300}) {
     const PixelRays rays = MakePixelRays({"", Vec3::Zero(), scale * Vec3(1, 2, 3), Vec3::UnitZ(), 45}, 4, 3);
-    EXPECT_LT((rays.corner - one.corner).norm(), 1e-14) << scale;
+    EXPECT_LT(glm::length(rays.corner - one.corner), 1e-14) << scale;
   }
+}
+
+// A projection undoes what the rays do: a point of the ray through (x, y) is seen at (x, y), at its depth.
+TEST(MakeProjection, UndoesTheRays) {
+  Random random(3);
+  double worst = 0;
+  for (int round = 0; round < 1000; ++round) {
+    const PixelRays rays = MakePixelRays({"", RandomVector(random, 5), RandomVector(random, 5),
+                                          RandomVector(random, 1), random.Uniform(5, 120)},
+                                         640, 480);
+    const double x = random.Uniform(0, 640), y = random.Uniform(0, 480), depth = random.LogUniform(1e-3, 1e3);
+    const glm::dvec3 p = MakeProjection(rays)(depth * rays.Direction(x, y));
+    worst = std::max({worst, std::abs(p.x / p.z - x), std::abs(p.y / p.z - y), std::abs(p.z / depth - 1)});
+  }
+  std::cout << "largest error: " << worst << " pixels\n";
+  EXPECT_LT(worst, 1e-9);  // some thousands of roundings: pixels are small beside the view
 }
 
 // A camera that cannot see is refused with a line that names it.
@@ -110,15 +129,14 @@ TEST(FrameScene, ShowsAllOfTheBox) {
     const Vec3 x = extent.x() * Vec3::UnitX(), y = extent.y() * Vec3::UnitY(), z = extent.z() * Vec3::UnitZ();
     scene.patches.push_back(MakePatch(std::array<Vec3, 3>{low, low + x, low + y + z}, 0, 0, {}));
     const PixelRays rays = MakePixelRays(FrameScene(scene), 300, 300);
-    Eigen::Matrix3d to_space;
-    to_space << rays.dx, rays.dy, rays.corner;
+    const Projection to_picture = MakeProjection(rays);
     double widest = 0;
     for (int i = 0; i < 8; ++i) {
       const Vec3 corner =
           low + (i & 1 ? x : Vec3::Zero()) + (i & 2 ? y : Vec3::Zero()) + (i & 4 ? z : Vec3::Zero());
-      const Vec3 p = to_space.inverse() * (corner - rays.eye);
-      ASSERT_GT(p.z(), 0);
-      widest = std::max({widest, std::abs(p.x() / p.z() - 150), std::abs(p.y() / p.z() - 150)});
+      const glm::dvec3 p = to_picture(ToGlm(corner) - rays.eye);
+      ASSERT_GT(p.z, 0);
+      widest = std::max({widest, std::abs(p.x / p.z - 150), std::abs(p.y / p.z - 150)});
     }
     EXPECT_LE(widest, 150);
     EXPECT_GT(widest, 120) << "no farther away than it must be";

@@ -12,7 +12,7 @@
 namespace penumbra {
 namespace {
 
-RgbImage Uniform(int width, int height, const std::array<float, 3>& rgb) {
+RgbImage Uniform(int width, int height, const glm::vec3& rgb) {
   RgbImage image(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) image.Set(x, y, rgb);

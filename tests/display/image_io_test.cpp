@@ -205,13 +205,13 @@ TEST(Downsample, TakesTheMeanOfEachBlock) {
   for (int y = 0; y < 2; ++y)
     for (int x = 0; x < 3; ++x) {
       const float mx = 2 * static_cast<float>(x) + 0.5f, my = 2 * static_cast<float>(y) + 0.5f;
-      EXPECT_EQ(half.At(x, y), (std::array<float, 3>{mx, my, mx * my}));
+      EXPECT_EQ(half.At(x, y), (glm::vec3{mx, my, mx * my}));
     }
   EXPECT_EQ(Downsample(image, 1, 1).channel, image.channel);
   const RgbImage narrow = Downsample(image, 3, 1);
   ASSERT_EQ(narrow.width, 2);
   ASSERT_EQ(narrow.height, 4);
-  EXPECT_EQ(narrow.At(1, 3), (std::array<float, 3>{4, 3, 12}));
+  EXPECT_EQ(narrow.At(1, 3), (glm::vec3{4, 3, 12}));
 }
 
 }  // namespace

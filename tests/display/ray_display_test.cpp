@@ -7,6 +7,7 @@
 #include <iostream>
 #include <numbers>
 
+#include "display/glm_conversion.h"
 #include "display/two_pass_display.h"
 #include "mesh/interpolants/mesh_locator.h"
 #include "solver/base/parallel.h"
@@ -56,9 +57,10 @@ TEST(RayDisplay, LerpShadeAgreesWithTheTwoPassDisplay) {
       if (id == kNoTriangle) continue;
       const IrradianceMesh::Triangle& triangle = room.mesh.triangles[id];
       const Patch& patch = room.scene.patches[static_cast<std::size_t>(triangle.patch)];
-      const Vec3 along = eye.Direction(static_cast<double>(i % kImageWidth) + 0.5,
-                                       static_cast<double>(i / kImageWidth) + 0.5);
-      const Vec3 p = eye.eye + patch.normal.dot(patch.vertex[0] - eye.eye) / patch.normal.dot(along) * along;
+      const Vec3 from = ToEigen(eye.eye),
+                 along = ToEigen(eye.Direction(static_cast<double>(i % kImageWidth) + 0.5,
+                                               static_cast<double>(i / kImageWidth) + 0.5));
+      const Vec3 p = from + patch.normal.dot(patch.vertex[0] - from) / patch.normal.dot(along) * along;
       const auto at = locator.Find(triangle.patch, p);
       if (!at || at->triangle != id || picture.kind[i] != frame.kind[i]) {
         ++elsewhere;

@@ -79,10 +79,10 @@ TEST(ToneMapping, ExposesSurfacesOnly) {
                                         PixelKind::kSurface};
   image.Set(3, 0, {0.0f, 0.0f, 0.0f});
   const RgbImage exposed = Expose(image, kinds, 0.5);
-  EXPECT_EQ(exposed.At(0, 0), (std::array<float, 3>{0.25f, 0.5f, 1.0f}));
-  EXPECT_EQ(exposed.At(1, 0), (std::array<float, 3>{1, 1, 1}));
-  EXPECT_EQ(exposed.At(2, 0), (std::array<float, 3>{kBackground, kBackground, kBackground}));
-  EXPECT_EQ(exposed.At(3, 0), (std::array<float, 3>{0, 0, 0}));
+  EXPECT_EQ(exposed.At(0, 0), (glm::vec3{0.25f, 0.5f, 1.0f}));
+  EXPECT_EQ(exposed.At(1, 0), (glm::vec3{1, 1, 1}));
+  EXPECT_EQ(exposed.At(2, 0), (glm::vec3{kBackground, kBackground, kBackground}));
+  EXPECT_EQ(exposed.At(3, 0), (glm::vec3{0, 0, 0}));
 }
 
 // A supersampled picture is the mean of its samples exposed, to the bit; one that was encoded before is

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "display/glm_conversion.h"
 #include "solver/base/parallel.h"
 #include "tests/display/synthetic_room.h"
 
@@ -50,9 +51,10 @@ TEST(TwoPassDisplay, ShowsTheFieldOfItsInterpolants) {
     const PatchId id = room.mesh.triangles[frame.triangle[i]].patch;
     const Patch& patch = room.scene.patches[static_cast<std::size_t>(id)];
     const Material& material = room.scene.MaterialOf(id);
-    const Vec3 along =
-        rays.Direction(static_cast<double>(i % kWidth) + 0.5, static_cast<double>(i / kWidth) + 0.5);
-    const Vec3 p = rays.eye + patch.normal.dot(patch.vertex[0] - rays.eye) / patch.normal.dot(along) * along;
+    const Vec3 eye = ToEigen(rays.eye),
+               along = ToEigen(rays.Direction(static_cast<double>(i % kWidth) + 0.5,
+                                              static_cast<double>(i / kWidth) + 0.5));
+    const Vec3 p = eye + patch.normal.dot(patch.vertex[0] - eye) / patch.normal.dot(along) * along;
     const Rgb want = QuadraticField(p, patch.normal) * material.reflectance + material.emittance;
     for (std::size_t c = 0; c < 3; ++c)
       worst = std::max(

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "display/camera.h"
+#include "display/glm_conversion.h"
 #include "display/viewer/arcball.h"
 #include "display/viewer/overlay_painter.h"
 #include "display/viewer/walk.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // of a few hundred operations on numbers of order 1 to 100
 constexpr PictureSize kSize{200, 150};
+constexpr glm::dvec3 kUp(0, 0, 1);
 
 Camera Somewhere() { return {"c", Vec3(3, -4, 2), Vec3(0.5, 0.2, 0.7), Vec3::UnitZ(), 50}; }
 
@@ -67,7 +69,7 @@ TEST(Arcball, ConstrainedToSceneAxesTurnsAboutOneOfThem) {
 TEST(Arcball, WarpKeepsTheSizeOfWhatItLooksAt) {
   const Camera before = Somewhere();
   const PixelRays rays = MakePixelRays(before, kSize.width, kSize.height);
-  const Vec3 beside = before.look_at + 0.3 * rays.dx.normalized();
+  const Vec3 beside = before.look_at + 0.3 * ToEigen(rays.dx).normalized();
   for (const double fov : {5.0, 20.0, 50.0, 120.0})
     EXPECT_NEAR(Seen(Warp(before, fov), beside).x, Seen(before, beside).x, 1e-7);
 }
@@ -98,20 +100,20 @@ TEST(Arcball, PanMovesWhatItLooksAtByThePointersWay) {
 
 TEST(Walk, FliesAheadAndLooksAround) {
   const Camera before = Somewhere();
-  const Camera ahead = Fly(before, 2, 0, 0, Vec3::UnitZ());
+  const Camera ahead = Fly(before, 2, 0, 0, kUp);
   EXPECT_NEAR((ahead.eye - before.eye).norm(), 2, kRounding);
   EXPECT_NEAR(Seen(before, ahead.eye).x, 100, kRounding * 100);
 
-  const Camera turned = Look(before, 0.3, 0, Vec3::UnitZ());
+  const Camera turned = Look(before, 0.3, 0, kUp);
   EXPECT_NEAR((turned.look_at - turned.eye).norm(), (before.look_at - before.eye).norm(), kRounding);
   EXPECT_NEAR(turned.look_at.z(), before.look_at.z(), kRounding);
   EXPECT_LT(Seen(turned, before.look_at).x, 100);  // what was ahead is to the left now
   // A quarter turn four times is none.
   Camera round = before;
-  for (int i = 0; i < 4; ++i) round = Look(round, std::acos(0.0), 0, Vec3::UnitZ());
+  for (int i = 0; i < 4; ++i) round = Look(round, std::acos(0.0), 0, kUp);
   EXPECT_LT((round.look_at - before.look_at).norm(), kRounding);
   // However far up one looks, up stays up.
-  EXPECT_NO_THROW(ValidateCamera(Look(before, 0, 10, Vec3::UnitZ())));
+  EXPECT_NO_THROW(ValidateCamera(Look(before, 0, 10, kUp)));
 }
 
 }  // namespace

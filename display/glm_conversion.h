@@ -1,0 +1,33 @@
+// display/glm_conversion.h
+//
+// Conversions between the vectors of the solver and the mesh (Eigen, double) and those of the display (GLM),
+// and from double to float. All of them are in this header.
+
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "solver/geometry/vec.h"
+
+namespace penumbra {
+
+// The same numbers.
+inline glm::dvec3 ToGlm(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+inline Vec3 ToEigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+// The nearest floats, for the graphics system.
+inline glm::vec3 ToFloats(const glm::dvec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+inline glm::vec4 ToFloats(const glm::dvec4& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(v.w)};
+}
+
+// The nearest floats of a colour, as pixels hold it: red, green, blue in x, y, z.
+inline glm::vec3 ToPixel(const Rgb& colour) {
+  return {static_cast<float>(colour[0]), static_cast<float>(colour[1]), static_cast<float>(colour[2])};
+}
+
+}  // namespace penumbra

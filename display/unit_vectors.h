@@ -1,0 +1,38 @@
+// display/unit_vectors.h
+//
+// Unit vectors. glm::normalize() multiplies by the inverse of the length, which rounds once more than a
+// division does, and it returns NaN for a zero vector.
+
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+namespace penumbra {
+
+// The unit vector along v; v itself if its length is 0.
+inline glm::dvec3 Normalized(const glm::dvec3& v) {
+  const double length = glm::length(v);
+  return length > 0 ? v / length : v;
+}
+
+// The same, also for vectors whose squared length overflows or underflows.
+inline glm::dvec3 StableNormalized(const glm::dvec3& v) {
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  const glm::dvec3 scaled = v / largest;
+  const double square = glm::dot(scaled, scaled);
+  return square > 0 ? v / (std::sqrt(square) * largest) : v;
+}
+
+// Some unit vector at a right angle to v. REQUIRES: v is not zero.
+inline glm::dvec3 Perpendicular(const glm::dvec3& v) {
+  const double x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
+  const glm::dvec3 across = x <= y && x <= z ? glm::dvec3(1, 0, 0)
+                            : y <= z         ? glm::dvec3(0, 1, 0)
+                                             : glm::dvec3(0, 0, 1);
+  return StableNormalized(glm::cross(v, across));
+}
+
+}  // namespace penumbra
