@@ -21,8 +21,8 @@ class GraphOverlay final : public Overlay {
             {kError, "Error surface", "Error surface", "j", exact}};
   }
   void AddSettings(OverlaySettings* values, Settings* settings) const override {
-    settings->Number("graph-scale", Group(), "Graph height scale [m per W/m^2]", &values->graph_scale, 1e-9,
-                     1e6, true);
+    settings->Number("graph-scale", Group(), "Graph height scale [m per W/m^2]", &values->graph_scale,
+                     {1e-9, 1e6, true});
     settings->Integer("grid-density", Group(), "Grid density", &values->grid_density, 1, 200);
     settings->Toggle("dynamic-grid", Group(), kDynamicGridHelp, &values->dynamic_grid);
   }

@@ -17,8 +17,8 @@ class LinkOverlay final : public Overlay {
             {SwitchOf(LinkClass::kPartial), "Partial links", "Partial links", "p", {}}};
   }
   void AddSettings(OverlaySettings* values, Settings* settings) const override {
-    settings->Number("link-min-irradiance", Group(), "At least [W/m^2]", &values->link_min_irradiance, 0,
-                     1e12, false);
+    settings->Number("link-min-irradiance", Group(), "At least [W/m^2]", &values->link_min_irradiance,
+                     {0, 1e12});
     settings->Integer("link-limit", Group(), "The strongest", &values->link_limit, 0, 1'000'000);
   }
   int Layer() const override { return 3; }

@@ -50,10 +50,11 @@ Setting& Settings::Toggle(const std::string& name, const std::string& group, con
 }
 
 Setting& Settings::Number(const std::string& name, const std::string& group, const std::string& help,
-                          double* value, double low, double high, bool logarithmic) {
+                          double* value, const SliderRange& range) {
+  const auto [low, high, logarithmic] = range;
   Setting setting{name, group, help, SettingKind::kNumber, low, high, logarithmic, false, {}, {}, {}};
   setting.get = [value] { return TextOf(*value); };
-  setting.set = [=](const std::string& text) { *value = NumberFrom(text, low, high); };
+  setting.set = [value, range](const std::string& text) { *value = NumberFrom(text, range.low, range.high); };
   return Add(std::move(setting));
 }
 

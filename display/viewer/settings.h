@@ -37,6 +37,12 @@ struct Setting {
   std::function<void(const std::string&)> set;
 };
 
+// The values of a number, from the lowest to the highest, and how a slider spreads them.
+struct SliderRange {
+  double low, high;
+  bool logarithmic = false;
+};
+
 // In the order added; names are unique.
 class Settings {
  public:
@@ -44,7 +50,7 @@ class Settings {
   Setting& Toggle(const std::string& name, const std::string& group, const std::string& help,
                   std::function<bool()> get, std::function<void(bool)> set);
   Setting& Number(const std::string& name, const std::string& group, const std::string& help, double* value,
-                  double low, double high, bool logarithmic);
+                  const SliderRange& range);
   Setting& Integer(const std::string& name, const std::string& group, const std::string& help, int* value,
                    int low, int high);
   // A name and what it stands for.

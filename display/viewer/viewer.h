@@ -98,6 +98,8 @@ class Viewer {
  private:
   // viewer_settings.cpp
   void AddViewSettings();
+  void AddVisualisationSettings();
+  void AddViewingSettings();
   void AddSolveSettings();
   void AddSolveSetting(const SolveOption& option);
   void AddFileSettings();

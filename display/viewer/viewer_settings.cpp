@@ -111,7 +111,7 @@ void Viewer::AddViewSettings() {
   s.Integer("supersampling", "Drawing", "Saved pictures: samples a side", &view_.supersampling, 1, 8);
   s.Toggle("auto-exposure", "Exposure", "Automatic exposure", &view_.auto_exposure);
   Setting& exposure =
-      s.Number("exposure", "Exposure", "Irradiance-2-Pixel [m^2/W]", &view_.exposure, 1e-9, 1e9, true);
+      s.Number("exposure", "Exposure", "Irradiance-2-Pixel [m^2/W]", &view_.exposure, {1e-9, 1e9, true});
   exposure.get = [this] { return TextOf(view_.auto_exposure ? picture_.exposure() : view_.exposure); };
   exposure.set = [this](const std::string& text) {
     view_.exposure = NumberFrom(text, 1e-9, 1e9);
@@ -119,20 +119,29 @@ void Viewer::AddViewSettings() {
   };
   s.Toggle("false-colour", "Exposure", "False colours", &view_.false_colour);
   s.Number("false-colour-max", "Exposure", "Top of the scale [W/m^2], 0: by exposure",
-           &view_.false_colour_max, 0, 1e12, false);
+           &view_.false_colour_max, {0, 1e12});
 
+  AddVisualisationSettings();
+  AddViewingSettings();
+}
+
+void Viewer::AddVisualisationSettings() {
+  Settings& s = settings_;
   OverlaySettings& o = view_.overlays;
   AddOverlaySettings("Visualisations", &o, &s);
   s.Toggle("hidden-lines", "Visualisations", "Show hidden lines", &o.hidden_lines);
   s.Toggle("isolate", "Visualisations", "Draw only what is selected", &view_.isolate);
   AddOverlaySettings("Links", &o, &s);
   s.Toggle("error-map", "Graphs", "Representation error as a map", &view_.error_map);
-  s.Number("error-map-max", "Graphs", "Top of the map, relative", &view_.error_map_max, 1e-9, 1e9, true);
+  s.Number("error-map-max", "Graphs", "Top of the map, relative", &view_.error_map_max, {1e-9, 1e9, true});
   AddOverlaySettings("Graphs", &o, &s);
+}
 
+void Viewer::AddViewingSettings() {
+  Settings& s = settings_;
   s.Choice("navigation", "Viewing", "Viewing mode", &view_.navigation,
            {{"arcball", Navigation::kArcball}, {"walk", Navigation::kWalk}});
-  s.Number("walk-speed", "Viewing", "Walking speed [m/s]", &view_.walk_speed, 1e-3, 1e4, true);
+  s.Number("walk-speed", "Viewing", "Walking speed [m/s]", &view_.walk_speed, {1e-3, 1e4, true});
   s.Toggle("mouse-look", "Viewing", "The mouse turns a walking view", &view_.mouse_look);
   s.Vector(
       "eye", "Viewing", "Eye [m]", [this] { return view_.camera.eye; },
@@ -151,8 +160,8 @@ void Viewer::AddViewSettings() {
   s.Vector(
       "up", "Viewing", "Up", [this] { return view_.camera.up; },
       [this](const Vec3& v) { view_.camera.up = v; });
-  s.Number("fov", "Viewing", "Vertical field of view [degrees]", &view_.camera.vertical_fov, kMinFov, kMaxFov,
-           false);
+  s.Number("fov", "Viewing", "Vertical field of view [degrees]", &view_.camera.vertical_fov,
+           {kMinFov, kMaxFov});
 
   s.Toggle("control-panel", "Panels", "Drawing control panel", &panels_.control);
   s.Toggle("parameters", "Panels", "Parameters", &panels_.parameters);

@@ -107,19 +107,18 @@ class Order {
 class Activator {
  public:
   Activator(const ElementForest& forest, PatchId patch, std::span<const Discontinuity> found,
-            const DiscontinuityOptions& options, const LeafFilter& filter, const ErrorScale& scale,
-            const PlaceScale& at_place)
+            const DiscontinuityOptions& options, const ActivationRules& rules)
       : patch_(patch),
         found_(found),
         options_(options),
         choice_(DiscontinuityChoices().Make(options.choice)),
-        filter_(filter),
-        at_place_(at_place),
+        filter_(rules.filter),
+        at_place_(rules.at_place),
         lines_(forest, patch, choice_->MostLines(options)),
         grouped_(GroupCollinear(found, SnapDistance(forest.scene().patches[patch]))),
         number_(grouped_.lines.size(), -1),
         tried_(found.size()) {
-    for (const ElementId leaf : lines_.leaves()) scale_.push_back(scale ? scale(leaf) : 1);
+    for (const ElementId leaf : lines_.leaves()) scale_.push_back(rules.scale ? rules.scale(leaf) : 1);
   }
 
   PatchDSets Run() {
@@ -283,11 +282,10 @@ class Activator {
 
 PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
                                    std::span<const Discontinuity> found, const DiscontinuityOptions& options,
-                                   const LeafFilter& filter, const ErrorScale& scale,
-                                   const PlaceScale& at_place) {
+                                   const ActivationRules& rules) {
   PENUMBRA_CHECK(options.max_leaf_dsets >= 0);
   if (!options.enabled()) found = {};
-  return Activator(forest, patch, found, options, filter, scale, at_place).Run();
+  return Activator(forest, patch, found, options, rules).Run();
 }
 
 }  // namespace penumbra

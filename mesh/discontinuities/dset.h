@@ -54,11 +54,18 @@ using ErrorScale = std::function<double(ElementId)>;
 // The same at a place in a leaf, in the frame of the patch [m].
 using PlaceScale = std::function<double(ElementId, const Vec2&)>;
 
+// What a caller may add to the weights of discontinuities; all of it may be empty.
+struct ActivationRules {
+  LeafFilter filter;    // of the method of choice (DiscontinuityChoiceMethod::FilterOf)
+  ErrorScale scale;     // on each leaf
+  PlaceScale at_place;  // in leaves that have room for fewer lines than weigh enough
+};
+
 // Activates the discontinuities in order of weight, contacts first, each for all leaves on which it impinges
 // or for none (thesis 5.5.7).
 //  (1) An active discontinuity weighs at least options.min_weight, or is wanted. In the irradiance weight it
 //  weighs what leaving its line out would cost beside those that are active already (OmissionCost), on each
-//  leaf so many times as `scale` says. If `at_place` is given, it orders those in leaves that have room for
+//  leaf `rules.scale` times. If `rules.at_place` is given, it orders those in leaves that have room for
 //  fewer lines than weigh enough; what weighs enough by either is tried.
 //  (2) At most options.max_leaf_dsets lines run through the inside of any leaf. Those along a leaf's border
 //  add no edge and do not count.
@@ -70,7 +77,6 @@ using PlaceScale = std::function<double(ElementId, const Vec2&)>;
 // Throws InputError if there is no such choice.
 PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
                                    std::span<const Discontinuity> found, const DiscontinuityOptions& options,
-                                   const LeafFilter& filter = {}, const ErrorScale& scale = {},
-                                   const PlaceScale& at_place = {});
+                                   const ActivationRules& rules = {});
 
 }  // namespace penumbra

@@ -106,7 +106,7 @@ PatchDSets PatchTriangulator::Activate(const Work& work, std::size_t p, LeafLigh
   }
   const LeafFilter filter =
       DiscontinuityChoices().Make(options_.choice)->FilterOf(forest, visibility_, patch);
-  return ActivateDiscontinuities(forest, patch, work.found[p], work.activating, filter, scale, at_place);
+  return ActivateDiscontinuities(forest, patch, work.found[p], work.activating, {filter, scale, at_place});
 }
 
 // Activates on all patches, and again where crowded leaves were split.

@@ -164,7 +164,7 @@ TEST(ActivateDiscontinuities, OtherChoices) {
   options.choice = "adaptive";
   const PatchDSets dsets = ActivateDiscontinuities(
       square.forest, 0, found, options,
-      [&](const Discontinuity&, ElementId leaf) { return leaf == square.forest.Leaves(0)[1]; });
+      {.filter = [&](const Discontinuity&, ElementId leaf) { return leaf == square.forest.Leaves(0)[1]; }});
   EXPECT_EQ(dsets.activated, 2U);
   EXPECT_TRUE(dsets.leaf_lines[0].empty());
   EXPECT_EQ(dsets.leaf_lines[1].size(), 1U);
@@ -336,11 +336,11 @@ TEST(ActivateDiscontinuities, ErrorsCountBesideTheLight) {
   // Leaves begin at the corner (0, 0).
   const ElementId dark = square.forest[ElementForest::Root(0)].first_child + 2;
   const ErrorScale scale = [&](ElementId leaf) { return leaf == dark ? 3.0 : 1.0; };
-  const PatchDSets both = ActivateDiscontinuities(square.forest, 0, found, options, {}, scale);
+  const PatchDSets both = ActivateDiscontinuities(square.forest, 0, found, options, {.scale = scale});
   ASSERT_EQ(both.lines.size(), 2U);
   EXPECT_NEAR(both.lines[0].origin.y(), 0.75, 1e-12);
   options.min_weight = 2 * kKinkError * 0.5;
-  EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options, {}, scale).activated, 1U);
+  EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options, {.scale = scale}).activated, 1U);
   EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options).activated, 0U);
 }
 
@@ -359,7 +359,7 @@ TEST(ActivateDiscontinuities, InCrowdsErrorsCountByPlaces) {
   };
   const auto lowest = [&](int room, const PlaceScale& at_place) {
     const PatchDSets dsets =
-        ActivateDiscontinuities(square.forest, 0, found, ByIrradiance(room), {}, {}, at_place);
+        ActivateDiscontinuities(square.forest, 0, found, ByIrradiance(room), {.at_place = at_place});
     double y = 1;
     for (const DiscontinuityLine& line : dsets.lines) y = std::min(y, line.origin.y());
     return y;
@@ -373,7 +373,7 @@ TEST(ActivateDiscontinuities, InCrowdsErrorsCountByPlaces) {
   DiscontinuityOptions options = ByIrradiance(1);
   options.min_weight = kKinkError * 0.1;
   const PlaceScale bright = [](ElementId, const Vec2&) { return 1e-3; };
-  EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options, {}, {}, bright).activated, 2U);
+  EXPECT_EQ(ActivateDiscontinuities(square.forest, 0, found, options, {.at_place = bright}).activated, 2U);
 }
 
 // The sums hold place by place, turned round or not, and those of second degree keep their sense.
