@@ -46,7 +46,7 @@ SceneSummary Summarise(const Scene& scene) {
 Json ToJson(const Eigen::Ref<const Vec3>& v) { return {v.x(), v.y(), v.z()}; }
 
 // What a solution file holds: rows of its tables, how it was solved, what came out.
-Json SolutionJson(const StoredRun& stored) {
+Json SolutionJson(const StoredSolve& stored) {
   const PipelineState& state = stored.state;
   return {{"version", stored.version},
           {"schema", kSolutionSchema},

@@ -36,7 +36,7 @@ class ProgressLine {
  private:
   static constexpr std::chrono::milliseconds kInterval{100};
 
-  static void Put(const std::string& line) { SayAsItIs(fmt::format("\r\x1b[K{}", line)); }
+  static void Put(const std::string& line) { PrintText(fmt::format("\r\x1b[K{}", line)); }
 
   bool shown_;
   std::string phase_, last_;

@@ -93,7 +93,7 @@ LoadedScene LoadSolution(const std::string& path) {
   if (!IsSolution(path)) throw ErrorAt(path, 0, std::string("it is no solution") + kMend);
   StoredSolution solution = DecodeSolution(bytes, path);
   LoadedScene loaded{std::move(solution.scene)};
-  StoredRun& stored = loaded.stored.emplace();
+  StoredSolve& stored = loaded.stored.emplace();
   stored.state = std::move(solution.state);
   stored.version = std::move(solution.version);
   try {
@@ -115,12 +115,12 @@ void TellWarnings(const LoadedScene& loaded) {
 }
 
 LoadedScene LoadScene(const SceneArguments& arguments) {
-  LoadedScene loaded = LoadQuietly(arguments);
+  LoadedScene loaded = LoadWithoutWarnings(arguments);
   TellWarnings(loaded);
   return loaded;
 }
 
-LoadedScene LoadQuietly(const SceneArguments& arguments) {
+LoadedScene LoadWithoutWarnings(const SceneArguments& arguments) {
   SetThreadCount(arguments.threads);
   CheckOptions(arguments);
   const Stopwatch reading;

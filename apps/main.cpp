@@ -80,5 +80,5 @@ int Main(int argc, char** argv) {
 int main(int argc, char** argv) {
   penumbra::PrepareStreams();
   const int status = penumbra::Main(argc, argv);
-  return penumbra::StreamsHeld() || status != 0 ? status : penumbra::kInputStatus;
+  return penumbra::OutputArrived() || status != 0 ? status : penumbra::kInputStatus;
 }

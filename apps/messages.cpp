@@ -68,8 +68,8 @@ std::string OneLine(const std::string& message) {
 
 void Say(const std::string& message) { Put(OneLine(message) + "\n"); }
 
-void SayAsItIs(const std::string& text) { Put(text); }
+void PrintText(const std::string& text) { Put(text); }
 
-bool WasUnheard() { return unheard; }
+bool MessageFailed() { return unheard; }
 
 }  // namespace penumbra

@@ -9,16 +9,17 @@
 namespace penumbra {
 
 // Prints one line. Names in files may contain any bytes: control characters and invalid UTF-8 are escaped,
-// and the middle of a very long line is omitted. If printing fails, the program continues; see WasUnheard().
+// and the middle of a very long line is omitted. If printing fails, the program continues; see
+// MessageFailed().
 void Say(const std::string& message);
 
 // Prints text without changes.
-void SayAsItIs(const std::string& text);
+void PrintText(const std::string& text);
 
 // The line that Say() prints for `message`, without the line end.
 std::string OneLine(const std::string& message);
 
 // Whether printing a message has failed.
-bool WasUnheard();
+bool MessageFailed();
 
 }  // namespace penumbra

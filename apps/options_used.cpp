@@ -116,7 +116,7 @@ void PrintOptionsUsed(const Json& options) {
     else if (key != "solution" && !of_restart)
       block += GivenText(name, value);
   }
-  SayAsItIs(block);
+  PrintText(block);
 }
 
 }  // namespace penumbra

@@ -48,13 +48,13 @@ void PrepareStreams() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-bool StreamsHeld() {
+bool OutputArrived() {
   errno = 0;
   const bool flushed = std::fflush(stdout) == 0;
   const int why = errno;
   if (!flushed && why != EPIPE)
     Say(fmt::format("{}: error: cannot write: {}", kStandardOutput, std::strerror(why)));
-  return flushed && std::ferror(stdout) == 0 && !WasUnheard();
+  return flushed && std::ferror(stdout) == 0 && !MessageFailed();
 }
 
 bool IsSameFile(const std::string& a, const std::string& b) {
@@ -63,14 +63,14 @@ bool IsSameFile(const std::string& a, const std::string& b) {
   if (has_a && has_b) return IsSame(of_a, of_b);
   if (has_a || has_b) return false;
   std::error_code error;
-  const fs::path path_a = fs::weakly_canonical(fs::absolute(BehindLinks(a)), error);
-  return !error && path_a == fs::weakly_canonical(fs::absolute(BehindLinks(b)), error) && !error;
+  const fs::path path_a = fs::weakly_canonical(fs::absolute(ResolveSymlinks(a)), error);
+  return !error && path_a == fs::weakly_canonical(fs::absolute(ResolveSymlinks(b)), error) && !error;
 }
 
 void CheckWritable(const std::string& path) {
   if (path.empty())
     throw InputError("penumbra: error: cannot write: the name of the file is empty; give one");
-  TryWholeFile(path);
+  CheckCanWrite(path);
 }
 
 void OutputFiles::Add(const std::string& option, const std::string& path) {

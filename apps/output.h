@@ -23,7 +23,7 @@ void PrepareStreams();
 
 // Whether all output to standard output, and all messages to standard error, arrived. If not, prints the
 // reason, except for a closed pipe.
-bool StreamsHeld();
+bool OutputArrived();
 
 // Whether both paths lead to the same file, or would if the file existed. False for devices.
 bool IsSameFile(const std::string& a, const std::string& b);

@@ -84,8 +84,8 @@ Prober::Prober(const Scene& scene, const PointIrradiance& irradiance, const Pipe
   std::tie(low_, high_) = scene.Bounds();
 }
 
-Footing Prober::FindFooting(const Vec3& position, const Vec3& normal) const {
-  Footing lowest;
+PointFace Prober::FindFooting(const Vec3& position, const Vec3& normal) const {
+  PointFace lowest;
   const double least_cosine = std::cos(kOnPatchDegrees * kDegree);
   for (std::size_t i = 0; i < scene_.patches.size(); ++i) {
     const Patch& patch = scene_.patches[i];
@@ -99,7 +99,7 @@ Footing Prober::FindFooting(const Vec3& position, const Vec3& normal) const {
   return lowest;
 }
 
-ReceiverPoint Prober::StandOn(PatchId id, const Vec3& position, const Vec3& normal) const {
+ReceiverPoint Prober::ReceiverPointAt(PatchId id, const Vec3& position, const Vec3& normal) const {
   if (id == kNoPatch) return {position, normal, Vec3::Zero(), 0};
   const Patch& patch = scene_.patches[static_cast<std::size_t>(id)];
   return {NearestInPolygon(patch.Vertices(), patch.normal, position), patch.normal, Vec3::Zero(), 0};
@@ -142,7 +142,7 @@ Measurement Prober::MeasureAt(const ProbePoint& point) const {
     return measurement;
   }
   measurement.footing = FindFooting(point.position, normal);
-  const ReceiverPoint at = StandOn(measurement.footing.patch, point.position, normal);
+  const ReceiverPoint at = ReceiverPointAt(measurement.footing.patch, point.position, normal);
   IrradianceParts parts;
   measurement.exact = irradiance_.Anywhere(at, parts_ ? &parts : nullptr).irradiance;
   measurement.direct = parts.direct;

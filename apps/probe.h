@@ -28,7 +28,7 @@ inline constexpr double kOnPatchDegrees = 1;
 inline constexpr double kFarDiagonals = 10;
 
 // The face and the patch on whose front a point lies.
-struct Footing {
+struct PointFace {
   std::int32_t face = -1;  // its number in outputs; -1: none
   PatchId patch = kNoPatch;
 };
@@ -42,7 +42,7 @@ enum class Surroundings {
 
 struct Measurement {
   ProbePoint point;
-  Footing footing;
+  PointFace footing;
   Rgb exact = Rgb::Zero();   // [W/m^2]; nan if the normal is zero
   Rgb direct = Rgb::Zero();  // directly from emitters, part of `exact`; if requested [W/m^2]
   IrradianceGradient gradient = IrradianceGradient::Zero();  // of `exact`; if requested [W/m^3]
@@ -64,12 +64,12 @@ class Prober {
 
   // The front on which the point lies; if it lies on several, that of the face with the lowest index.
   // `normal` is a unit vector.
-  Footing FindFooting(const Vec3& position, const Vec3& normal) const;
+  PointFace FindFooting(const Vec3& position, const Vec3& normal) const;
 
  private:
   // The receiver point for a position: the position itself, or its foot on the patch, because rounded
   // coordinates may lie behind the front.
-  ReceiverPoint StandOn(PatchId patch, const Vec3& position, const Vec3& normal) const;
+  ReceiverPoint ReceiverPointAt(PatchId patch, const Vec3& position, const Vec3& normal) const;
   Measurement MeasureAt(const ProbePoint& point) const;
   bool IsFar(const Vec3& position) const;
   bool SeesOnlyBacks(const Vec3& position, const Vec3& normal) const;

@@ -23,11 +23,11 @@ LoadedScene LoadRestart(SceneArguments& arguments, const std::string& from) {
       throw UsageError(fmt::format(
           "{} says how links are made, but --restart keeps those of '{}'; leave one of the two out",
           CommandLineName(option), from));
-  LoadedScene loaded = LoadQuietly(arguments);
+  LoadedScene loaded = LoadWithoutWarnings(arguments);
   PENUMBRA_CHECK(!loaded.stored);  // such options are refused beside a solution
   arguments.outputs.RefuseInput(from);
   LoadedScene solved = LoadSolution(from);
-  StoredRun run = std::move(*solved.stored);
+  StoredSolve run = std::move(*solved.stored);
   if (run.solving.solver == "dense")
     throw InputError(
         fmt::format("{}: error: the dense solver made it, which keeps no links; solve the scene anew", from));

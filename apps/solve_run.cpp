@@ -51,7 +51,7 @@ nlohmann::ordered_json StartOptions(const SceneArguments& arguments, const Loade
 
 }  // namespace
 
-std::string WhatWasMissed(const PipelineReport& report) {
+std::string MissedErrorMessage(const PipelineReport& report) {
   constexpr std::string_view kOfError = "error: ";
   std::string error, reasons;
   for (const std::string& line : report.unmet) {
@@ -118,7 +118,7 @@ void SolveRun::Run(std::optional<MeshKind> kind, bool measure) {
     // What the light errs by is seen from interpolants, whatever is shown.
     const bool glances = !stored_ && !measure && (pipeline_.RefinesLight() || kind == MeshKind::kInterpolant);
     if (glances && !context.Cancelled()) pipeline_.BuildMesh(MeshKind::kInterpolant, context);
-    if (glances && !context.Cancelled()) pipeline_.Glance(context);
+    if (glances && !context.Cancelled()) pipeline_.CheckErrorRoughly(context);
     // Where a limit has ended that, asking for the same once more would change nothing.
     const bool is_made = glances && kind == MeshKind::kInterpolant;
     if (!context.Cancelled() && kind && !is_made) pipeline_.BuildMesh(*kind, context);
@@ -141,10 +141,10 @@ std::string SolveRun::SolutionFile() const { return SolutionFileOf(pipeline_, op
 
 void SolveRun::Tell() const {
   for (const std::string& warning : pipeline_.report().warnings) Say(warning);
-  const std::string missed = WhatWasMissed(pipeline_.report());
+  const std::string missed = MissedErrorMessage(pipeline_.report());
   if (!missed.empty()) Say(fmt::format("{}: warning: {}", arguments_.scene, missed));
   if (arguments_.report) WriteResult(arguments_.report, ReportJson(report()));
-  if (arguments_.verbose) SayAsItIs(ReportTable(report()));
+  if (arguments_.verbose) PrintText(ReportTable(report()));
 }
 
 RunReport SolveRun::report() const { return {options_, load_seconds_, pipeline_.report()}; }

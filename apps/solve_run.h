@@ -24,7 +24,7 @@ std::string SolutionFileOf(const Pipeline& pipeline, const nlohmann::ordered_jso
 
 // One sentence that says that the requested error was missed, and why; empty if it was met, or if no
 // measurement shows that it was missed.
-std::string WhatWasMissed(const PipelineReport& report);
+std::string MissedErrorMessage(const PipelineReport& report);
 
 // Runs the pipeline for a command: prints options, shows progress, handles interrupts, and writes the report.
 class SolveRun {

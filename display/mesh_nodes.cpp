@@ -49,7 +49,7 @@ double Largest(const IrradianceMesh& mesh) {
 
 MeshNodes FindMeshNodes(const Scene& scene, const IrradianceMesh& mesh) {
   MeshNodes found;
-  NodeList list(scene, kSameLight * Largest(mesh), found);
+  NodeList list(scene, kEqualIrradiance * Largest(mesh), found);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const IrradianceMesh::Triangle& triangle = mesh.triangles[i];
     std::array<std::uint32_t, 6> nodes;

@@ -29,9 +29,9 @@ struct MeshNodes {
   std::vector<std::int32_t> face;  // per triangle: the number of its face in outputs
 };
 
-// Irradiances are equal if they differ by less than kSameLight times the mesh's largest irradiance: the
+// Irradiances are equal if they differ by less than kEqualIrradiance times the mesh's largest irradiance: the
 // rounding of the coefficients, and less than the precision of a float.
-inline constexpr double kSameLight = 1e-9;
+inline constexpr double kEqualIrradiance = 1e-9;
 
 MeshNodes FindMeshNodes(const Scene& scene, const IrradianceMesh& mesh);
 

@@ -221,7 +221,7 @@ void DiscontinuityFinder::Impl::AddNearEdges(const Receiver& r, const SourceView
   for (std::int32_t k = 0; k < s.patch.size; ++k) {
     const Vec3 &a = s.patch.vertex[k], &b = s.patch.vertex[(k + 1) % s.patch.size];
     const double ha = r.Height(a), hb = r.Height(b);
-    if (std::min(ha, hb) <= r.gap || std::max(ha, hb) > kHanging * (b - a).norm()) continue;
+    if (std::min(ha, hb) <= r.gap || std::max(ha, hb) > kMaxHangingHeight * (b - a).norm()) continue;
     if (GoesOn(s.id, k)) continue;
     const Vec3 across = r.frame.n.cross(b - a).normalized();
     Discontinuity d;

@@ -117,8 +117,8 @@ class DiscontinuityFinder {
   //  beside the
   //      contact.
   //  (6) With options.triple_edge_tolerance also the pieces of EEE events.
-  //  (7) Beside an edge of a source that hangs at most kHanging of its length above the receiver lines run
-  //  along the edge, ever farther from it.
+  //  (7) Beside an edge of a source that hangs at most kMaxHangingHeight of its length above the receiver
+  //  lines run along the edge, ever farther from it.
   // Safe from any thread. Of no use if it was cancelled.
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
                                   const DiscontinuityOptions& options,

@@ -62,12 +62,12 @@ void Unite(std::vector<LineInterval>& intervals) {
 // Those to be tried, one after the other: the heaviest first, of equal weight the one found first. Weights
 // fall while lines are activated, so that one that is still the heaviest after it has been weighed again is;
 // one that rose would count as it was.
-class Order {
+class ActivationOrder {
  public:
   using Weigh = std::function<double(std::size_t)>;
 
   // With `weigh` weights are those of the moment.
-  Order(std::vector<double> weight, double least, Weigh weigh)
+  ActivationOrder(std::vector<double> weight, double least, Weigh weigh)
       : weight_(std::move(weight)), least_(least), weigh_(std::move(weigh)) {
     for (std::size_t i = 0; i < weight_.size(); ++i)
       if (weight_[i] >= least_) heap_.push_back(i);
@@ -122,7 +122,7 @@ class Activator {
   }
 
   PatchDSets Run() {
-    Order order = Rank();
+    ActivationOrder order = Rank();
     while (const std::optional<std::size_t> next = order.Next()) Try(*next);
     if (options_.can_want()) FindOmitted();
     return Finish();
@@ -131,12 +131,12 @@ class Activator {
  private:
   bool IsContact(std::size_t i) const { return found_[i].kind == DiscontinuityKind::kContact; }
 
-  Order Rank() {
+  ActivationOrder Rank() {
     if (std::optional<DiscontinuityRanks> ranks = choice_->Rank(patch_, found_, options_))
       return {std::move(ranks->rank), ranks->least, {}};
     const double least = options_.min_weight;
     std::vector<double> weight(found_.size());
-    Order::Weigh weigh;
+    ActivationOrder::Weigh weigh;
     if (options_.weight == DiscontinuityWeight::kThesis) {
       for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = found_[i].weight;
     } else {

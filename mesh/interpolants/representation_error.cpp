@@ -119,7 +119,7 @@ std::vector<PartError> MeasureParts(const Scene& scene,
                                     const std::function<void(std::span<const SurfacePoint>)>& evaluate,
                                     std::uint64_t seed, double bound, const Values& values) {
   const std::vector<ScenePart> parts = PartsOf(scene);
-  const std::vector<double> areas = SeenAreas(scene);
+  const std::vector<double> areas = ReflectingAreas(scene);
   const auto summarise = [&] {
     std::vector<ValueError> errors;
     for (const std::vector<Rgb>& truth : values.truths)
@@ -179,7 +179,7 @@ double Quantile(std::vector<double> values, double q) {
 
 std::vector<ValueError> SeenErrors(const Scene& scene, std::span<const SurfacePoint> at,
                                    std::span<const Rgb> shown, std::span<const Rgb> truth) {
-  const std::vector<std::array<bool, 3>> seen = SeenChannels(scene);
+  const std::vector<std::array<bool, 3>> seen = ReflectingChannels(scene);
   const std::vector<double> all = RelativeErrors(shown, truth, NoLight(scene));
   std::vector<ValueError> errors;
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -199,7 +199,7 @@ MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const
   const auto [points, seed, bound] = measurement;
   MeasuredError error;
   if (scene.patches.empty() || points == 0) return error;
-  const std::vector<double> areas = SeenAreas(scene);
+  const std::vector<double> areas = ReflectingAreas(scene);
   Values values;
   Evaluate(scene, mesh, sampler, better, SpreadPoints(scene, areas, points, seed), values);
   // Means are those of the first points, which spread evenly; so are all figures but those of parts.

@@ -53,7 +53,8 @@ struct ValueError {
   std::size_t point = 0;
 };
 
-// The same errors without those of channels that the surface of a point does not reflect (SeenChannels).
+// The same errors without those of channels that the surface of a point does not reflect
+// (ReflectingChannels).
 std::vector<ValueError> SeenErrors(const Scene& scene, std::span<const SurfacePoint> at,
                                    std::span<const Rgb> shown, std::span<const Rgb> truth);
 // 0 without values.
@@ -82,10 +83,10 @@ struct ErrorMeasurement {
   double bound = 0;  // of errors: MeasuredError::above counts what is above it
 };
 
-// Measures at so many random points that spread evenly by area over the fronts that are seen (SeenAreas),
-// and at further ones in each part of the scene, so that no large one speaks for a small one. The same seed
-// gives the same points. Points are offset from all interpolation nodes with probability one. Without
-// `better` sources the others are left empty.
+// Measures at so many random points that spread evenly by area over the fronts that are seen
+// (ReflectingAreas), and at further ones in each part of the scene, so that no large one speaks for a small
+// one. The same seed gives the same points. Points are offset from all interpolation nodes with probability
+// one. Without `better` sources the others are left empty.
 MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
                            std::span<const IrradianceSampler> better, const ErrorMeasurement& measurement);
 

@@ -148,7 +148,7 @@ std::vector<double> AreaAbove(const Scene& scene, const IrradianceMesh& mesh,
 }
 
 Rgb MeanIrradiance(const Scene& scene, const IrradianceMesh& mesh) {
-  const std::vector<double> seen = SeenAreas(scene);
+  const std::vector<double> seen = ReflectingAreas(scene);
   Rgb sum = Rgb::Zero();
   double area = 0;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -46,7 +46,8 @@ std::vector<double> GuessTriangleErrors(const Scene& scene, const IrradianceMesh
 std::vector<double> AreaAbove(const Scene& scene, const IrradianceMesh& mesh,
                               std::span<const TriangleError> errors, double error);
 
-// The area-weighted mean of the interpolants over the patches that are seen (SeenAreas), by channel [W/m^2].
+// The area-weighted mean of the interpolants over the patches that are seen (ReflectingAreas), by channel
+// [W/m^2].
 Rgb MeanIrradiance(const Scene& scene, const IrradianceMesh& mesh);
 
 }  // namespace penumbra

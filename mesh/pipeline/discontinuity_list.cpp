@@ -1,6 +1,6 @@
 #include "mesh/pipeline/discontinuity_list.h"
 
-#include "mesh/interpolants/light_beside.h"
+#include "mesh/interpolants/reference_irradiance.h"
 #include "mesh/refinement/local_pass.h"
 #include "solver/base/parallel.h"
 
@@ -12,7 +12,7 @@ DiscontinuityList ListDiscontinuities(const RadiositySolution& solution, const P
   const std::vector<double> strength = SourceStrengths(solution);
   const DiscontinuityFinder finder(scene, visibility);
   std::vector<std::vector<Discontinuity>> found(scene.patches.size());
-  const LightBeside light(solution, options.weight);
+  const ReferenceIrradiance light(solution, options.weight);
   ParallelFor(found.size(), 1, [&](std::size_t p) {
     if (context.Cancelled()) return;
     const auto patch = static_cast<PatchId>(p);

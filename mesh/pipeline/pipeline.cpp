@@ -455,7 +455,7 @@ void Pipeline::Measure(const ExecutionContext& context) {
   if (!report.error_met) report.unmet.push_back(MissedError(report, worst));
 }
 
-void Pipeline::Glance(const ExecutionContext& context) {
+void Pipeline::CheckErrorRoughly(const ExecutionContext& context) {
   PENUMBRA_CHECK(impl_->mesh_kind.has_value());
   const RunLimits limits = impl_->LimitsSinceSolve(context);
   if (*impl_->mesh_kind != MeshKind::kInterpolant || !impl_->solver || !impl_->solver->TakesLight() ||

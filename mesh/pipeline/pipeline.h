@@ -211,7 +211,7 @@ class Pipeline {
   void Measure(const ExecutionContext& context);
   // Tells in the report what was missed, if so few random points as cost no time to speak of show clearly
   // that the error asked for is; nothing else is measured. REQUIRES: BuildMesh() after the last step.
-  void Glance(const ExecutionContext& context);
+  void CheckErrorRoughly(const ExecutionContext& context);
   // PipelineOptions::error_points of what is measured from here on.
   void SetErrorPoints(std::size_t points);
 

@@ -93,7 +93,7 @@ void PatchTriangulator::FindAll(Work& work) const {
   work.report.counts.pairs_kept += cache_.discontinuities.counts().kept - before.kept;
 }
 
-PatchDSets PatchTriangulator::Activate(const Work& work, std::size_t p, LeafLight* places) const {
+PatchDSets PatchTriangulator::Activate(const Work& work, std::size_t p, LeafIrradianceSamples* places) const {
   const auto patch = static_cast<PatchId>(p);
   const ElementForest& forest = work.forest;
   const auto scale = [&](ElementId leaf) { return light_.ScaleOf(forest, leaf); };
@@ -136,7 +136,7 @@ void PatchTriangulator::ActivateByPlaces(Work& work) const {
   std::vector<std::size_t> evaluations(work.dsets.size());
   ParallelFor(work.dsets.size(), 1, [&](std::size_t p) {
     if (work.dsets[p].refused == 0 || context_.Cancelled()) return;
-    LeafLight places(work.forest, static_cast<PatchId>(p), *sampler_);
+    LeafIrradianceSamples places(work.forest, static_cast<PatchId>(p), *sampler_);
     work.dsets[p] = Activate(work, p, &places);
     evaluations[p] = places.evaluations();
   });

@@ -15,8 +15,8 @@
 #include "mesh/discontinuities/mesh_options.h"
 #include "mesh/interpolants/irradiance_mesh.h"
 #include "mesh/interpolants/irradiance_mesh_builder.h"
-#include "mesh/interpolants/leaf_light.h"
-#include "mesh/interpolants/light_beside.h"
+#include "mesh/interpolants/leaf_irradiance_samples.h"
+#include "mesh/interpolants/reference_irradiance.h"
 #include "mesh/triangulation/leaf_triangulation.h"
 #include "solver/base/progress.h"
 #include "solver/transport/links/element_forest.h"
@@ -72,7 +72,7 @@ class PatchTriangulator {
                     LocalPassCache* cache = nullptr);
 
   // From here on ranking by the irradiance weight asks the sampler how dark it is where discontinuities
-  // compete for the room in a leaf (LeafLight). The sampler must outlive the object.
+  // compete for the room in a leaf (LeafIrradianceSamples). The sampler must outlive the object.
   void RankWith(const IrradianceSampler& sampler) { sampler_ = &sampler; }
 
   // Triangulates all patches along the leaves of the plan; counts and seconds are added to the report. The
@@ -87,7 +87,7 @@ class PatchTriangulator {
 
   std::vector<Discontinuity> FindOn(PatchId patch, const MeshPlan& plan) const;
   void FindAll(Work& work) const;
-  PatchDSets Activate(const Work& work, std::size_t patch, LeafLight* places = nullptr) const;
+  PatchDSets Activate(const Work& work, std::size_t patch, LeafIrradianceSamples* places = nullptr) const;
   void ActivateAll(Work& work) const;
   void ActivateByPlaces(Work& work) const;
   std::vector<PatchTriangulation> TriangulateAll(const Work& work) const;
@@ -100,7 +100,7 @@ class PatchTriangulator {
   const IrradianceSampler* sampler_ = nullptr;
   std::optional<LocalPassCache> own_cache_;
   LocalPassCache& cache_;
-  LightBeside light_;
+  ReferenceIrradiance light_;
   std::vector<double> strength_;  // SourceStrengths()
 };
 

@@ -55,7 +55,7 @@ struct Population {
 // What is seen, what is not (nobody's eyes vote for the irradiance of a black wall, but who probes it may
 // want it), and the parts of what is seen, lest a large one outvote a small one.
 std::vector<Population> FindPopulations(const Scene& scene, double error) {
-  const std::vector<double> seen = SeenAreas(scene);
+  const std::vector<double> seen = ReflectingAreas(scene);
   const std::size_t count = scene.patches.size();
   Population lit{std::vector<char>(count, 0), 0, error}, unseen = lit;
   for (std::size_t p = 0; p < count; ++p) {

@@ -139,7 +139,8 @@ SourceCut ChooseSourceCut(const RadiositySolution& solution, const SourceCells& 
   const Scene& scene = solution.forest.scene();
   const std::vector<double> scores = ScoresFrom(options.finest);
   const CutTrial trial(solution, cells, exact, scores);
-  const std::vector<SurfacePoint> at = SpreadPoints(scene, SeenAreas(scene), options.points, options.seed);
+  const std::vector<SurfacePoint> at =
+      SpreadPoints(scene, ReflectingAreas(scene), options.points, options.seed);
   std::vector<Rgb> truth(options.points);
   std::vector<std::vector<Rgb>> shown(kSteps, std::vector<Rgb>(options.points));
   ParallelFor(options.points, kPointGrain, [&](std::size_t p) {

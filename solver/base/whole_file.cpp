@@ -60,7 +60,7 @@ int WhyKept(const fs::path& target) {
 // A file beside its place, which is taken away again unless it gets there.
 class Staged {
  public:
-  explicit Staged(const std::string& path) : path_(path), target_(BehindLinks(path)) {
+  explicit Staged(const std::string& path) : path_(path), target_(ResolveSymlinks(path)) {
     if (const int why = WhyKept(target_)) FailToWrite(path_, std::strerror(why));
     file_ = OpenBeside(target_, &temporary_);
     if (file_ < 0) FailToWrite(path_, std::strerror(errno));
@@ -99,7 +99,7 @@ void WriteToDevice(const std::string& path, std::string_view bytes) {
 
 }  // namespace
 
-fs::path BehindLinks(fs::path path) {
+fs::path ResolveSymlinks(fs::path path) {
   constexpr int kMostLinks = 40;  // as the kernel follows; a longer chain is a ring
   std::error_code error;
   for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
@@ -119,7 +119,7 @@ bool IsDevice(const std::string& path) {
   return fs::exists(path, ignored) && !fs::is_regular_file(path, ignored) && !fs::is_directory(path, ignored);
 }
 
-void TryWholeFile(const std::string& path) {
+void CheckCanWrite(const std::string& path) {
   if (IsDevice(path)) {
     if (access(path.c_str(), W_OK) != 0) FailToWrite(path, std::strerror(errno));
   } else {

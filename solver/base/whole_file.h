@@ -26,13 +26,13 @@ struct FileToWrite {
 void WriteWholeFiles(std::span<const FileToWrite> files);
 
 // Checks that WriteWholeFile() can write to the path, and throws the same error if it cannot. Writes nothing.
-void TryWholeFile(const std::string& path);
+void CheckCanWrite(const std::string& path);
 
 // Whether the path names a device or a pipe, which is written to directly.
 bool IsDevice(const std::string& path);
 
 // The target of a chain of symbolic links, whether or not this target exists.
-std::filesystem::path BehindLinks(std::filesystem::path path);
+std::filesystem::path ResolveSymlinks(std::filesystem::path path);
 
 // Throws the InputError for a path that cannot be written.
 [[noreturn]] void FailToWrite(const std::string& path, const std::string& why);

@@ -16,7 +16,7 @@ namespace {
 // The outline's loop is 0, then come those of the cuts.
 class Snapper {
  public:
-  Snapper(std::span<const Vec2> outline, std::span<const Polygon2> cuts, const SnapReach& reach)
+  Snapper(std::span<const Vec2> outline, std::span<const Polygon2> cuts, const SnapTolerance& reach)
       : reach_(reach), window_(std::max(reach.base, reach.step.x())) {
     AddLoop(outline);
     for (const Polygon2& cut : cuts) AddLoop(cut);
@@ -122,7 +122,7 @@ class Snapper {
     }
   }
 
-  SnapReach reach_;
+  SnapTolerance reach_;
   double window_;
   std::vector<Vec2> points_;
   std::vector<std::int32_t> next_;     // of each corner, the next of its loop: edge e runs from corner e
@@ -166,7 +166,7 @@ double WidthOf(double area, double border) {
 }
 
 // Leaves out groups whose area and border are those of a strip no wider than the reach.
-void DropStrips(RegionDifference& difference, const SnapReach& reach) {
+void DropStrips(RegionDifference& difference, const SnapTolerance& reach) {
   const std::vector<std::int32_t> group = Groups(difference.triangles);
   struct Measure {
     double area = 0, border = 0, longest = 0;
@@ -202,7 +202,7 @@ void DropStrips(RegionDifference& difference, const SnapReach& reach) {
 }  // namespace
 
 RegionDifference RegionSubtractor::Subtract(std::span<const Vec2> outline, std::span<const Polygon2> cuts,
-                                            const SnapReach& reach) {
+                                            const SnapTolerance& reach) {
   Snapper snapper(outline, cuts, reach);
   snapper.Snap();
   const std::vector<ConstraintSegment> segments = snapper.Segments();
@@ -234,7 +234,7 @@ std::vector<Polygon2> RegionSubtractor::ConvexParts(std::span<const Vec2> outlin
 
 RegionDifference RegionSubtractor::SubtractByClipping(std::span<const Vec2> outline,
                                                       std::span<const Polygon2> cuts,
-                                                      const SnapReach& reach) {
+                                                      const SnapTolerance& reach) {
   RegionDifference difference;
   difference.vertices.assign(outline.begin(), outline.end());
   for (const Polygon2& cut : cuts)

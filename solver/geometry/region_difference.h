@@ -21,7 +21,7 @@ namespace penumbra {
 
 // The distance within which two corners or edges count as one. The distance along a coordinate axis is the
 // rounding of this coordinate in the file (`step`). The distance in any direction is at least `base`.
-struct SnapReach {
+struct SnapTolerance {
   double base = 0;
   Vec2 step = Vec2::Zero();  // along each coordinate axis
 
@@ -48,7 +48,7 @@ class RegionSubtractor {
   // The part of the simple polygon `outline` outside all simple polygons `cuts`; all are counter-clockwise.
   // Parts whose width is less than the snap distance everywhere are dropped.
   RegionDifference Subtract(std::span<const Vec2> outline, std::span<const Polygon2> cuts,
-                            const SnapReach& reach);
+                            const SnapTolerance& reach);
 
   // Partitions a simple polygon into convex ones.
   std::vector<Polygon2> ConvexParts(std::span<const Vec2> outline);
@@ -56,7 +56,7 @@ class RegionSubtractor {
  private:
   // The fallback: clips convex parts one by one, without a common mesh.
   RegionDifference SubtractByClipping(std::span<const Vec2> outline, std::span<const Polygon2> cuts,
-                                      const SnapReach& reach);
+                                      const SnapTolerance& reach);
 
   ConstrainedTriangulator triangulator_;
 };

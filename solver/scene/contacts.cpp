@@ -103,7 +103,7 @@ class ContactFinder {
     for (std::int32_t k = 0; k < patch.size; ++k) {
       const Vec3 &a = patch.vertex[k], &b = patch.vertex[(k + 1) % patch.size];
       const double low = std::max(height(k), height(k + 1));
-      if (low > kHanging * (b - a).norm() || highest <= 2 * low) continue;
+      if (low > kMaxHangingHeight * (b - a).norm() || highest <= 2 * low) continue;
       Add(a - height(k) * patch_.normal, b - height(k + 1) * patch_.normal, other);
     }
   }
@@ -150,7 +150,7 @@ ContactSearch::ContactSearch(const Scene& scene)
       box.low = box.low.cwiseMin(v);
       box.high = box.high.cwiseMax(v);
     }
-    const double reach = gap_ + kHanging * Diameter(vertices);
+    const double reach = gap_ + kMaxHangingHeight * Diameter(vertices);
     box.low.array() -= reach;
     box.high.array() += reach;
     boxes.push_back(box);

@@ -23,7 +23,7 @@ std::vector<Contact> FindContacts(const Scene& scene, PatchId receiver);
 
 // Largest height at which an edge above a patch still divides the patch, relative to the length of the edge.
 // As little light passes below the edge as under a door.
-inline constexpr double kHanging = 0.02;
+inline constexpr double kMaxHangingHeight = 0.02;
 
 // Finds the contacts of many receivers of one scene. The scene must outlive the object.
 class ContactSearch {
@@ -34,9 +34,9 @@ class ContactSearch {
   std::vector<Contact> Find(PatchId receiver) const;
 
   // The feet of other patches on the front of the receiver. A patch that rises from the receiver has its
-  // contact as a foot. A patch that rises from an edge at a height of at most kHanging times the edge's
-  // length has the projection of this edge onto the receiver as a foot. Patches that lie flat on the receiver
-  // have no foot.
+  // contact as a foot. A patch that rises from an edge at a height of at most kMaxHangingHeight times the
+  // edge's length has the projection of this edge onto the receiver as a foot. Patches that lie flat on the
+  // receiver have no foot.
   std::vector<Contact> FindWalls(PatchId receiver) const;
 
  private:

@@ -80,7 +80,7 @@ class OverlapTest {
     constexpr int kEnough = 64;
     const Outline &a = outlines_[i], &b = outlines_[j];
     const PlaneProjection projection(a.vertices[0], normal);
-    const SnapReach reach = tolerance_.InPlane(projection, std::max(a.diameter, b.diameter));
+    const SnapTolerance reach = tolerance_.InPlane(projection, std::max(a.diameter, b.diameter));
     const std::vector<Vec2> flat_a = Project(projection, a.vertices),
                             flat_b = Project(projection, b.vertices);
     const Box2 box_b = BoxOf(flat_b);
@@ -173,7 +173,7 @@ PlaneTolerance::PlaneTolerance(const Vec3& step, double diagonal) : least_(kCont
   step_ = largest > most ? Vec3(step * (most / largest)) : Vec3(kLessThanAUnit * step);
 }
 
-SnapReach PlaneTolerance::InPlane(const PlaneProjection& projection, double diameter) const {
+SnapTolerance PlaneTolerance::InPlane(const PlaneProjection& projection, double diameter) const {
   return {kCoplanarTolerance * diameter, projection.ToPlane(step_)};
 }
 

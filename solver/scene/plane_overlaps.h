@@ -32,7 +32,7 @@ class PlaneTolerance {
   PlaneTolerance(const Vec3& step, double diagonal);
 
   // The distance for corners and edges in a plane with this projection, of faces of this diameter.
-  SnapReach InPlane(const PlaneProjection& projection, double diameter) const;
+  SnapTolerance InPlane(const PlaneProjection& projection, double diameter) const;
 
   // The distance for two planes with the unit normal `normal`, each defined by rounded corners [m].
   double Between(const Vec3& normal) const;

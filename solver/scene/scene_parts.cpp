@@ -58,7 +58,7 @@ std::string NameByFaces(const Scene& scene, std::span<const PatchId> patches) {
 
 }  // namespace
 
-std::vector<double> SeenAreas(const Scene& scene) {
+std::vector<double> ReflectingAreas(const Scene& scene) {
   const bool any = AnyReflects(scene);
   std::vector<double> areas;
   for (PatchId p = 0; p < Size(scene.patches); ++p)
@@ -66,7 +66,7 @@ std::vector<double> SeenAreas(const Scene& scene) {
   return areas;
 }
 
-std::vector<std::array<bool, 3>> SeenChannels(const Scene& scene) {
+std::vector<std::array<bool, 3>> ReflectingChannels(const Scene& scene) {
   const bool any = AnyReflects(scene);
   std::vector<std::array<bool, 3>> channels;
   for (PatchId p = 0; p < Size(scene.patches); ++p) {

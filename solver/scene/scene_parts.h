@@ -15,10 +15,10 @@ namespace penumbra {
 
 // Per patch: its area if it reflects in some channel, otherwise 0 [m^2], because irradiance is visible only
 // on surfaces that reflect. If nothing in the scene reflects, all areas.
-std::vector<double> SeenAreas(const Scene& scene);
+std::vector<double> ReflectingAreas(const Scene& scene);
 
 // Per patch: the channels in which it reflects. If nothing in the scene reflects, all channels.
-std::vector<std::array<bool, 3>> SeenChannels(const Scene& scene);
+std::vector<std::array<bool, 3>> ReflectingChannels(const Scene& scene);
 
 struct ScenePart {
   std::string name;

@@ -54,7 +54,7 @@ double Difference(const std::vector<double>& values, const std::vector<double>& 
 // Gathering ends at this residual, and with it the light of two solves over the same links agrees but for a
 // few times as much.
 constexpr const char* kCutoff = "1e-10";
-constexpr double kSameLight = 1e-8;
+constexpr double kEqualIrradiance = 1e-8;
 
 // In a closed room of one material irradiance is E / (1 - rho) everywhere, whatever the material was when its
 // links were made.
@@ -74,7 +74,7 @@ TEST(Restart, FurnaceOfAnotherMaterial) {
   for (int i = 15; i < 18; ++i) want[i] = NAN;
   const double worst = Difference(values, want);
   std::printf("worst relative error %.2g\n", worst);
-  EXPECT_LE(worst, kSameLight);
+  EXPECT_LE(worst, kEqualIrradiance);
 }
 
 // Twice the light and twice the eps make the same links: over those of the scene as it was, the light is that
@@ -123,8 +123,8 @@ TEST(Restart, AgreesWithSolvingAnew) {
                back = Difference(Probe(sandbox, "back.h5"), Probe(sandbox, "first.h5")),
                changed = Difference(Probe(sandbox, "other.h5"), Probe(sandbox, "first.h5"));
   std::printf("against solving anew %.2g, taken back %.2g, changed by %.2g\n", anew, back, changed);
-  EXPECT_LE(anew, kSameLight);
-  EXPECT_LE(back, kSameLight);
+  EXPECT_LE(anew, kEqualIrradiance);
+  EXPECT_LE(back, kEqualIrradiance);
   EXPECT_GT(changed, 0.1);
   EXPECT_EQ(ReadBytes(sandbox.Path("back.h5")), ReadBytes(sandbox.Path("again.h5")));
   EXPECT_THAT(sandbox.Run({"info", "over.h5"}).out, HasSubstr("solved by"));

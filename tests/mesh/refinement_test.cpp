@@ -158,7 +158,8 @@ TEST(SourceCut, CostsWhatItSays) {
   };
   const PointIrradiance coarse = from(chosen), fine = from(cells.Cut(0));
   std::vector<Rgb> shown, truth;
-  const std::vector<SurfacePoint> points = SpreadPoints(solved.scene, SeenAreas(solved.scene), kPoints, 7);
+  const std::vector<SurfacePoint> points =
+      SpreadPoints(solved.scene, ReflectingAreas(solved.scene), kPoints, 7);
   for (const SurfacePoint& p : points) {
     ReceiverPoint at;
     at.position = p.position;

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "mesh/interpolants/light_beside.h"
+#include "mesh/interpolants/reference_irradiance.h"
 #include "mesh/pipeline/hdf5_image.h"
 #include "mesh/pipeline/solution_check.h"
 #include "solver/base/check.h"
@@ -191,7 +191,7 @@ TEST(SolutionFile, HoldsTheDiscontinuities) {
   file.Read("discontinuities/kind", ScalarTypeOf<std::uint8_t>::value, {count}, kind.data());
   // All that could be asked for, each beside the light of its receiver.
   const DiscontinuityOptions& mesh = pipeline.resolved().discontinuities;
-  const LightBeside light(pipeline.solution(), mesh.weight);
+  const ReferenceIrradiance light(pipeline.solution(), mesh.weight);
   for (std::size_t i = 0; i < count; ++i) {
     const Patch& patch = pipeline.scene().patches.at(static_cast<std::size_t>(receiver[i]));
     for (int end = 0; end < 2; ++end) {

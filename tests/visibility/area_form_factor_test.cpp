@@ -375,7 +375,7 @@ TEST(AreaFormFactor, WhatIsSmallBesideOneEnds) {
     AreaFormFactorOptions options;
     options.tolerance = options.clear_tolerance = 1e-15;
     options.small = 1e-3;
-    options.enough_points = 5000;
+    options.sufficient_points = 5000;
     const FormFactorEstimate found = Between(scene, Whole(scene, 0), Whole(scene, 1), options);
     EXPECT_LE(found.error, 1e-3) << i;
     EXPECT_LE(found.points, 50'000U) << i;

@@ -74,7 +74,7 @@ class Window : public testing::Test {
     return sandbox.Run(arguments);
   }
   // What `view --help-script` lists between a line and the next that is empty: the words before the help.
-  std::vector<std::string> Listed(const std::string& heading) {
+  std::vector<std::string> ListedSources(const std::string& heading) {
     std::vector<std::string> found;
     bool inside = false;
     for (const std::string& line : Lines(sandbox.Run({"view", "x", "--help-script"}).out)) {
@@ -284,7 +284,7 @@ TEST_F(Window, ErrorsAreOneLineAndStatusOne) {
 TEST_F(Window, EveryMenuItemKeyAndOption) {
   std::string script = "resize 320x240\nwait idle\n";
   std::size_t items = 0, options = 0;
-  for (const std::string& line : Listed("Menus")) {
+  for (const std::string& line : ListedSources("Menus")) {
     // Two columns: the path, then the key.
     const std::string path = line.substr(2, line.find("  ", 2) - 2);
     const std::size_t last = line.find_last_not_of(' ');
@@ -298,7 +298,7 @@ TEST_F(Window, EveryMenuItemKeyAndOption) {
   }
   EXPECT_GT(items, 50U);
   script += "set mode flat\nset navigation arcball\nkey escape\nwait idle\n";
-  for (const std::string& line : Listed("Options for")) {
+  for (const std::string& line : ListedSources("Options for")) {
     const std::string name = line.substr(2, line.find(' ', 2) - 2);
     const std::string values = line.substr(line.rfind('(') + 1, line.rfind(')') - line.rfind('(') - 1);
     ++options;
@@ -487,7 +487,7 @@ quit
 )";
   EXPECT_EQ(Play(played).status, 0);
   std::size_t actions = 0;
-  for (const std::string& line : Listed("A script has an action")) {
+  for (const std::string& line : ListedSources("A script has an action")) {
     const std::string text = line.substr(0, line.find("  ", 2));
     // `mouse press|release BUTTON` names two actions: words in capitals are values.
     std::istringstream words(text);

@@ -32,7 +32,7 @@ constexpr double kLeftOut = 0.25;
 struct Gathering::Buffers {
   Clipper clipper;
   LazyTable<Vec2> corner_images;  // of the source at hand in the image at hand, by corner
-  // What GatherAsOne() has found, whose form factors are still to be added.
+  // What GatherAggregates() has found, whose form factors are still to be added.
   PolygonBatch listed;
   std::vector<Rgb> listed_radiosity;
   FormFactorSums sums;
@@ -79,7 +79,7 @@ Gathering::Gathering(const Scene& scene, const SourceSet& sources, const Receive
 
 Gathering::~Gathering() = default;
 
-void Gathering::SeeAsOne(double tolerance, const Rgb& known) {
+void Gathering::AllowAggregates(double tolerance, const Rgb& known) {
   tolerance_ = tolerance;
   known_ = known;
   buffers_->ClearListed();
@@ -213,7 +213,7 @@ void Gathering::GatherNode(Tree tree, std::size_t i, const ImageFrame& frame,
   const Overlap overlap = clipper_.Narrow(image, candidates, &own);
   if (overlap == Overlap::kNone) {
     GatherVisible(tree.subspan(i, skip));
-  } else if (overlap == Overlap::kPart && skip > 1 && tolerance_ > 0 && IsOne(node, false)) {
+  } else if (overlap == Overlap::kPart && skip > 1 && tolerance_ > 0 && MayAggregate(node, false)) {
     clipper_.CutOut(image, own, PieceOwner::Group(sources_.IndexOf(node)));
   } else if (overlap == Overlap::kPart && skip == 1) {
     if (!method_ || parts_) clipper_.CutOut(image, own, PieceOwner::Part(node.first_leaf));
@@ -231,7 +231,7 @@ void Gathering::GatherNode(Tree tree, std::size_t i, const ImageFrame& frame,
 
 // Adds all leaves of a subtree that nothing hides.
 void Gathering::GatherVisible(Tree nodes) {
-  if (tolerance_ > 0) return GatherAsOne(nodes);
+  if (tolerance_ > 0) return GatherAggregates(nodes);
   if (parts_)
     for (const Node& node : nodes)
       if (node.skip == 1)
@@ -286,7 +286,7 @@ double Gathering::ToleranceFor(const Rgb& light) const {
 // Whether a subtree may be seen as one: where nothing hides it with its radiosity's moment, and else by the
 // plane that fits its radiosities. The error beside its own light is small, or the light beside that of the
 // whole source.
-bool Gathering::IsOne(const Node& node, bool visible) const {
+bool Gathering::MayAggregate(const Node& node, bool visible) const {
   double error = visible ? node.spread : node.residual;
   if (error <= tolerance_here_) return true;
   const Vec3 to = node.centre - at_.position;
@@ -305,12 +305,12 @@ bool Gathering::IsOne(const Node& node, bool visible) const {
 }
 
 // Adds a subtree that nothing hides, in parts that may be seen as one.
-void Gathering::GatherAsOne(Tree nodes) {
+void Gathering::GatherAggregates(Tree nodes) {
   const bool plain = view_.SourceIsPlain();
   Buffers& buffers = *buffers_;
   for (std::size_t i = 0; i < nodes.size();) {
     const Node& node = nodes[i];
-    if (node.skip > 1 && !IsOne(node, true)) {
+    if (node.skip > 1 && !MayAggregate(node, true)) {
       ++i;
       continue;
     }
@@ -339,8 +339,8 @@ void Gathering::AddMoment(const Node& node) {
   irradiance_ += (node.moment * gradient).array();
 }
 
-// Adds what GatherAsOne() has listed. It need not be as exact as the rest.
-void Gathering::AddListed() {
+// Adds what GatherAggregates() has listed. It need not be as exact as the rest.
+void Gathering::AddListedSources() {
   if (tolerance_ == 0) return;
   Buffers& buffers = *buffers_;
   const std::size_t count = buffers.listed_radiosity.size();

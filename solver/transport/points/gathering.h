@@ -78,14 +78,14 @@ class Gathering {
   // the brightest should come first. If what the point receives is known, about, the light beside which all
   // of this counts is a part of that. From the source on that sends back the most, (1 - r)^2 of the share
   // holds, r = rho rho' F^2 as in PointIrradiance::Reverberation(). REQUIRES: the point lies on a patch.
-  void SeeAsOne(double tolerance, const Rgb& known = Rgb::Zero());
+  void AllowAggregates(double tolerance, const Rgb& known = Rgb::Zero());
   // What the sources so far would have brought without what hides them in part.
   const Rgb& unhindered() const { return unhindered_; }
   // Whether light beside that of the sources before is less than a small part of that share.
   bool IsNegligible(const Rgb& light) const;
 
   const Rgb& irradiance() {
-    AddListed();
+    AddListedSources();
     return irradiance_;
   }
   bool one_sided() const { return view_.one_sided(); }
@@ -101,12 +101,12 @@ class Gathering {
   ImagePolygon ImageOf(const SourceSet::Node& node, const ImageFrame& frame) const;
   void GatherNode(Tree tree, std::size_t i, const ImageFrame& frame, const Clipper::Candidates& candidates);
   void GatherVisible(Tree nodes);
-  void GatherAsOne(Tree nodes);
+  void GatherAggregates(Tree nodes);
   double Tolerance() const;
   double ToleranceFor(const Rgb& light) const;
-  bool IsOne(const SourceSet::Node& node, bool visible) const;
+  bool MayAggregate(const SourceSet::Node& node, bool visible) const;
   void AddMoment(const SourceSet::Node& node);
-  void AddListed();
+  void AddListedSources();
   void GatherUnfit(const SourceSet::Node& leaf, const DirectionPolygon& seen);
   void AddVisiblePieces(const ImageFrame& frame, double visible_before);
   double CancellationAllowed() const;

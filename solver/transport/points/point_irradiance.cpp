@@ -157,12 +157,12 @@ PointIrradianceResult PointIrradiance::NearlyOnPatch(PatchId patch, const Receiv
     GatherOnPatch(patch, at, gathering);
     return {gathering.irradiance(), gathering.one_sided()};
   }
-  gathering.SeeAsOne(tolerance);
+  gathering.AllowAggregates(tolerance);
   GatherBrightestFirst(patch, at, gathering);
   const Rgb light = gathering.irradiance();
   if ((gathering.unhindered() <= kMostlyHidden * light).all()) return {light, gathering.one_sided()};
   Gathering closer(scene_, sources_, at, options_, nullptr);
-  closer.SeeAsOne(tolerance, light);
+  closer.AllowAggregates(tolerance, light);
   GatherBrightestFirst(patch, at, closer);
   return {closer.irradiance(), closer.one_sided()};
 }

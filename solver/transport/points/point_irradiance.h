@@ -51,7 +51,7 @@ class PointIrradiance {
                                 IrradianceParts* parts = nullptr) const;
 
   // The same for interpolants: what is seen of a source may be seen as one of its mean radiosity where that
-  // costs at most about `tolerance` of the light from there (Gathering::SeeAsOne).
+  // costs at most about `tolerance` of the light from there (Gathering::AllowAggregates).
   PointIrradianceResult NearlyOnPatch(PatchId patch, const ReceiverPoint& at, double tolerance) const;
 
   // The same as OnPatch(), and what each leaf of the source set contributes to it: `factors` gets their form

@@ -158,9 +158,9 @@ class PairsOfParts {
     std::erase_if(which, [&](std::size_t k) { return FluxError(k) <= share; });
     AreaFormFactorOptions fine = options;
     fine.tolerance = fine.clear_tolerance = 0;
-    fine.enough = asked / static_cast<double>(2 * which.size());
+    fine.sufficient_error = asked / static_cast<double>(2 * which.size());
     fine.small = options.small / static_cast<double>(which.size());
-    fine.enough_points = std::max(kLeastOfMany, options.enough_points / which.size());
+    fine.sufficient_points = std::max(kLeastOfMany, options.sufficient_points / which.size());
     Solve("integrate", which, fine);
   }
 

@@ -43,12 +43,12 @@ struct AreaFormFactorOptions {
   double clear_tolerance = 2e-13;
   // An error that is small enough whatever the factor [m^2]: of the factor times the sender's area. A pair in
   // a sum gets its share of what the whole may err.
-  double enough = 0;
+  double sufficient_error = 0;
   // Points that one pair of parts may cost; then the error is what it is. Where that is small beside 1
   // already [1], fewer are enough: penumbras past many edges take three times as many for every digit.
   std::size_t max_points = 10'000'000;
   double small = 1e-7;
-  std::size_t enough_points = 200'000;
+  std::size_t sufficient_points = 200'000;
   // Takes the points on the first area whatever the sizes: for tests of reciprocity.
   bool points_on_first = false;
   // How occlusion is found at a point; null: the fastest exact way.

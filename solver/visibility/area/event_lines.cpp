@@ -303,7 +303,7 @@ Stretch Inside(const EventLine& line, std::span<const Vec2> polygon) {
   return inside;
 }
 
-bool Alive(const EventLine& line, std::span<const PatchId> blockers) {
+bool IsCastByAny(const EventLine& line, std::span<const PatchId> blockers) {
   const auto blocks = [&](PatchId p) {
     return p == kNoPatch || std::binary_search(blockers.begin(), blockers.end(), p);
   };

@@ -61,7 +61,7 @@ Stretch Inside(const EventLine& line, std::span<const Vec2> polygon);
 double Reach(const EventLine& line, double low, double high);
 
 // Whether some event of the line has just these blockers, which ascend, or the source.
-bool Alive(const EventLine& line, std::span<const PatchId> blockers);
+bool IsCastByAny(const EventLine& line, std::span<const PatchId> blockers);
 
 struct EventLines {
   std::vector<EventLine> lines;  // those that coincide are one; the heaviest first

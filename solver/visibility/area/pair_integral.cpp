@@ -215,7 +215,7 @@ void PairIntegral::Split(const Cell& cell, std::vector<Cell>& parts) const {
   const Polygon2 polygon = ToPolygon(cell.quad);
   for (const std::int32_t l : cell.lines) {
     const EventLine& line = events_.lines[static_cast<std::size_t>(l)];
-    if (!Alive(line, cell.blockers)) continue;
+    if (!IsCastByAny(line, cell.blockers)) continue;
     const Stretch inside = Inside(line, polygon);
     const double share = line.weight * (std::min(line.high, inside.high) - std::max(line.low, inside.low));
     if (share > largest) {
@@ -292,7 +292,7 @@ void PairIntegral::FindUnseen(Cell& cell, double largest) const {
     }
     const bool one_side = above == kNone || below == kNone;
     const double gap = std::max(above, below);
-    if ((!one_side && line.reach > kSeenInGap * gap) || !Alive(line, cell.blockers)) continue;
+    if ((!one_side && line.reach > kSeenInGap * gap) || !IsCastByAny(line, cell.blockers)) continue;
     const Stretch inside = Inside(line, polygon);
     const double scale = std::min(
         pair_.source_breadth, Reach(line, std::max(line.low, inside.low), std::min(line.high, inside.high)));
@@ -335,7 +335,7 @@ void PairIntegral::Evaluate(Cell& cell) const {
     Evaluate(cell, kSeven);
     analytic = cell.blockers.size() == 1 && events_.all_known &&
                std::none_of(cell.lines.begin(), cell.lines.end(), [&](std::int32_t l) {
-                 return Alive(events_.lines[static_cast<std::size_t>(l)], cell.blockers);
+                 return IsCastByAny(events_.lines[static_cast<std::size_t>(l)], cell.blockers);
                });
   } else {
     cell.lines.clear();
@@ -375,11 +375,11 @@ FormFactorEstimate PairIntegral::Integrate() {
       shadowed = shadowed || cell.shadowed;
     }
     const double asked =
-        std::max(options_.enough,
+        std::max(options_.sufficient_error,
                  sender_area_ * AllowedError(value / sender_area_,
                                              shadowed ? options_.tolerance : options_.clear_tolerance));
     if (error <= asked || points >= options_.max_points) break;
-    if (error <= options_.small * sender_area_ && points >= options_.enough_points) break;
+    if (error <= options_.small * sender_area_ && points >= options_.sufficient_points) break;
     if (options_.context && options_.context->Cancelled()) break;
     first_error = std::max(first_error, error);
     share = std::max(share, ShareOfDigits(first_error, error, asked));

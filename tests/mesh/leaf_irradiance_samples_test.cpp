@@ -1,6 +1,6 @@
 // How dark it is in places of a leaf, and what that is good for.
 
-#include "mesh/interpolants/leaf_light.h"
+#include "mesh/interpolants/leaf_irradiance_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 // Linear light is told as it is all over leaves of any shape, from samples that neighbours share, and nobody
 // is asked for more than the points that the leaves have.
-TEST(LeafLight, IsExactForLinearLight) {
+TEST(LeafIrradianceSamples, IsExactForLinearLight) {
   Scene scene = mesh_test::EmptyScene();
   mesh_test::AddPatch(scene, {{0, 0, 1}, {4, 0, 1}, {3, 1, 1}, {0.5, 1.5, 1}});
   mesh_test::AddPatch(scene, {{0, 0, 2}, {5, 0, 2}, {1, 0.1, 2}});
@@ -34,7 +34,7 @@ TEST(LeafLight, IsExactForLinearLight) {
   Random random(1, 1);
   double largest = 0;
   for (const PatchId patch : {0, 1}) {
-    LeafLight light(forest, patch, sampler);
+    LeafIrradianceSamples light(forest, patch, sampler);
     for (const ElementId leaf : forest.Leaves(patch))
       for (int i = 0; i < 1000; ++i) {
         // Corners weighed at random: inside, as leaves are convex.
@@ -58,7 +58,7 @@ TEST(LeafLight, IsExactForLinearLight) {
 // With few edges a leaf it matters which lie in the dark: on the floating cube with five a leaf the errors
 // (root mean square) are a fifth of what they are where errors count beside the mean of the leaf. Bound: two
 // thirds.
-TEST(LeafLight, TellsWhichEdgesLieInTheDark) {
+TEST(LeafIrradianceSamples, TellsWhichEdgesLieInTheDark) {
   const Scene scene = *LoadBuiltinScene("floating-cube", {});
   PipelineOptions options;
   options.error = 0.05;

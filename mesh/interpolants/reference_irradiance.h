@@ -1,4 +1,4 @@
-// mesh/interpolants/light_beside.h
+// mesh/interpolants/reference_irradiance.h
 //
 // Errors of what is shown are relative: on a leaf they count beside the light that the solution gives it.
 
@@ -12,10 +12,10 @@
 
 namespace penumbra {
 
-class LightBeside {
+class ReferenceIrradiance {
  public:
   // The solution must outlive it. The thesis's weight does not tell of errors: it counts alike everywhere.
-  LightBeside(const RadiositySolution& solution, DiscontinuityWeight weight);
+  ReferenceIrradiance(const RadiositySolution& solution, DiscontinuityWeight weight);
 
   // How many times an error counts on a leaf of the forest, which was grown from the solution's: once at the
   // mean irradiance, more often in the dark.

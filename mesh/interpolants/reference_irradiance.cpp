@@ -1,4 +1,4 @@
-#include "mesh/interpolants/light_beside.h"
+#include "mesh/interpolants/reference_irradiance.h"
 
 #include <algorithm>
 #include <limits>
@@ -12,7 +12,7 @@ constexpr double kDarkest = 0.05;  // of the mean: a leaf's mean is all that is 
 
 }  // namespace
 
-LightBeside::LightBeside(const RadiositySolution& solution, DiscontinuityWeight weight)
+ReferenceIrradiance::ReferenceIrradiance(const RadiositySolution& solution, DiscontinuityWeight weight)
     : solution_(solution),
       darkest_(solution.forest.scene().patches.size(), std::numeric_limits<double>::infinity()) {
   if (weight == DiscontinuityWeight::kThesis) return;
@@ -29,24 +29,24 @@ LightBeside::LightBeside(const RadiositySolution& solution, DiscontinuityWeight 
   if (area > 0) mean_ /= area;
 }
 
-double LightBeside::ScaleOf(const ElementForest& forest, ElementId leaf) const {
+double ReferenceIrradiance::ScaleOf(const ElementForest& forest, ElementId leaf) const {
   if (mean_ == 0) return 1;
   while (static_cast<std::size_t>(leaf) >= solution_.irradiance.size()) leaf = forest[leaf].parent;
   return Scale(solution_.irradiance[static_cast<std::size_t>(leaf)].maxCoeff(), kDarkest);
 }
 
-double LightBeside::ScaleIn(const Rgb& light) const { return Scale(light.maxCoeff(), kErrorFloor); }
+double ReferenceIrradiance::ScaleIn(const Rgb& light) const { return Scale(light.maxCoeff(), kErrorFloor); }
 
-double LightBeside::LargestScale(PatchId patch) const {
+double ReferenceIrradiance::LargestScale(PatchId patch) const {
   return Scale(darkest_[static_cast<std::size_t>(patch)], kDarkest);
 }
 
-DiscontinuityOptions LightBeside::ToFindOn(PatchId patch, DiscontinuityOptions options) const {
+DiscontinuityOptions ReferenceIrradiance::ToFindOn(PatchId patch, DiscontinuityOptions options) const {
   options.min_weight = options.LeastWeight() / LargestScale(patch);
   return options;
 }
 
-double LightBeside::Scale(double light, double darkest) const {
+double ReferenceIrradiance::Scale(double light, double darkest) const {
   return mean_ > 0 ? mean_ / std::max(light, darkest * mean_) : 1;
 }
 

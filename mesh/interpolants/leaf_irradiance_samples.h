@@ -1,4 +1,4 @@
-// mesh/interpolants/leaf_light.h
+// mesh/interpolants/leaf_irradiance_samples.h
 //
 // How much light there is in places of a leaf, where its mean does not tell: half of it may lie in shadow.
 
@@ -13,10 +13,10 @@
 namespace penumbra {
 
 // Answers for the leaves of one patch, and remembers. Not for several threads at once.
-class LeafLight {
+class LeafIrradianceSamples {
  public:
   // All must outlive the object; the forest may not change.
-  LeafLight(const ElementForest& forest, PatchId patch, const IrradianceSampler& sampler);
+  LeafIrradianceSamples(const ElementForest& forest, PatchId patch, const IrradianceSampler& sampler);
 
   // About the irradiance at a place of the leaf, linear between samples at its corners, the middles of its
   // sides and its middle [W/m^2].

@@ -1,4 +1,4 @@
-#include "mesh/interpolants/leaf_light.h"
+#include "mesh/interpolants/leaf_irradiance_samples.h"
 
 #include <array>
 #include <limits>
@@ -7,14 +7,15 @@
 
 namespace penumbra {
 
-LeafLight::LeafLight(const ElementForest& forest, PatchId patch, const IrradianceSampler& sampler)
+LeafIrradianceSamples::LeafIrradianceSamples(const ElementForest& forest, PatchId patch,
+                                             const IrradianceSampler& sampler)
     : forest_(forest),
       id_(patch),
       patch_(forest.scene().patches[static_cast<std::size_t>(patch)]),
       sampler_(sampler),
       uncertainty_(SampleUncertainty(forest.scene(), patch_)) {}
 
-Rgb LeafLight::At(ElementId leaf, const Vec3& place) {
+Rgb LeafIrradianceSamples::At(ElementId leaf, const Vec3& place) {
   const Element& element = forest_[leaf];
   // The triangle, of those that the quarters fall into, in which the place lies deepest, or least far
   // outside.
@@ -38,7 +39,7 @@ Rgb LeafLight::At(ElementId leaf, const Vec3& place) {
   return light;
 }
 
-Rgb LeafLight::Sample(const Element& leaf, const Vec3& point) {
+Rgb LeafIrradianceSamples::Sample(const Element& leaf, const Vec3& point) {
   ReceiverPoint at;
   at.position = point;
   at.normal = patch_.normal;
