@@ -13,9 +13,9 @@
 
 #include <fmt/format.h>
 
+#include "experiments/studies/lagrange_interpolant.h"
 #include "experiments/studies/study.h"
 #include "mesh/interpolants/irradiance_mesh_builder.h"
-#include "mesh/interpolants/lagrange_interpolant.h"
 #include "mesh/interpolants/mesh_locator.h"
 #include "mesh/interpolants/representation_error.h"
 #include "mesh/pipeline/pipeline.h"

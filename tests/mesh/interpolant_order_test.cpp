@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "mesh/interpolants/lagrange_interpolant.h"
+#include "experiments/studies/lagrange_interpolant.h"
 #include "mesh/interpolants/quadratic_interpolant.h"
 #include "solver/base/random.h"
 

@@ -9,8 +9,8 @@
 
 #include "solver/base/parallel.h"
 #include "solver/base/random.h"
-#include "solver/transport/solvers/manufactured.h"
 #include "solver/transport/sources/source_quadrature.h"
+#include "tests/transport/manufactured.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra {

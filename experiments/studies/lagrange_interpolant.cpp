@@ -1,4 +1,4 @@
-#include "mesh/interpolants/lagrange_interpolant.h"
+#include "experiments/studies/lagrange_interpolant.h"
 
 #include "solver/base/check.h"
 

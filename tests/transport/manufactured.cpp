@@ -1,4 +1,4 @@
-#include "solver/transport/solvers/manufactured.h"
+#include "tests/transport/manufactured.h"
 
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"

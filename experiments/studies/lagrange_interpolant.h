@@ -1,4 +1,4 @@
-// mesh/interpolants/lagrange_interpolant.h
+// experiments/studies/lagrange_interpolant.h
 //
 // Interpolants of degree 0 to 3 over a triangle, to compare the quadratic with that the thesis settled on
 // (3.3): the constant basis, Gouraud's linear one, and the cubic. Vertex 0 is at (s, t) = (0, 0), vertex 1 at

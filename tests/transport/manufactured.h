@@ -1,4 +1,4 @@
-// solver/transport/solvers/manufactured.h
+// tests/transport/manufactured.h
 //
 // Manufactured solutions: choose a radiosity, and derive the emittance that makes it the solution of the
 // radiosity equation. Any solver can then be asked for it, in any scene, past any blockers.
