@@ -56,9 +56,9 @@ using PlaceScale = std::function<double(ElementId, const Vec2&)>;
 
 // What a caller may add to the weights of discontinuities; all of it may be empty.
 struct ActivationRules {
-  LeafFilter filter;    // of the method of choice (DiscontinuityChoiceMethod::FilterOf)
-  ErrorScale scale;     // on each leaf
-  PlaceScale at_place;  // in leaves that have room for fewer lines than weigh enough
+  LeafFilter filter = {};    // of the method of choice (DiscontinuityChoiceMethod::FilterOf)
+  ErrorScale scale = {};     // on each leaf
+  PlaceScale at_place = {};  // in leaves that have room for fewer lines than weigh enough
 };
 
 // Activates the discontinuities in order of weight, contacts first, each for all leaves on which it impinges

@@ -14,7 +14,7 @@
 namespace penumbra {
 namespace {
 
-using Table = std::vector<SolveOption>;
+using Entries = std::vector<SolveOption>;
 
 constexpr const char* kFollows = "follows from --error";
 constexpr NumberRange kPositive{kTiniestOption, kLargestOption}, kNonNegative{0, kLargestOption},
@@ -61,7 +61,7 @@ OptionField AccelerationField() {
   return field;
 }
 
-void AddErrors(Table& table) {
+void AddErrors(Entries& table) {
   table.push_back(
       {.name = "seed",
        .field = IntegerField(&PipelineOptions::seed, {0, std::numeric_limits<std::uint64_t>::max()}),
@@ -92,7 +92,7 @@ void AddErrors(Table& table) {
                    .label = "Min area of an element"});
 }
 
-void AddChoiceOfDiscontinuities(Table& table) {
+void AddChoiceOfDiscontinuities(Entries& table) {
   table.push_back(
       {.name = "discontinuities",
        .field = NameField(&PipelineOptions::discontinuities, DiscontinuityChoices()),
@@ -123,7 +123,7 @@ void AddChoiceOfDiscontinuities(Table& table) {
        .label = "Weight of discontinuities"});
 }
 
-void AddWeights(Table& table) {
+void AddWeights(Entries& table) {
   table.push_back(
       {.name = "min-discontinuity-weight",
        .field = NumberField(&PipelineOptions::min_discontinuity_weight, kNonNegative),
@@ -149,7 +149,7 @@ void AddWeights(Table& table) {
        .label = "Minimum weight that refinement may want"});
 }
 
-void AddMesh(Table& table) {
+void AddMesh(Entries& table) {
   table.push_back({.name = "corner-divisions",
                    .field = IntegerField(&PipelineOptions::corner_divisions, {0, kMostCornerDivisions}),
                    .group = OptionGroup::kStudies,
@@ -186,7 +186,7 @@ void AddMesh(Table& table) {
        .label = "Error samples a side of a triangle"});
 }
 
-void AddRefinement(Table& table) {
+void AddRefinement(Entries& table) {
   table.push_back(
       {.name = "refine",
        .field = ChoiceField(&PipelineOptions::refine, Refinements()),
@@ -210,7 +210,7 @@ void AddRefinement(Table& table) {
        .label = "Error of sources cut by corrections, relative"});
 }
 
-void AddSweeps(Table& table) {
+void AddSweeps(Entries& table) {
   table.push_back({.name = "acceleration",
                    .field = AccelerationField(),
                    .group = OptionGroup::kStudies,
@@ -226,7 +226,7 @@ void AddSweeps(Table& table) {
                    .label = "Sweeps"});
 }
 
-void AddLinks(Table& table) {
+void AddLinks(Entries& table) {
   table.push_back(
       {.name = "oracle",
        .field = NameField(&PipelineOptions::oracle, RefinementOracles()),
@@ -246,7 +246,7 @@ void AddLinks(Table& table) {
                    .label = "Coarse links first"});
 }
 
-void AddEndsOfIteration(Table& table) {
+void AddEndsOfIteration(Entries& table) {
   table.push_back({.name = "relative-cutoff",
                    .field = NumberField(&PipelineOptions::relative_cutoff, kCutoff),
                    .group = OptionGroup::kHierarchical,
@@ -262,7 +262,7 @@ void AddEndsOfIteration(Table& table) {
                    .label = "Most iterations"});
 }
 
-void AddLimits(Table& table) {
+void AddLimits(Entries& table) {
   table.push_back(
       {.name = "time-limit",
        .field = NumberField(&PipelineOptions::time_limit, kSeconds),
@@ -284,7 +284,7 @@ void AddLimits(Table& table) {
                    .label = "Bounces that are reported"});
 }
 
-void AddDistances(Table& table) {
+void AddDistances(Entries& table) {
   table.push_back(
       {.name = "nudge",
        .field = NumberField(
@@ -317,7 +317,7 @@ void AddDistances(Table& table) {
        .label = "Shortest segment of backprojections, 0: clip"});
 }
 
-void AddSolvers(Table& table) {
+void AddSolvers(Entries& table) {
   table.push_back(
       {.name = "form-factors",
        .field = NameField(&PipelineOptions::form_factors, LinkFormFactorMethods()),
@@ -360,7 +360,7 @@ void AddSolvers(Table& table) {
 }
 
 // Tells each option which solver alone obeys it: the solver that has the option among its parameters.
-void TellOwners(Table& table) {
+void TellOwners(Entries& table) {
   for (const LightSolverRegistry::Method& solver : LightSolvers().methods())
     for (const std::string& parameter : solver.parameters) {
       const auto option = std::find_if(table.begin(), table.end(),
@@ -373,7 +373,7 @@ void TellOwners(Table& table) {
 }  // namespace
 
 std::vector<SolveOption> OptionEntries() {
-  Table table;
+  Entries table;
   AddErrors(table);
   AddChoiceOfDiscontinuities(table);
   AddWeights(table);

@@ -25,8 +25,8 @@ using testing::UnorderedElementsAre;
 
 Scene LitRoom() {
   Scene scene = mesh_test::EmptyScene();
-  mesh_test::AddSquare(scene, 0, 0, 0, 1, true);
-  mesh_test::AddSquare(scene, 0, 0, 2, 0.5, false, 1);
+  mesh_test::AddSquare(scene, {0, 0, 0}, 1, true);
+  mesh_test::AddSquare(scene, {0, 0, 2}, 0.5, false, 1);
   return scene;
 }
 
