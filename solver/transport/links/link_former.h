@@ -20,10 +20,10 @@ struct LinkCandidate {
   std::span<const PatchId> blockers;
 };
 
-// The links of one receiver to all candidates that it may see, in the order of the candidates; their
-// `first_blocker` starts at 0. Candidates that do not face the receiver, or that one blocker hides
-// completely, get no link. Points of the receiver behind the source's plane count as dark: the form factor is
-// that of the whole receiver. The result is useless if the context is cancelled.
+// The links of one receiver to all candidates that it may see, in the order of the candidates; first_blocker
+// starts at 0. Candidates that do not face the receiver, or that one blocker hides completely, get no link.
+// Points of the receiver behind the source's plane count as dark: the form factor is that of the whole
+// receiver. The result is useless if the context is cancelled.
 LinkSet FormLinks(const ElementForest& forest, ElementId receiver, std::span<const LinkCandidate> candidates,
                   const LinkFormFactorMethod& form_factors,
                   const ExecutionContext& context = ExecutionContext());

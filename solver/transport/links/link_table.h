@@ -13,7 +13,7 @@
 
 namespace penumbra {
 
-// All new links of one receiver. Their blockers are chosen from those of the links that they replace.
+// All new links of one receiver. New links choose their blockers from those of the links that they replace.
 struct LinkGroup {
   ElementId receiver = kNoElement;
   std::vector<LinkCandidate> candidates;

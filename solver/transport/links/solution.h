@@ -41,8 +41,8 @@ struct LinkSet {
 };
 
 // A convex piece of a leaf with its own radiosity. Leaves are cut along contacts, since the light on the two
-// sides of furniture is unrelated, and where the light varies and other surfaces are close enough to see
-// that.
+// sides of furniture is unrelated, and where light varies and other surfaces are close enough to see the
+// variation.
 struct Fragment {
   ElementId leaf = kNoElement;
   Polygon3 polygon;                                       // [m], counter-clockwise from the front

@@ -23,8 +23,8 @@ std::span<const Vec3> Vertices(const Node& node) {
 // and their errors have different signs.
 constexpr double kOneOfMany = 0.2;
 
-// The remaining sources are left out if their light together is at most this fraction of the tolerance. Such
-// errors are always negative, whereas aggregates have errors of both signs.
+// The remaining sources are left out if their light together is at most this fraction of the tolerance. An
+// omitted source always reduces the light; aggregates have errors of both signs.
 constexpr double kLeftOut = 0.25;
 
 }  // namespace

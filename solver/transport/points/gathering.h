@@ -51,8 +51,8 @@ struct IrradianceParts {
 };
 
 // The fraction of a point's light that returns to the point by way of `source`: rho rho' F^2 for the channel
-// where it is largest. rho is the reflectance of `patch`, on which the point lies, rho' that of `source`, and
-// `factor` is F, the form factor of the point to `source`.
+// where it is largest. rho is the reflectance of `patch`, on which the point lies, rho' the reflectance of
+// `source`, and F = `factor` the form factor of the point to `source`.
 double SentBack(const Scene& scene, PatchId patch, PatchId source, double factor);
 
 // Use it as a local variable: its buffers are leases of the thread that makes it (Scratch).
@@ -70,19 +70,19 @@ class Gathering {
   // Adds the light of a patch, with those candidates as blockers that stand before it. `own`, the receiver's
   // patch, does not block.
   void AddSource(PatchId source, std::span<const PatchId> candidates, PatchId own);
-  // The same with all patches of the hierarchy as candidates. `screens` are some of the patches that may hide
-  // large parts of the view.
+  // AddSource() with all patches of the hierarchy as candidates. `screens` are some of the patches that may
+  // hide large parts of the view.
   void AddSource(PatchId source, const PatchHierarchy& patches, std::span<const Screen> screens);
 
   // From now on, adds the form factor of each leaf of the set to factors[number of the leaf].
   void RecordFactors(std::span<double> factors) { factors_ = factors; }
 
   // From now on, a subtree of a source may count as one polygon with one radiosity, for speed. Let L be the
-  // unoccluded light of a source and T = (1 - r)^2 tolerance, where r is the largest rho rho' F^2 of the
-  // sources so far (SentBack). The aggregates of the source may then cause an error of about T max(L, c S),
-  // where S is the light of all sources before it and c < 1 a constant. The brightest source should therefore
-  // come first. If the irradiance of the point is known approximately, the bound is T c max(S, known)
-  // instead. REQUIRES: the point lies on a patch.
+  // unoccluded light of a source, S the light of all sources before it, c < 1 a constant, and T = (1 - r)^2
+  // tolerance, where r is the largest SentBack() of the sources up to this one. The aggregates of the source
+  // may cause an error of about T max(L, c S); add bright sources first. If `known`, the approximate
+  // irradiance of the point, is given, the error may be about T c max(S, known) instead. REQUIRES: the point
+  // lies on a patch.
   void AllowAggregates(double tolerance, const Rgb& known = Rgb::Zero());
   // The irradiance from the sources so far as if their blockers hid nothing; sources that are hidden
   // completely do not count [W/m^2]. REQUIRES: AllowAggregates().

@@ -92,8 +92,8 @@ PointIrradiance PointIrradiance::WithSources(SourceSet sources) const {
   return other;
 }
 
-// The same as GatherOnPatch(), with the sources in descending order of their estimated unoccluded light.
-// Leaves out the last sources if all of them together are negligible.
+// GatherOnPatch() with the sources in descending order of their estimated unoccluded light. Leaves out the
+// last sources if all of them together are negligible.
 void PointIrradiance::GatherBrightestFirst(PatchId patch, const ReceiverPoint& at,
                                            Gathering& gathering) const {
   const Scratch<std::vector<RankedSource>> scratch;

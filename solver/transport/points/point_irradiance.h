@@ -42,7 +42,7 @@ class PointIrradiance {
   PointIrradiance(const Scene& scene, const PatchVisibility& visibility, SourceSet sources,
                   const PointIrradianceOptions& options = {});
 
-  // The same geometry with other sources.
+  // The same geometry and options with other sources.
   PointIrradiance WithSources(SourceSet sources) const;
 
   // The irradiance at a point on the front of a patch. Tests only the sources of the leaf (without a
@@ -51,13 +51,13 @@ class PointIrradiance {
   PointIrradianceResult OnPatch(PatchId patch, const ReceiverPoint& at,
                                 IrradianceParts* parts = nullptr) const;
 
-  // The same within a tolerance, for interpolants. A subtree of a source may count as one polygon with one
-  // radiosity, if this changes the light of the source by at most about `tolerance`
+  // The irradiance of OnPatch() within a tolerance, for interpolants. A subtree of a source may count as one
+  // polygon with one radiosity, if this changes the light of the source by at most about `tolerance`
   // (Gathering::AllowAggregates).
   PointIrradianceResult NearlyOnPatch(PatchId patch, const ReceiverPoint& at, double tolerance) const;
 
-  // The same as the first OnPatch(). Sets factors[i] to the form factor of the visible part of leaf i of the
-  // source set. REQUIRES: factors.size() is the number of these leaves.
+  // Returns the irradiance of OnPatch(), and sets factors[i] to the form factor of the visible part of leaf i
+  // of the source set. REQUIRES: factors.size() is the number of leaves of the source set.
   Rgb OnPatch(PatchId patch, const ReceiverPoint& at, std::span<double> factors) const;
 
   const SourceSet& sources() const { return sources_; }

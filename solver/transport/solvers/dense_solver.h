@@ -1,7 +1,7 @@
 // solver/transport/solvers/dense_solver.h
 //
-// Direct solution of dense systems, for all three channels: reference solutions. DenseSolver makes this a
-// LightSolver.
+// Direct solution of dense systems, for all three channels: reference solutions. DenseSolver is the
+// LightSolver of dense systems.
 
 #pragma once
 

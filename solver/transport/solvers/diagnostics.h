@@ -45,8 +45,8 @@ struct ViewDiagnostics {
 ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch = 64, std::uint64_t seed = 1,
                               const ExecutionContext& context = ExecutionContext());
 
-// Numbers of the faces that emit but light no front, by `rays_per_patch` rays from each of their patches.
-// Such an emitter is hidden by something before it, or faces away from the scene.
+// Numbers of the faces that emit but light no front, by `rays_per_patch` rays from each of their patches. An
+// emitter lights nothing if an object before it hides it, or if it faces away from the scene.
 std::vector<std::int32_t> DarkEmitters(const Scene& scene, std::size_t rays_per_patch = 512,
                                        std::uint64_t seed = 1);
 

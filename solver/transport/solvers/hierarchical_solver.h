@@ -5,10 +5,10 @@
 // relative cut-off.
 //
 // Links control refinement and make iterations cheap, but each link has an error of up to eps, and the errors
-// of sources add up to missing energy. A correction therefore follows: the solver computes the exact
-// irradiance of every leaf from all leaves (IrradianceAtPoint), adds its difference from the links'
-// irradiance to the leaf, and gathers the bounces of this difference over the links. This is deferred
-// correction (Stetter 1978): each pass multiplies the error of the transport by the relative error of the
+// of sources add up to missing energy. The solver therefore corrects the converged solution (deferred
+// correction, Stetter 1978): it computes the exact irradiance of every leaf from all leaves
+// (IrradianceAtPoint), adds the difference from the links' irradiance to the leaf, and gathers the bounces of
+// the difference over the links. Each pass multiplies the error of the transport by the relative error of the
 // links, a few hundredths.
 
 #pragma once

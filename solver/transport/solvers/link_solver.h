@@ -42,7 +42,7 @@ class LinkSolver {
              RadiositySolution solution, const ExecutionContext& context);
 
   Snapshot TakeSnapshot() const;
-  // True if the elements have changed.
+  // Restores the state of the snapshot. True if the elements have changed.
   bool Restore(Snapshot snapshot);
 
   // Sweeps until the distance of every radiosity from its limit is at most `cutoff` times the largest

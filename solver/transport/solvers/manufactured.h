@@ -1,7 +1,7 @@
 // solver/transport/solvers/manufactured.h
 //
 // Manufactured solutions: for a chosen radiosity, computes the emittance for which this radiosity solves the
-// radiosity equation. They test any solver in any scene with any blockers.
+// radiosity equation. Manufactured solutions test any solver in any scene with any blockers.
 
 #pragma once
 

@@ -21,10 +21,10 @@ enum class Acceleration : std::uint8_t {
 
 // A bound of the missing light for each channel, per unit of the largest change of a leaf's radiosity in the
 // last sweep: the largest entry of M (I - M)^-1 1, where M is reflectance times the links' transport. In
-// closed rooms of reflectance r it is r / (1 - r); in open rooms it is less. The bound holds for the existing
-// links, whose form factors need not add up to 1. It uses partial sums and a geometric bound of the rest (a
-// Collatz-Wielandt bound of the norm of M). Infinite if light grows on the links without limit. If cancelled,
-// returns the bound computed so far.
+// closed rooms of reflectance r the bound is r / (1 - r); in open rooms it is less. The bound holds for the
+// existing links, whose form factors need not add up to 1: partial sums, plus a geometric bound of the rest
+// (a Collatz-Wielandt bound of the norm of M). Infinite if light grows on the links without limit. If
+// cancelled, returns the bound computed so far.
 Rgb LightToCome(const PushPull& push_pull, const RadiositySolution& solution,
                 const ExecutionContext& context = ExecutionContext());
 

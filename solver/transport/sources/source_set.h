@@ -34,7 +34,7 @@ class SourceSet {
     // For a subtree: the root mean square deviation of the leaves' radiosities B from their mean, divided by
     // max(mean, 1 % of the scene's mean reflected radiosity), for the worst channel [1].
     double spread = 0;
-    double residual = 0;          // the same for the deviation from the best linear fit
+    double residual = 0;          // root mean square deviation from the best linear fit, divided alike
     Vec3 centre = Vec3::Zero();   // of the polygon [m]
     double radius = 0;            // largest distance of a vertex from `centre` [m]
     double area = 0;              // [m^2]
@@ -49,7 +49,8 @@ class SourceSet {
 
   // The leaves of the solution with their radiosities.
   static SourceSet FromSolution(const RadiositySolution& solution);
-  // The same with `fragments` instead of the solution's fragments. REQUIRES: they ascend by leaf.
+  // The leaves of the solution with `fragments` instead of the solution's fragments. REQUIRES: `fragments`
+  // ascends by leaf.
   static SourceSet FromSolution(const RadiositySolution& solution, std::span<const Fragment> fragments);
   // The emitters with their emittances, for direct light.
   static SourceSet Emitters(const Scene& scene);

@@ -38,7 +38,7 @@ struct FormFactorEstimate {
 struct AreaFormFactorOptions {
   // The largest error of a factor F of a pair with blockers: max(tolerance * max(F, tolerance), 2e-17).
   double tolerance = 1e-7;
-  // The same for pairs without blockers. The default is what rounding allows.
+  // The relative tolerance for pairs without blockers. The default is the limit that rounding sets.
   double clear_tolerance = 2e-13;
   // A pair is done when F times the sender's area has at most this error [m^2], whatever `tolerance` says. A
   // sum over pairs sets this to the error that it allows each pair.

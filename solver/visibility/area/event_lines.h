@@ -1,10 +1,10 @@
 // solver/visibility/area/event_lines.h
 //
-// Lines in a receiver's plane at which the topology of the visible part of a source may change. They are the
-// traces of wedges through a vertex and an edge (Heckbert, Discontinuity meshing for radiosity, 1992) and the
-// traces of the blockers' planes. An integration over the receiver may cut its cells along these lines. The
-// lines are candidates: an event may be hidden, and the size of the jump is unknown. The mesh's
-// discontinuities, in contrast, are exact visible segments with their jumps.
+// Lines in a receiver's plane at which the topology of the visible part of a source may change: the traces of
+// wedges through a vertex and an edge (Heckbert, Discontinuity meshing for radiosity, 1992) and the traces of
+// the blockers' planes. An integration over the receiver may cut its cells along these lines. The lines are
+// candidates: an event may be hidden, and the size of the jump is unknown. The mesh's discontinuities, in
+// contrast, are exact visible segments with their jumps.
 
 #pragma once
 
@@ -57,11 +57,11 @@ struct Stretch {
 };
 Stretch Inside(const EventLine& line, std::span<const Vec2> polygon);
 
-// The smallest distance [m] of the line's vertices and edges from the points low, (low + high)/2 and high of
-// the line, measured along the line of sight.
+// The smallest distance of the line's vertices and edges, along the line of sight, from three points of the
+// line: the two ends `low` and `high`, and their midpoint [m].
 double Reach(const EventLine& line, double low, double high);
 
-// True if for some event of the line both owners, a and b, are in `blockers` or the source. REQUIRES:
+// True if some event of the line has both owners, a and b, among `blockers` and the source. REQUIRES:
 // `blockers` ascends.
 bool IsCastByAny(const EventLine& line, std::span<const PatchId> blockers);
 

@@ -1,8 +1,8 @@
 // solver/visibility/area/kronrod_rule.h
 //
 // Gauss rules and their Kronrod extensions (Kronrod 1965; the numbers are from QUADPACK, Piessens et al.
-// 1983). Both rules use the same points. For smooth integrands the difference of their values is larger than
-// the error of the Kronrod value.
+// 1983). A Gauss rule and its extension share their sample points. For smooth integrands, the difference of
+// their values is larger than the error of the Kronrod value.
 
 #pragma once
 
@@ -11,8 +11,7 @@
 
 namespace penumbra {
 
-// Nodes and weights on [0, 1]. The nodes of the Gauss rule have odd indices; its weights are 0 at even
-// indices.
+// Nodes and weights on [0, 1]. The nodes of the Gauss rule are those of odd index; gauss[i] is 0 for even i.
 template <std::size_t N>
 struct KronrodRule {
   std::array<double, N> node, kronrod, gauss;

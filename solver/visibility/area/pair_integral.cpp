@@ -40,10 +40,10 @@ constexpr std::size_t kForcedLines = 16;
 // digits.
 constexpr double kLeastAllowed = 2e-17;
 
-// Fraction of the remaining error that may stay in cells that a round does not refine.
+// Fraction of the remaining error that may stay in the cells that a round does not refine.
 constexpr double kLeftAlone = 0.3;
 
-// The same as a fraction of the requested error.
+// Cells whose errors sum to less than this fraction of the requested error need no refinement either.
 constexpr double kLeftOfAsked = 0.5;
 
 // The points of a rule resolve a change if its width is more than this fraction of the gap between the

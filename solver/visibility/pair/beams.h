@@ -14,8 +14,8 @@
 
 namespace penumbra {
 
-// The segments between the ends of a tube that pass through one opening of each of several walls. They start
-// in the first polygon, end in the last, and cross all others; each polygon is convex.
+// All segments between the ends of a tube that pass through one opening of each of several walls: those that
+// start in the first polygon, end in the last, and cross all others. Each polygon is convex.
 struct Beam {
   std::vector<Polygon3> stations;
 };

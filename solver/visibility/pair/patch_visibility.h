@@ -1,7 +1,7 @@
 // solver/visibility/pair/patch_visibility.h
 //
 // The pairs of patches that may see each other, with the blockers in the tube of each pair (thesis 4.1;
-// Teller and Hanrahan 1993). The solver makes its initial links from them. All links between two patches
+// Teller and Hanrahan 1993). The solver makes its initial links from the pairs. All links between two patches
 // choose their blockers from those of the pair.
 
 #pragma once

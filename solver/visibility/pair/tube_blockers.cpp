@@ -51,7 +51,7 @@ struct TubeSearch {
     return true;
   }
 
-  // The same; also false if walls hide the ends from each other.
+  // Filter() that also returns false if walls hide the ends from each other.
   bool Find(std::span<const PatchId> candidates, std::vector<PatchId>& blockers) const {
     const std::size_t before = blockers.size();
     if (!Filter(candidates, blockers)) return false;

@@ -1,7 +1,7 @@
 // solver/visibility/pair/tube_blockers.h
 //
-// The blockers that may stand between two polygons. They are found once for each pair of patches; every pair
-// of smaller polygons on the two patches filters the list of the pair above it.
+// The blockers that may stand between two polygons. Each pair of patches gets a list of blockers once; each
+// pair of smaller polygons on the two patches filters the list of the pair above it.
 
 #pragma once
 
@@ -30,7 +30,7 @@ std::optional<TubeEnds> ClipToEachOther(std::span<const Vec3> receiver, const Pa
 // (HiddenByWalls) hide the ends from each other completely.
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       std::span<const PatchId> candidates, std::vector<PatchId>& blockers);
-// The same with all patches of the hierarchy as candidates; the blockers ascend.
+// FindTubeBlockers() with all patches of the hierarchy as candidates; the blockers ascend.
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       const PatchHierarchy& hierarchy, std::vector<PatchId>& blockers);
 
@@ -41,7 +41,8 @@ struct TubeBlockers {
   std::vector<PatchId> first;
 };
 
-// The same; replaces the contents of `found`. Both lists are empty if the ends are hidden from each other.
+// FindTubeBlockers() for both lists; replaces the contents of `found`. Both lists are empty if the ends are
+// hidden from each other.
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       std::span<const PatchId> candidates, TubeBlockers& found);
 

@@ -17,8 +17,8 @@
 
 namespace penumbra {
 
-// Cuts shadows out of the polygons of one image after another. A clipper keeps its buffers from image to
-// image; lease one clipper for many images (Scratch).
+// Cuts shadows out of the polygons of one image at a time. A clipper keeps its buffers from image to image;
+// lease one clipper for many images (Scratch).
 class Clipper {
  public:
   // A range on the clipper's stack of occluders.

@@ -32,7 +32,8 @@ double FormFactor(const DirectionPolygon& polygon, const Vec3& normal,
 // that small or distant polygons lose no digits.
 double FormFactor(const Vec3& base, std::span<const Vec3> offset, const Vec3& normal);
 
-// The same form factor by adaptive Gauss quadrature: slower, without cancellation.
+// The form factor to the polygon with the vertices base + offset[i] by adaptive Gauss quadrature: slower,
+// without cancellation.
 double FormFactorByQuadrature(const Vec3& base, std::span<const Vec3> offset, const Vec3& normal);
 
 // The contribution of one edge of the visible region to the gradient of the form factor by the position of

@@ -40,8 +40,8 @@ class PolygonBatch {
 void FormFactors(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
                  const Vec3& normal, double* out);
 
-// The edge sums without quadrature. They lose digits for polygons seen at a grazing angle or near the
-// horizon. Polygons with a small apparent size are summed about their first vertex, without cancellation
+// Computes edge sums without quadrature. The sums lose digits for polygons seen at a grazing angle or near
+// the horizon. Polygons with a small apparent size are summed about their first vertex, without cancellation
 // (thesis_notes/derivations.md, "Small polygons").
 class FormFactorSums {
  public:

@@ -93,8 +93,8 @@ class ImageFrame {
   ImageLine Line(const Cone& cone, int k, Digits digits) const;
 
  private:
-  // The square of 1/10, a bound of |direction - first vertex| / |direction|. Beyond it, coordinates that are
-  // not differences lose less than one digit.
+  // The square of 1/10, a bound of |direction - first vertex| / |direction|. Above the bound, coordinates
+  // that are not differences lose less than one digit.
   static constexpr double kNearFirstSquared = 0.01;
 
   Vec3 axis_, e1_, e2_;

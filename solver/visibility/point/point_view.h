@@ -42,7 +42,7 @@ class PointView {
   DirectionPolygon SeeSource(std::span<const Vec3> part) const;
 
   // True if the current source lies above the horizon as a whole and its plane does not contain the point.
-  // Its parts then need neither clipping nor limits.
+  // The source's parts then need neither clipping nor limits.
   bool SourceIsPlain() const { return !source_in_contact_ && !source_crosses_horizon_; }
 
   // True if the plane of the current source contains the point. The view of the source is then a limit.
