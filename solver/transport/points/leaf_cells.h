@@ -19,7 +19,7 @@ struct LeafCellOptions {
   // About the largest error of irradiance that the constant light of a cell may cause at other surfaces,
   // relative to the radiosity of the part around the cell.
   double error = 1e-3;
-  // Replaces radiosities below it in that comparison [W/m^2].
+  // Radiosities below this count as this in the relative error [W/m^2].
   Rgb dark = Rgb::Zero();
   double min_area = 0;  // parts of at most this area are not halved [m^2]
 };

@@ -39,8 +39,8 @@ class ScreenFinder {
   ScreenFinder() = default;
   explicit ScreenFinder(const Scene& scene);
 
-  // Replaces `screens` by at most `count` patches with a solid angle of at least `least` [sr] as seen from
-  // the points, estimated, the largest first. None of them lies in the shadow of another.
+  // Replaces `screens` by at most `count` patches whose estimated solid angle as seen from the points is at
+  // least `least` [sr], the largest first. No screen lies in the shadow of another.
   void Find(std::span<const ReceiverPoint> from, double least, std::size_t count,
             std::vector<Screen>& screens) const;
 

@@ -1,7 +1,7 @@
 // solver/visibility/point/occlusion_method.h
 //
-// An interface to compute the part of a source that blockers leave visible from a point. Several methods
-// implement it, as alternatives and as checks of each other.
+// An interface to compute the part of a source that blockers leave visible from a point. The several methods
+// are alternatives, and checks of each other.
 
 #pragma once
 
