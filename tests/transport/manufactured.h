@@ -1,7 +1,7 @@
 // tests/transport/manufactured.h
 //
-// Manufactured solutions: choose a radiosity, and derive the emittance that makes it the solution of the
-// radiosity equation. Any solver can then be asked for it, in any scene, past any blockers.
+// Manufactured solutions: for a chosen radiosity, computes the emittance for which this radiosity solves the
+// radiosity equation. Manufactured solutions test any solver in any scene with any blockers.
 
 #pragma once
 
@@ -13,22 +13,23 @@
 
 namespace penumbra {
 
-// A radiosity chosen at will, smooth over each patch [W/m^2]. Called from several threads.
+// A chosen radiosity, smooth over each patch [W/m^2]. Called from several threads.
 using RadiosityField = std::function<Rgb(PatchId patch, const Vec3& position)>;
 
-// The irradiance that the field sends to a point on the front of a patch [W/m^2]: for fields that are smooth
-// on the scale of a patch, exact past whatever blocks but for kSourceQuadratureError.
+// The irradiance from the field at a point on the front of a patch [W/m^2]. For fields that are smooth on the
+// scale of a patch, exact with any blockers, except for kSourceQuadratureError.
 Rgb FieldIrradiance(const Scene& scene, const PatchVisibility& visibility, const RadiosityField& field,
                     PatchId patch, const ReceiverPoint& at);
 
-// E = B - rho H at a point of a patch [W/m^2]: with this emittance everywhere the field is the solution. It
-// may be negative, which equations bear and lights do not.
+// E = B - rho H at a point of a patch [W/m^2]: with this emittance everywhere, the field is the solution. May
+// be negative, which is valid in an equation but not for a light.
 Rgb ManufacturedEmittance(const Scene& scene, const PatchVisibility& visibility, const RadiosityField& field,
                           PatchId patch, const Vec3& position);
 
-// The scene with every patch cut into divisions x divisions tiles, each of which emits the mean of the
-// manufactured emittance over it: the radiosity of this scene tends to the field as the tiles shrink. Tiles
-// are patches of their own, patch by patch. REQUIRES: a power of two; the means are not negative.
+// The scene with each patch cut into divisions x divisions tiles. Each tile is a patch and emits the mean of
+// the manufactured emittance over the tile; tiles are in the order of their patches. As the tiles shrink, the
+// radiosity of this scene converges to the field. REQUIRES: `divisions` is a power of two; the means are not
+// negative.
 Scene ManufacturedScene(const Scene& scene, const PatchVisibility& visibility, const RadiosityField& field,
                         int divisions);
 

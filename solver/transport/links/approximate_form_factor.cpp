@@ -26,12 +26,12 @@ std::vector<PatchId> AllPatches(const Scene& scene) {
   return all;
 }
 
-// The same flux twice, coarse and fine, as a fraction of what leaves.
+// A coarse and a fine value of the same flux, as a fraction of the flux that leaves.
 struct Pair {
   double coarse = 0, fine = 0;
 };
 
-// Sums pair(from, to), each a fraction of what leaves `from`.
+// Computes factor(from, to) for all pairs, as fractions of the flux that leaves `from`.
 template <class PairFactor>
 std::vector<Pair> AllPairs(std::span<const AreaPart> from, std::span<const AreaPart> to,
                            const ExecutionContext& context, const PairFactor& factor) {
@@ -58,7 +58,7 @@ Pair Mean(std::span<const AreaPart> from, std::size_t targets, std::span<const P
   return {sum.coarse / area, sum.fine / area};
 }
 
-// Whether no blocker cuts the segment.
+// True if no blocker cuts the segment.
 bool Free(const Scene& scene, std::span<const PatchId> blockers, const Vec3& from, const Vec3& to) {
   return std::none_of(blockers.begin(), blockers.end(), [&](PatchId b) {
     const Patch& patch = scene.patches[static_cast<std::size_t>(b)];
@@ -80,7 +80,8 @@ double Disk(const Scene& scene, std::span<const PatchId> blockers, const PlacedA
   return factor > 0 && Free(scene, blockers, from.centre, to.centre) ? factor : 0;
 }
 
-// Four parts of a convex polygon: about its centroid, from the middle of one edge to that of another.
+// Cuts a convex polygon into four by two lines through its centroid, parallel and perpendicular to the first
+// edge.
 std::vector<PlacedArea> Quarters(const Polygon3& polygon, const Vec3& normal) {
   const Vec3 centre = Centroid(polygon), across = polygon[1] - polygon[0], along = normal.cross(across);
   std::vector<PlacedArea> pieces;
@@ -103,7 +104,7 @@ double PointFactor(const Scene& scene, const ReceiverPoint& at, PatchId own, con
   return view.VisibleFormFactor(seen, occluders);
 }
 
-// What may stand between the parts; nothing if they do not see each other.
+// The patches that may stand between the parts; nothing if the parts do not see each other.
 std::optional<std::vector<PatchId>> Blockers(const Scene& scene, std::span<const PatchId> all,
                                              const AreaPart& from, const AreaPart& to) {
   const Patch &sender = scene.patches[static_cast<std::size_t>(from.patch)],
@@ -185,7 +186,7 @@ FormFactorEstimate MonteCarloFormFactor(const Scene& scene, std::span<const Area
   std::vector<std::vector<const AreaPart*>> targets(scene.patches.size());
   for (const AreaPart& part : to) targets[static_cast<std::size_t>(part.patch)].push_back(&part);
   const RayCaster caster(scene);
-  const double lift = 1e-9 * scene.Diagonal();  // off the plane, which is exact to roundings only
+  const double lift = 1e-9 * scene.Diagonal();  // off the plane, whose points have rounding errors
   std::vector<std::size_t> hits((rays + kGrain - 1) / kGrain, 0);
   ParallelFor(hits.size(), 1, [&](std::size_t chunk) {
     Random random(seed, chunk);

@@ -5,11 +5,11 @@
 namespace penumbra {
 namespace {
 
-// The deviation of irradiance over a receiver averages out over the receiver. The error from a source's
-// uneven radiosity does not: near bright parts of a wall receivers are bright, so that every link errs to the
-// dark side, and some hundredths of the energy go missing. Deferred correction takes most of that away; this
-// share of eps leaves it little to do. (Without it, 0.004 balances the energy of closed boxes to 1e-3, with
-// five times the links.)
+// Errors of irradiance that vary over a receiver average out. Errors from the uneven radiosity of a source do
+// not: near bright parts of a wall receivers are bright, so every link is too dark, and a few hundredths of
+// the energy are missing. Deferred correction removes most of this error; with this fraction of eps for it,
+// little remains to correct. (Without correction, a fraction of 0.004 balances the energy of closed boxes to
+// 1e-3, with five times as many links.)
 constexpr double kSourceShare = 0.3;
 
 }  // namespace
@@ -19,11 +19,11 @@ Refinement AreaWeightedOracle::Judge(const RadiositySolution& solution, const Li
   const double weight = std::sqrt(receiver.area / options_.reference_area);
   const double receiver_error =
       weight * solution.radiosity[link.source].maxCoeff() * Deviation(solution.forest, link);
-  // The shares of the quarters carry the source's own unevenness: what is left is that of its children,
-  // whose form factor varies half as much.
+  // The shares of the quarters account for the variation between the children's radiosities. What remains
+  // varies within the children, over which the form factor varies half as much.
   const double source_error =
       weight * 0.5 * link.source_variation * link.form_factor * solution.spread_below[link.source];
-  // A source is split only where it has children: its light is no more detailed than its tree.
+  // Only a source with children is split: its light has no more detail than its tree.
   const bool source_may = !solution.forest[link.source].IsLeaf();
   const bool split_receiver = MaySplit(receiver, options_.min_area) && receiver_error > options_.eps;
   const bool split_source = source_may && source_error > kSourceShare * options_.eps;

@@ -1,12 +1,12 @@
 // solver/transport/links/area_weighted_oracle.h
 //
 // Oracles that estimate the transport error of a link (thesis 4.4.1), in W/m^2 of irradiance, for the largest
-// channel. Point form factors are exact here whatever the size of the source, so that a link errs in two ways
-// only: the receiver's irradiance varies over the receiver, by B x deviation(F), and the source's radiosity
-// varies within the source's quarters, by F x spread(B) x variation(F). Both errors are multiplied by the
-// square root of the receiver's area. Their squares then add up to the error over the scene, and the elements
-// along edges where walls meet, whose form factors vary whatever their size, are not split for ever. The
-// error of an element of the reference area is at most eps.
+// channel. Point form factors are exact here for sources of any size, so a link has two errors only. The
+// receiver's irradiance varies over the receiver by B * deviation(F). The source's radiosity varies within
+// the source's quarters, by F * spread(B) * variation(F). The oracle multiplies both errors by sqrt(receiver
+// area / reference area). The sum of squared errors then equals the error over the scene, and refinement ends
+// along edges where walls meet, where form factors vary at every size. The error of an element of the
+// reference area is at most eps.
 
 #pragma once
 
@@ -14,8 +14,8 @@
 
 namespace penumbra {
 
-// Splits the end of the link that causes the larger error. Derived classes say how much the form factor
-// deviates.
+// Splits the end of the link that causes the larger error. Derived classes define the deviation of the form
+// factor.
 class AreaWeightedOracle : public RefinementOracle {
  public:
   explicit AreaWeightedOracle(const OracleOptions& options) : options_(options) {}

@@ -10,7 +10,7 @@ namespace {
 
 double TriangleArea(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * (b - a).cross(c - a).norm(); }
 
-// Three inner points (Hammer and Stroud 1956), weights times the area.
+// Three interior points (Hammer and Stroud 1956); weights include the area.
 void AddTriangle(const Vec3& a, const Vec3& b, const Vec3& c, int refinement,
                  std::vector<CubaturePoint>& points) {
   if (refinement > 0) {
@@ -27,7 +27,7 @@ void AddTriangle(const Vec3& a, const Vec3& b, const Vec3& c, int refinement,
   points.push_back({(a + b + 4 * c) / 6, third});
 }
 
-// Two Gauss-Legendre points along each parameter of the bilinear map, weights times its Jacobian.
+// Two Gauss-Legendre points along each parameter of the bilinear map; weights include the Jacobian.
 void AddQuadrilateral(const std::array<Vec3, 4>& v, int refinement, std::vector<CubaturePoint>& points) {
   if (refinement > 0) {
     const std::array<Vec3, 4> mid = {0.5 * (v[0] + v[1]), 0.5 * (v[1] + v[2]), 0.5 * (v[2] + v[3]),

@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// The mean over a few points of the receiver, as FindByCubature() finds it.
+// The mean over a few points of the receiver (FindByCubature).
 LinkFormFactorRegistry::Method CubatureLinkFormFactorMethod();
 
 }  // namespace penumbra

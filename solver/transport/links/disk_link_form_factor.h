@@ -6,9 +6,10 @@
 
 namespace penumbra {
 
-// The source as a disk, seen from the centre of the receiver's part before it, times the fraction of the
-// source's point form factor that blockers leave there, exactly (Hanrahan, Salzman and Aupperle 1991, who
-// cast rays for that): to compare. Variation and shares are those of the cubature.
+// For comparison: the form factor to a disk in place of the source, from the centre of the receiver's part
+// before the source, times the fraction of the source's point form factor that blockers leave visible there.
+// The fraction is exact; Hanrahan, Salzman and Aupperle (1991) cast rays. Variation and shares are those of
+// the cubature.
 LinkFormFactorRegistry::Method DiskLinkFormFactorMethod();
 
 }  // namespace penumbra

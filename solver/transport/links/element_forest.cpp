@@ -9,8 +9,8 @@
 namespace penumbra {
 namespace {
 
-// The corners of the four children of a triangle (first three) or quadrilateral, each a pair of parent
-// corners whose midpoint it is; the pair (0, 2) of a quadrilateral stands for its centre.
+// The corners of the four children of a triangle (first three corners) or quadrilateral. Each corner is the
+// midpoint of a pair of parent corners; the pair (0, 2) of a quadrilateral means the centre.
 constexpr std::array<std::array<std::array<int, 2>, 3>, 4> kTriangleChildren = {{{{{0, 0}, {0, 1}, {2, 0}}},
                                                                                  {{{0, 1}, {1, 1}, {1, 2}}},
                                                                                  {{{2, 0}, {1, 2}, {2, 2}}},
@@ -30,7 +30,7 @@ void PlaceVertices(const Patch& patch, Element& element) {
 }  // namespace
 
 Vec3 LatticePosition(const Patch& patch, const LatticePoint& p) {
-  // Dyadic fractions: the weights are exact, and the corners keep their bits.
+  // The weights are dyadic fractions and thus exact; corners equal the patch's vertices to the bit.
   const double s = static_cast<double>(p.x) / kLatticeSize, t = static_cast<double>(p.y) / kLatticeSize;
   if (patch.size == 3) return (1 - s - t) * patch.vertex[0] + s * patch.vertex[1] + t * patch.vertex[2];
   return ((1 - s) * (1 - t)) * patch.vertex[0] + (s * (1 - t)) * patch.vertex[1] + (s * t) * patch.vertex[2] +
@@ -39,7 +39,7 @@ Vec3 LatticePosition(const Patch& patch, const LatticePoint& p) {
 
 std::array<std::array<Vec3, 4>, 4> Quarters(const Element& element) {
   std::array<std::array<Vec3, 4>, 4> quarters;
-  // The diagonals of an irregular quadrilateral have other midpoints.
+  // The centre; the midpoints of the diagonals of an irregular quadrilateral differ from it.
   const Vec3 centre =
       0.25 * ((element.vertex[0] + element.vertex[2]) + (element.vertex[1] + element.vertex[3]));
   for (std::size_t c = 0; c < 4; ++c) {
@@ -101,14 +101,15 @@ void ElementForest::Truncate(std::size_t count) {
 }
 
 std::size_t ElementForest::Balance(PatchId patch) {
-  // A leaf's edge borders leaves two levels finer just if one of its quarter points is a corner of some leaf.
+  // An edge of a leaf borders on leaves two levels finer if and only if one of its quarter points is a corner
+  // of a leaf.
   std::unordered_set<LatticePoint, LatticePointHash> corners;
   std::vector<ElementId> pending = Leaves(patch);
   for (const ElementId id : pending)
     for (const LatticePoint& p : (*this)[id].Corners()) corners.insert(p);
   const auto too_coarse = [&](const Element& e) {
     if (e.level + 2 > kMaxLevel)
-      return false;  // nothing is two levels finer, and has no place on the lattice
+      return false;  // no leaf is two levels finer: its corners would be off the lattice
     for (int k = 0; k < e.size; ++k) {
       const LatticePoint a = e.corner[k], b = e.corner[(k + 1) % e.size], m = Midpoint(a, b);
       if (corners.contains(m) && (corners.contains(Midpoint(a, m)) || corners.contains(Midpoint(m, b))))
@@ -166,7 +167,7 @@ ElementId ElementForest::LeafAt(PatchId patch, const Vec3& point) const {
   const Vec3& normal = scene_->patches[patch].normal;
   ElementId at = Root(patch);
   while (!(*this)[at].IsLeaf()) {
-    // The child out of which the point sticks least.
+    // The child that the point violates least.
     double best = -INFINITY;
     ElementId next = (*this)[at].first_child;
     for (ElementId child = (*this)[at].first_child; child < (*this)[at].first_child + 4; ++child) {
@@ -187,7 +188,8 @@ ElementId ElementForest::LeafAt(PatchId patch, const Vec3& point) const {
 }
 
 void ElementForest::Validate() const {
-  // Four areas of rounded midpoints: a few rounding errors of the coordinates times the edges.
+  // Tolerance for the areas of children with rounded midpoints: a few rounding errors of coordinates times
+  // edges.
   constexpr double kAreaError = 1e-9;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const Element& e = elements_[i];

@@ -1,12 +1,12 @@
 // solver/transport/links/element_forest.h
 //
-// The quadtrees of elements, one a patch (the thesis's Tree, 4.1). This is their geometry and topology only;
-// what light falls on them lies beside it, in arrays indexed by ElementId.
+// The quadtrees of elements, one for each patch (the thesis's Tree, 4.1): their geometry and topology only.
+// Arrays indexed by ElementId hold the light.
 //
-// Every corner of an element lies on its patch's integer lattice: (0,0), (N,0), (N,N), (0,N) are the corners
-// of a quadrilateral, (0,0), (N,0), (0,N) those of a triangle, N = kLatticeSize. Equal lattice points are
-// equal positions, to the bit, so that neighbours, shared corners and hanging vertices are found by integers
-// and not by distances.
+// All corners of elements lie on the integer lattice of their patch. With N = kLatticeSize, the corners of a
+// quadrilateral are (0,0), (N,0), (N,N) and (0,N); those of a triangle are (0,0), (N,0) and (0,N). Equal
+// lattice points have equal positions, to the bit: neighbours, shared corners and hanging vertices are found
+// by comparing integers, not distances.
 
 #pragma once
 
@@ -34,7 +34,7 @@ struct LatticePoint {
   auto operator<=>(const LatticePoint&) const = default;
 };
 
-// The point halfway between two lattice points. REQUIRES: it is on the lattice.
+// The midpoint of two lattice points. REQUIRES: it is on the lattice.
 inline LatticePoint Midpoint(const LatticePoint& a, const LatticePoint& b) {
   return {(a.x + b.x) / 2, (a.y + b.y) / 2};
 }
@@ -47,18 +47,18 @@ struct LatticePointHash {
   }
 };
 
-// The position of a lattice point on a patch [m]: bilinear over a quadrilateral, affine over a triangle. The
-// corners come back with the bits of the patch's vertices.
+// The position of a lattice point on a patch [m]: bilinear on a quadrilateral, affine on a triangle. The
+// positions of the corners equal the patch's vertices to the bit.
 Vec3 LatticePosition(const Patch& patch, const LatticePoint& p);
 
 struct Element {
   PatchId patch = kNoPatch;
   ElementId parent = kNoElement;
-  ElementId first_child = kNoElement;  // the four children follow one another; kNoElement: a leaf
-  std::int32_t level = 0;              // 0 is the root
+  ElementId first_child = kNoElement;  // the four children have consecutive ids; kNoElement: a leaf
+  std::int32_t level = 0;              // 0: the root
   std::int32_t size = 0;               // corners: 3 or 4
   std::array<LatticePoint, 4> corner;  // counter-clockwise; the fourth is unused in a triangle
-  std::array<Vec3, 4> vertex;          // their positions [m]
+  std::array<Vec3, 4> vertex;          // positions of the corners [m]
   double area = 0;                     // [m^2]
 
   bool IsLeaf() const { return first_child == kNoElement; }
@@ -66,14 +66,14 @@ struct Element {
   std::span<const LatticePoint> Corners() const { return {corner.data(), static_cast<std::size_t>(size)}; }
 };
 
-// The corners of the four children that the element has or would have [m].
+// The corners of the element's four children, whether or not they exist [m].
 std::array<std::array<Vec3, 4>, 4> Quarters(const Element& element);
 
 // All quadtrees of a scene. Ids stay valid while trees grow; references to elements do not.
 class ElementForest {
  public:
   ElementForest() = default;
-  // One root a patch: the root of patch p is element p. The scene must outlive the forest.
+  // One root for each patch; the root of patch p is element p. The scene must outlive the forest.
   explicit ElementForest(const Scene& scene);
 
   const Scene& scene() const { return *scene_; }
@@ -82,15 +82,16 @@ class ElementForest {
   std::size_t size() const { return elements_.size(); }
   static ElementId Root(PatchId patch) { return patch; }
 
-  // Splits a leaf into four: a triangle at its edge midpoints, a quadrilateral at those and its centre.
-  // Returns the first child. REQUIRES: a leaf above kMaxLevel.
+  // Splits a leaf into four children: a triangle at its edge midpoints, a quadrilateral at its edge midpoints
+  // and centre. Returns the first child. REQUIRES: the level of the leaf is below kMaxLevel.
   ElementId Subdivide(ElementId leaf);
 
-  // Takes back the newest subdivisions until `count` elements are left. REQUIRES: size() was `count` once.
+  // Undoes the newest subdivisions until `count` elements are left. REQUIRES: size() was `count` at some
+  // time.
   void Truncate(std::size_t count);
 
-  // Subdivides leaves until no two that share an edge differ by more than one level. Returns how many were
-  // split.
+  // Subdivides leaves until the levels of leaves that share an edge differ by at most one. Returns the number
+  // of leaves split.
   std::size_t Balance(PatchId patch);
 
   // The leaves of a patch, in depth-first order.
@@ -98,14 +99,15 @@ class ElementForest {
   // The leaves of all patches, patch by patch.
   std::vector<ElementId> AllLeaves() const;
 
-  // The leaf of the patch that contains the point, which is taken to lie in the patch's plane; on a border,
-  // or outside by rounding, one of those it is nearest to.
+  // The leaf of the patch that contains the point. For a point on a border, or outside by rounding, one of
+  // the nearest leaves. REQUIRES: the point lies in the patch's plane.
   ElementId LeafAt(PatchId patch, const Vec3& point) const;
 
-  // Calls visit(id) for the element and all below it, parents first.
+  // Calls visit(id) for the element and all its descendants, parents first.
   void ForEachBelow(ElementId top, const std::function<void(ElementId)>& visit) const;
 
-  // Checks that children tile their parents, areas add up, and links between parents and children agree.
+  // Checks that children tile their parents, that areas add up, and that parents and children refer to each
+  // other.
   void Validate() const;
 
  private:

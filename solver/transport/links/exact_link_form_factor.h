@@ -6,8 +6,8 @@
 
 namespace penumbra {
 
-// Between areas (AreaFormFactor), to LinkFormFactorOptions::tolerance: sums and reciprocity hold to that.
-// Variation and shares are those of the cubature.
+// The form factor between areas (AreaFormFactor), within LinkFormFactorOptions::tolerance; row sums and
+// reciprocity hold to the same tolerance. Variation and shares are those of the cubature.
 LinkFormFactorRegistry::Method ExactLinkFormFactorMethod();
 
 }  // namespace penumbra

@@ -23,10 +23,10 @@ class GradientOracle final : public AreaWeightedOracle {
     at.position = Centroid(receiver.Vertices());
     at.normal = forest.scene().patches[receiver.patch].normal;
     PointView view(forest.scene(), at);
-    // Where the centre does not see the source's front, all that is known are the points that were sampled.
+    // If the centre does not see the source's front, only the sampled points give a deviation.
     if (!view.FaceSource(source.patch) || view.SourceInContact()) return link.variation;
     const Vec3 gradient = FormFactorGradient(view.SeeSource(source.Vertices()), at.normal);
-    double square = 0;  // the rule is exact for it: its degree is 2 or more
+    double square = 0;  // the rule is exact for the squared linear function: its degree is at least 2
     for (const CubaturePoint& point : Cubature(receiver.Vertices(), 0)) {
       const double deviation = gradient.dot(point.position - at.position);
       square += point.weight * deviation * deviation;

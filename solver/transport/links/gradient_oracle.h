@@ -6,8 +6,8 @@
 
 namespace penumbra {
 
-// Takes the deviation of the linear function that has the form factor's gradient at the receiver's centre,
-// without occlusion; for partial links the sampled deviation if that is larger.
+// The deviation is that of a linear function with the gradient of the unoccluded form factor at the
+// receiver's centre; for partial links, the sampled deviation if that is larger.
 OracleRegistry::Method GradientOracleMethod();
 
 }  // namespace penumbra

@@ -13,18 +13,18 @@
 namespace penumbra {
 namespace {
 
-// Receivers nearer to the source than this many of their own radii see the form factor bend towards the
-// contact: the rule is refined there.
+// For receivers whose distance from the source is below this times their radius, the form factor is strongly
+// curved near the contact, and the rule is refined.
 constexpr double kNear = 1.0;
 constexpr int kNearRefinement = 1;
 
-// The sums over the points of one link's receiver.
+// Sums over the sample points of one link's receiver.
 struct PointSums {
   int refinement = 0;
-  bool uniform = false;  // the source has one radiosity for good: its quarters need no factors of their own
+  bool uniform = false;  // the source's radiosity stays constant: no factors of its quarters are needed
   std::array<std::array<Vec3, 4>, 4> quarters;
-  std::array<double, 4> mean{};  // of the factors of the quarters
-  double mean_square = 0;        // of their sum
+  std::array<double, 4> mean{};  // of the quarters' factors
+  double mean_square = 0;        // of the sum of the quarters' factors
 };
 
 double Radius(const Element& element, const Vec3& centre) {
@@ -33,8 +33,8 @@ double Radius(const Element& element, const Vec3& centre) {
   return std::sqrt(square);
 }
 
-// Form factors of one point to polygons that nothing hides, evaluated together. Each goes, times its weight,
-// to places that must stay.
+// Unoccluded form factors of one point to many polygons, evaluated together. Each result, times its weight,
+// is stored at an address that must stay valid.
 class ListedFactors {
  public:
   void Clear() {
@@ -47,7 +47,7 @@ class ListedFactors {
   }
   void Evaluate(const ReceiverPoint& at) {
     const std::size_t count = results_.size();
-    // What the sums lose is nothing beside what the rule does.
+    // The errors of the sums are negligible relative to the errors of the rule.
     sums_.Find(polygons_, 0, count, at.position, at.normal);
     for (std::size_t i = 0; i < count; ++i)
       std::fill(results_[i].to.begin(), results_[i].to.end(),
@@ -78,8 +78,8 @@ class LinkCubature {
   void Find() {
     sums_.reserve(links_.set.links.size());
     for (const Link& link : links_.set.links) sums_.push_back(Begin(link));
-    // Points outermost: what a point sees of a blocker serves all sources. Groups of equal rules share their
-    // points.
+    // Points form the outer loop: one view of a blocker serves all sources. Links with the same rule share
+    // the points.
     for (const int refinement : {0, kNearRefinement}) {
       std::vector<std::size_t> whole;
       for (std::size_t i = 0; i < sums_.size(); ++i) {
@@ -134,8 +134,8 @@ class LinkCubature {
     }
   }
 
-  // The form factors of a point to the quarters of a source, those that nothing hides once they are
-  // evaluated.
+  // The form factors of a point to the quarters of a source. Unoccluded quarters are listed and evaluated
+  // later.
   void FindFactors(PointView& view, std::size_t which, std::array<double, 4>* factor) {
     const PointSums& sums = sums_[which];
     const Element& source = forest_[links_.set.links[which].source];
@@ -182,7 +182,7 @@ class LinkCubature {
       const std::span<const Vec3> quarter(sums.quarters[q].data(), static_cast<std::size_t>(source.size));
       const double share = sums.mean[q] / total, fraction = VectorArea(quarter).norm() / source.area;
       link->share[q] = static_cast<float>(share);
-      if (fraction == 0) continue;  // no wider than a rounding
+      if (fraction == 0) continue;  // the lit part is as narrow as rounding
       unevenness += fraction * (share / fraction - 1) * (share / fraction - 1);
     }
     link->source_variation = static_cast<float>(std::sqrt(unevenness));
@@ -195,7 +195,7 @@ class LinkCubature {
   const Patch& patch_;
   Vec3 centre_;
   double radius_;
-  std::vector<PointSums> sums_;                 // of each link
+  std::vector<PointSums> sums_;                 // for each link
   std::vector<std::array<double, 4>> factors_;  // of a point to the quarters of each source
   ListedFactors listed_;
 };

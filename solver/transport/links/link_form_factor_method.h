@@ -1,6 +1,6 @@
 // solver/transport/links/link_form_factor_method.h
 //
-// How the form factors of links are found: several methods behind one interface.
+// An interface to compute the form factors of links, for several methods.
 
 #pragma once
 
@@ -13,40 +13,40 @@
 
 namespace penumbra {
 
-// What is known of a link before its form factor is.
+// The data of a link that its form factor is computed from.
 struct LinkView {
-  // Those of the link's blockers that suffice to tell which segments between its ends are blocked.
+  // Blockers of the link that decide which segments between its ends are blocked.
   std::vector<PatchId> blockers;
-  Polygon3 lit;             // the receiver's part before the source's plane [m]; empty if that is all of it
-  double lit_fraction = 1;  // of the receiver's area
+  Polygon3 lit;             // the receiver's part before the source's plane [m]; empty: all of the receiver
+  double lit_fraction = 1;  // area of that part / area of the receiver
 };
 
-// The links of one receiver, and the view of each.
+// The links of one receiver, with the view of each.
 struct ReceiverLinks {
   const ElementForest& forest;
   ElementId receiver = kNoElement;
   LinkSet set;
-  std::vector<LinkView> views;  // as many as links
+  std::vector<LinkView> views;  // one for each link
 };
 
 class LinkFormFactorMethod {
  public:
   virtual ~LinkFormFactorMethod() = default;
 
-  // Sets form_factor, variation, share and source_variation of all links. Before, they are those of a link
-  // that carries no light. The part of the receiver behind the source's plane counts as dark. Safe from
-  // several threads. Sets nothing of use if it was cancelled.
+  // Sets form_factor, variation, share and source_variation of all links. On entry they are those of a link
+  // without light. The part of the receiver behind the source's plane counts as dark. May be called from
+  // several threads. The values are useless if the context is cancelled.
   virtual void Find(ReceiverLinks* links, const ExecutionContext& context) const = 0;
 };
 
 struct LinkFormFactorOptions {
-  // Exact form factors: the error that a factor may have where something stands between [1], and the number
-  // of points that it may cost.
+  // For the exact method: the allowed error of a form factor with blockers [1], and the largest number of
+  // points for one form factor.
   double tolerance = 1e-7;
   std::size_t max_points = 100'000;
 };
 
-// LinkFormFactorMethods() holds all methods.
+// LinkFormFactorMethods() lists all methods.
 using LinkFormFactorRegistry = Registry<const LinkFormFactorMethod, LinkFormFactorOptions>;
 
 }  // namespace penumbra

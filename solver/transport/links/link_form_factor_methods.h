@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// Every method there is to find form factors of links. The first is the default.
+// All methods to compute form factors of links; the first is the default.
 LinkFormFactorRegistry& LinkFormFactorMethods();
 
 }  // namespace penumbra

@@ -9,7 +9,7 @@
 namespace penumbra {
 namespace {
 
-// Adds the link to the candidate unless neither can see the other.
+// Adds a link to the candidate, unless the two ends cannot see each other.
 void AddLink(const LinkCandidate& candidate, ReceiverLinks* links) {
   const Scene& scene = links->forest.scene();
   const Element &receiver = links->forest[links->receiver], &source = links->forest[candidate.source];

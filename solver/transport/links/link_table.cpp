@@ -8,7 +8,7 @@
 namespace penumbra {
 namespace {
 
-constexpr std::size_t kLinkGrain = 2;  // receivers that a task links
+constexpr std::size_t kLinkGrain = 2;  // receivers in one task
 
 }  // namespace
 
@@ -35,7 +35,7 @@ LinkSet ReplaceLinks(const LinkSet& links, std::span<const char> dropped, std::s
     for (const LinkSet& set : formed)
       for (const Link& link : set.links) take(Origin{&set, &link});
   };
-  std::vector<std::size_t> end;  // per receiver, among all
+  std::vector<std::size_t> end;  // for each receiver, over all sets
   for_each([&](const Origin& origin) {
     const auto receiver = static_cast<std::size_t>(origin.link->receiver);
     if (receiver >= end.size()) end.resize(receiver + 1, 0);

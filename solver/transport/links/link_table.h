@@ -1,6 +1,6 @@
 // solver/transport/links/link_table.h
 //
-// Links in their order, and what replaces them.
+// Operations on the ordered set of links: forming groups of new links, and replacing links.
 
 #pragma once
 
@@ -13,19 +13,19 @@
 
 namespace penumbra {
 
-// All new links of one receiver. Their blockers are chosen from those of the links that they replace.
+// All new links of one receiver. New links choose their blockers from those of the links that they replace.
 struct LinkGroup {
   ElementId receiver = kNoElement;
   std::vector<LinkCandidate> candidates;
 };
 
-// The links of all groups, a set each; empty ones once the context is cancelled.
+// Forms the links of all groups, one set for each group. Sets are empty after the context is cancelled.
 std::vector<LinkSet> FormLinkGroups(const ElementForest& forest, std::span<const LinkGroup> groups,
                                     const LinkFormFactorMethod& form_factors,
                                     const ExecutionContext& context);
 
-// The links that are not dropped (one flag a link; empty: none is) and those of `formed`, by receiver, then
-// source. Of no use if it was cancelled.
+// The links without a flag in `dropped` (one flag for each link; empty: no flags) and the links of `formed`,
+// ordered by receiver, then source. The result is useless if the context is cancelled.
 LinkSet ReplaceLinks(const LinkSet& links, std::span<const char> dropped, std::span<const LinkSet> formed,
                      const ExecutionContext& context = ExecutionContext());
 

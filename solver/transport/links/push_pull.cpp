@@ -8,11 +8,11 @@
 namespace penumbra {
 namespace {
 
-// Elements a task gathers.
+// Elements in one task of gathering.
 constexpr std::size_t kGatherGrain = 256;
 
-// The radiosity with which a link's source shines on its receiver: the mean of its children's, by their
-// shares.
+// The radiosity of a link's source as seen by its receiver: the mean of its children's radiosities, weighted
+// by the shares.
 Rgb SourceRadiosity(const ElementForest& forest, const Link& link, std::span<const Rgb> radiosity) {
   const ElementId first = forest[link.source].first_child;
   if (first == kNoElement) return radiosity[static_cast<std::size_t>(link.source)];
@@ -34,7 +34,7 @@ void PushPull::Update() {
   for (const Link& link : solution_.links.links) ++first_link_[static_cast<std::size_t>(link.receiver) + 1];
   for (std::size_t e = 0; e < count; ++e) first_link_[e + 1] += first_link_[e];
 
-  // Children are younger than their parents: by number, parents come first.
+  // Children have larger numbers than their parents, so the order is parents first.
   first_of_patch_.assign(patches + 1, 0);
   for (const Element& element : forest.elements())
     ++first_of_patch_[static_cast<std::size_t>(element.patch) + 1];
@@ -82,7 +82,7 @@ void PushPull::Balance(std::span<const double> closure) {
   }
 }
 
-// Adds what parents have gathered to their children's, and brings leaves into balance.
+// Adds the irradiance of parents to that of their children, and scales leaves (Balance).
 void PushPull::Push(std::size_t patch, std::span<Rgb> irradiance) const {
   for (const ElementId id : ElementsOf(patch)) {
     const ElementId first = solution_.forest[id].first_child;
@@ -95,7 +95,7 @@ void PushPull::Push(std::size_t patch, std::span<Rgb> irradiance) const {
   }
 }
 
-// The area-weighted means of leaves' values, for the elements above them.
+// Sets the values of inner elements to the area-weighted means of the leaves below.
 template <class Value>
 void PushPull::Average(std::size_t patch, std::vector<Value>& values) const {
   const std::span<const ElementId> elements = ElementsOf(patch);
@@ -126,7 +126,8 @@ void PushPull::Pull() {
   });
 }
 
-// Lights a patch by what its elements have gathered. Returns the largest change of a leaf's radiosity.
+// Sets the light of a patch from the gathered irradiance of its elements. Returns the largest change of a
+// leaf's radiosity.
 Rgb PushPull::LightPatch(std::size_t patch, std::span<Rgb> pushed, std::span<const Rgb> correction) {
   Push(patch, pushed);
   Rgb change = Rgb::Zero();

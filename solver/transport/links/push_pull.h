@@ -1,7 +1,7 @@
 // solver/transport/links/push_pull.h
 //
 // Gathering over links and push-pull through the quadtrees (thesis 4.3; Hanrahan, Salzman and Aupperle 1991):
-// one application of the transport that a solution's links stand for.
+// one application of the transport operator of a solution's links.
 
 #pragma once
 
@@ -14,51 +14,52 @@
 
 namespace penumbra {
 
-// In which order a sweep updates the elements.
+// The order in which a sweep updates the elements.
 enum class IterationScheme : std::uint8_t {
-  kJacobi,       // all from the light before the sweep (the thesis)
-  kGaussSeidel,  // patch by patch in their order, each from the light as it is then
+  kJacobi,       // all elements from the light before the sweep (the thesis)
+  kGaussSeidel,  // patch after patch, each from the newest light
 };
 
 class PushPull {
  public:
-  // Works on the light of the solution, which must outlive it.
+  // Works on the light of the solution. The solution must outlive the object.
   explicit PushPull(RadiositySolution& solution);
 
-  // To be called when links or elements have changed: indexes them, and gives new elements the light of their
-  // parents. Links are out of balance again.
+  // Call it after links or elements have changed: rebuilds the index of links, gives new elements the light
+  // of their parents, and undoes Balance().
   void Update();
 
-  // From here on what the links bring to a leaf is scaled so that unit radiosity everywhere brings it as much
-  // as is said, by leaf in the order of leaves() [1].
+  // Scales the light that links bring to each leaf: unit radiosity everywhere then gives leaf leaves()[i] the
+  // irradiance closure[i] [1].
   void Balance(std::span<const double> closure);
   bool IsBalanced() const { return !scale_.empty(); }
 
-  // The links of a receiver, as indices into the solution's.
+  // The links of a receiver are links[FirstLink(receiver)] to links[EndLink(receiver) - 1] of the solution.
   std::size_t FirstLink(ElementId receiver) const { return first_link_[static_cast<std::size_t>(receiver)]; }
   std::size_t EndLink(ElementId receiver) const {
     return first_link_[static_cast<std::size_t>(receiver) + 1];
   }
 
-  // The leaves, patch by patch, in the order in which they came into being.
+  // The leaves, patch by patch, in the order of their creation.
   std::span<const ElementId> leaves() const { return leaves_; }
 
-  // One sweep: leaves get what the links bring and their `correction` (by element, or empty) [W/m^2], and
-  // reflect it. Returns the largest change of a leaf's radiosity, by channel [W/m^2].
+  // One sweep: sets the irradiance of each leaf to the light of its links plus its `correction` (by element,
+  // or empty) [W/m^2], and its radiosity accordingly. Returns the largest change of a leaf's radiosity for
+  // each channel [W/m^2].
   Rgb Sweep(IterationScheme scheme, std::span<const Rgb> correction);
 
-  // Gives a leaf its irradiance, and the radiosity that follows.
+  // Sets the irradiance of a leaf [W/m^2] and the resulting radiosity.
   void Light(ElementId leaf, const Rgb& irradiance);
-  // The area-weighted means of what is below, for all elements.
+  // Sets the light of every parent to the area-weighted mean of its children.
   void Pull();
-  // How much leaves vary below each element: RadiositySolution's spreads.
+  // Computes RadiositySolution::radiosity_spread and spread_below.
   void UpdateSpreads();
 
-  // What the links make of any radiosities, given for all elements: the irradiance of all elements, which may
-  // be negative if the radiosities are.
+  // The irradiance of all elements over the links for the given radiosities of all elements. Negative
+  // radiosities may give negative irradiance.
   std::vector<Rgb> Transport(std::span<const Rgb> radiosity) const;
 
-  // The largest radiosity less emittance of any leaf and channel [W/m^2].
+  // The largest reflected radiosity, radiosity - emittance, over all leaves and channels [W/m^2].
   double LargestReflected() const;
 
  private:
@@ -72,11 +73,11 @@ class PushPull {
   Rgb LightPatch(std::size_t patch, std::span<Rgb> pushed, std::span<const Rgb> correction);
 
   RadiositySolution& solution_;
-  std::vector<std::size_t> first_link_;      // per element
-  std::vector<std::size_t> first_of_patch_;  // per patch, into order_
-  std::vector<ElementId> order_;             // patch by patch, parents before their children
+  std::vector<std::size_t> first_link_;      // of each element
+  std::vector<std::size_t> first_of_patch_;  // of each patch, in order_
+  std::vector<ElementId> order_;             // patch by patch, parents before children
   std::vector<ElementId> leaves_;
-  std::vector<double> scale_;  // per element, of leaves, by which links bring more than they say; or empty
+  std::vector<double> scale_;  // by element: the factor on the links' light, for leaves; or empty
 };
 
 }  // namespace penumbra

@@ -7,16 +7,16 @@
 namespace penumbra {
 namespace {
 
-constexpr std::size_t kJudgeGrain = 256;  // links that a task judges
+constexpr std::size_t kJudgeGrain = 256;  // links in one task
 
 ElementId FirstChild(ElementForest& forest, ElementId element) {
   return forest[element].IsLeaf() ? forest.Subdivide(element) : forest[element].first_child;
 }
 
-// What one receiver is to be linked to anew.
+// The new links of one receiver.
 struct Split {
-  std::vector<LinkCandidate> down;  // for its children
-  std::vector<LinkCandidate> here;  // for itself
+  std::vector<LinkCandidate> down;  // links of its children
+  std::vector<LinkCandidate> here;  // links of the receiver itself
 };
 
 void AddGroups(ElementForest& forest, ElementId receiver, Split split, std::vector<LinkGroup>& groups) {

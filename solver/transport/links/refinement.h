@@ -1,6 +1,6 @@
 // solver/transport/links/refinement.h
 //
-// Refinement of links (thesis 4.4): what is split, and which links come in its place.
+// Refinement of links (thesis 4.4): which links are split, and which links replace them.
 
 #pragma once
 
@@ -14,16 +14,15 @@
 
 namespace penumbra {
 
-// Links to be formed, and those whose place they take. The groups' blockers are those of the solution's
-// links.
+// New links, and the links that they replace. The blockers of the groups point into the solution's links.
 struct RefinementPlan {
-  std::vector<char> dropped;  // a flag a link
+  std::vector<char> dropped;  // one flag for each link
   std::vector<LinkGroup> groups;
   std::size_t links_split = 0;
 };
 
-// Judges all links once, and splits the elements that the oracle wants to be split in the solution's forest.
-// `push_pull` knows the solution's links.
+// Judges all links once. Subdivides, in the solution's forest, the elements that the oracle wants to split.
+// REQUIRES: `push_pull` is up to date with the solution's links.
 RefinementPlan PlanRefinement(RadiositySolution& solution, const PushPull& push_pull,
                               const RefinementOracle& oracle);
 

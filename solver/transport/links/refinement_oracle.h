@@ -1,6 +1,7 @@
 // solver/transport/links/refinement_oracle.h
 //
-// Refinement oracles: which links carry too much error, and which end of them to split (thesis 4.4).
+// Refinement oracles: they find the links whose error is too large, and the end of the link to split (thesis
+// 4.4).
 
 #pragma once
 
@@ -13,23 +14,25 @@ namespace penumbra {
 
 enum class Refinement : std::uint8_t { kAccept, kSplitReceiver, kSplitSource };
 
-// Judges links. An oracle is a class of its own in a file of its own; RefinementOracles() lists all.
+// Judges links. Every oracle is a class in a file of its own; RefinementOracles() lists all oracles.
 class RefinementOracle {
  public:
   virtual ~RefinementOracle() = default;
-  // What to do about the link, given the radiosities of the solution so far. Safe from several threads.
+  // The decision on a link, given the current radiosities of the solution. May be called from several
+  // threads.
   virtual Refinement Judge(const RadiositySolution& solution, const Link& link) const = 0;
 };
 
 struct OracleOptions {
   double eps = 0.1;           // [W/m^2]
-  double min_area = 1e-5;     // [m^2]: no element smaller than four times this is split
-  double reference_area = 1;  // [m^2]: the area of an element for which eps is meant
+  double min_area = 1e-5;     // [m^2]; an element smaller than four times this is not split
+  double reference_area = 1;  // [m^2]; area of an element for which eps is meant
 };
 
 using OracleRegistry = Registry<const RefinementOracle, OracleOptions>;
 
-// Whether the children of the element would be no smaller than `min_area` [m^2], and its level not the last.
+// True if the children of the element would have at least the area `min_area` [m^2], and its level is below
+// the last.
 bool MaySplit(const Element& element, double min_area);
 
 }  // namespace penumbra

@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// Every refinement oracle there is. The first is the default.
+// All refinement oracles; the first is the default.
 OracleRegistry& RefinementOracles();
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // solver/transport/links/solution.h
 //
-// What the hierarchical solver leaves behind (thesis, chapter 4): quadtrees, links with their blockers, and
-// the light on every element.
+// The result of the hierarchical solver (thesis, chapter 4): quadtrees, links with their blockers, and the
+// light of every element.
 
 #pragma once
 
@@ -15,24 +15,24 @@
 
 namespace penumbra {
 
-// The transport from one element to another, at one level of each. For any two mutually visible points there
-// is one link each way between elements that contain them.
+// The transport from a source element to a receiver element, at one level of both trees. Any two points that
+// see each other have exactly one link in each direction between elements that contain them.
 struct Link {
   ElementId receiver = kNoElement, source = kNoElement;
   double form_factor =
       0;  // F(receiver <- source) [1]: mean irradiance of the receiver per unit radiosity of the source
   double variation = 0;  // root mean square deviation of the point form factors over the receiver [1]
-  // How the form factor is shared among the source's four quarters; they add up to 1. They let a source that
-  // has children shine with their radiosities, not with its mean.
+  // share[k]: form factor of quarter k of the source / form factor of the source; the sum is 1. The shares
+  // let a source with children send the radiosities of its children instead of its mean.
   std::array<float, 4> share = {0.25F, 0.25F, 0.25F, 0.25F};
-  // Root mean square deviation, relative to the mean, of the form factor per area over those quarters.
+  // Root mean square deviation of form factor / area over the source's quarters, relative to the mean.
   float source_variation = 0;
-  Visibility visibility = Visibility::kVisible;  // kVisible just if there are no blockers
+  Visibility visibility = Visibility::kVisible;  // kVisible if and only if there are no blockers
   std::uint32_t first_blocker = 0, blocker_count = 0;
 };
 
 struct LinkSet {
-  std::vector<Link> links;  // by receiver, then by source
+  std::vector<Link> links;  // ordered by receiver, then by source
   std::vector<PatchId> blockers;
 
   std::span<const PatchId> Blockers(const Link& link) const {
@@ -40,9 +40,9 @@ struct LinkSet {
   }
 };
 
-// A convex piece of a leaf with a radiosity of its own. Contacts cut leaves: furniture stands on them, and
-// the light on either side has nothing to do with that on the other. So does light that varies where others
-// are near enough to see it.
+// A convex piece of a leaf with its own radiosity. Leaves are cut along contacts, since the light on the two
+// sides of furniture is unrelated, and where light varies and other surfaces are close enough to see the
+// variation.
 struct Fragment {
   ElementId leaf = kNoElement;
   Polygon3 polygon;                                       // [m], counter-clockwise from the front
@@ -50,28 +50,29 @@ struct Fragment {
   Rgb irradiance = Rgb::Zero(), radiosity = Rgb::Zero();  // [W/m^2]
 };
 
-// The fragments of a leaf, of a list that ascends by leaf.
+// The fragments of a leaf. REQUIRES: `fragments` ascends by leaf.
 std::span<const Fragment> FragmentsOf(std::span<const Fragment> fragments, ElementId leaf);
 
 struct RadiositySolution {
   ElementForest forest;
   LinkSet links;
-  // Of the leaves that are cut, by contacts or because light varies on them, by leaf; the leaf's light is
-  // their area-weighted mean.
+  // The fragments of all leaves that are cut, ordered by leaf. The light of such a leaf is the area-weighted
+  // mean of its fragments.
   std::vector<Fragment> fragments;
-  // Per element [W/m^2]. A parent's is the area-weighted mean of its children's.
+  // By element [W/m^2]. The value of a parent is the area-weighted mean of its children's values.
   std::vector<Rgb> irradiance, radiosity;
-  // Per element [W/m^2]: root mean square deviation of the leaves' radiosities below it, of its largest
-  // channel.
+  // By element [W/m^2]: the root mean square deviation of the radiosities of the leaves below from the mean;
+  // a deviation is that of the largest channel.
   std::vector<double> radiosity_spread;
-  // The same of each child about its own mean: what the children's radiosities leave out.
+  // By element [W/m^2]: the root mean square of the children's spreads, each about its own mean; the
+  // variation that the children's radiosities do not show.
   std::vector<double> spread_below;
 
   std::span<const Fragment> FragmentsOf(ElementId leaf) const {
     return penumbra::FragmentsOf(fragments, leaf);
   }
 
-  // The radiosity of the leaf, or fragment, that contains a point of the patch [W/m^2].
+  // The radiosity at a point of the patch: that of the leaf or fragment that contains the point [W/m^2].
   Rgb RadiosityAt(PatchId patch, const Vec3& point) const;
 };
 

@@ -6,8 +6,8 @@
 
 namespace penumbra {
 
-// As printed in the thesis (4.4.1): compares B x deviation(F) with eps, whatever the area, and splits the
-// larger element.
+// The oracle as printed in the thesis (4.4.1): compares B * deviation(F) with eps, whatever the area, and
+// splits the larger element.
 OracleRegistry::Method ThesisOracleMethod();
 
 }  // namespace penumbra

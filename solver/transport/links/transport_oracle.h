@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// Takes the deviation among the points at which the link was sampled.
+// Uses the deviation between the points at which the link was sampled.
 OracleRegistry::Method TransportOracleMethod();
 
 }  // namespace penumbra

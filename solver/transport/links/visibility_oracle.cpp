@@ -5,7 +5,7 @@
 namespace penumbra {
 namespace {
 
-// How much more the deviation of a partial link counts.
+// Factor on the deviation of partial links.
 constexpr double kPartialCost = 2;
 
 class VisibilityOracle final : public AreaWeightedOracle {

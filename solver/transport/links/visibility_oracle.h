@@ -6,8 +6,8 @@
 
 namespace penumbra {
 
-// As the transport oracle, but the deviation of a partial link counts twice: shadows may fall between the
-// points that were sampled.
+// The transport oracle with twice the deviation for partial links, because shadows may fall between the
+// sampled points.
 OracleRegistry::Method VisibilityOracleMethod();
 
 }  // namespace penumbra

@@ -11,14 +11,14 @@
 namespace penumbra {
 namespace {
 
-// Of the hemisphere: less than this comes in through gaps of ContactGap(), 1e-6 of the scene, under things
-// that are down to a hundredth of it in size.
+// A part is free if fronts fill more than this fraction of its hemisphere. Gaps of ContactGap(), 1e-6 of the
+// scene, let in less light, under objects as small as a hundredth of the scene.
 constexpr double kThroughGaps = 1e-4;
 
 }  // namespace
 
 std::vector<double> FreeAreas(const Scene& scene, const ExecutionContext& context) {
-  // Every front shines alike, so that irradiance is the share of the hemisphere that fronts fill.
+  // All fronts have unit radiosity, so irradiance is the fraction of the hemisphere that fronts fill.
   Scene bright = scene;
   for (Material& material : bright.materials) material.emittance = Rgb::Ones();
   const PatchVisibility unused;

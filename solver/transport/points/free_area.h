@@ -1,7 +1,7 @@
 // solver/transport/points/free_area.h
 //
-// How much of each patch lies free. A box that stands on a floor covers a part of it, which light cannot
-// reach: what the floor's form factors add up to is its free share, not 1.
+// The free area of each patch. A box on a floor covers a part of the floor that no light reaches. The sum of
+// the floor's form factors is therefore free area / area, not 1.
 
 #pragma once
 
@@ -12,11 +12,11 @@
 
 namespace penumbra {
 
-// Per patch, the area of those parts between its contacts from which the fronts of other patches can be seen
-// [m^2]. Exact but for slivers that are not cut off (CutLeavesAtContacts) and for what light comes through
-// gaps that count as closed (ContactGap). In an open scene a part that looks at nothing but the sky is not
-// free by this. Parallel, and the same for any number of threads.
-// Of no use if it was cancelled.
+// For each patch, the total area of those parts between its contacts that see the front of another patch
+// [m^2]. Exact, except for slivers that CutLeavesAtContacts() does not cut off and for light through gaps
+// that count as closed (ContactGap). In an open scene, a part that sees only the sky does not count as free.
+// Parallel; the result does not depend on the number of threads. The result is useless if the context is
+// cancelled.
 std::vector<double> FreeAreas(const Scene& scene, const ExecutionContext& context = ExecutionContext());
 
 }  // namespace penumbra

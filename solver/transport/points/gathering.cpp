@@ -19,26 +19,26 @@ std::span<const Vec3> Vertices(const Node& node) {
   return {node.vertex.data(), static_cast<std::size_t>(node.size)};
 }
 
-// Sources are as many, and err in as many directions, as lets each of them err by this share of what all may,
-// however little it gives.
+// A dim source may cause an error of this fraction of the tolerance for all light. A point has many sources,
+// and their errors have different signs.
 constexpr double kOneOfMany = 0.2;
 
-// The last sources may together give this share of the tolerance at most to be left out. They only ever take
-// light away, where what is seen as one errs to both sides.
+// The remaining sources are left out if their light together is at most this fraction of the tolerance. An
+// omitted source always reduces the light; aggregates have errors of both signs.
 constexpr double kLeftOut = 0.25;
 
 }  // namespace
 
 struct Gathering::Buffers {
   Clipper clipper;
-  LazyTable<Vec2> corner_images;  // of the source at hand in the image at hand, by corner
-  // What GatherAggregates() has found, whose form factors are still to be added.
+  LazyTable<Vec2> corner_images;  // of the current source in the current image, by corner
+  // Polygons that GatherAggregates() has listed; their form factors are still to be added.
   PolygonBatch listed;
   std::vector<Rgb> listed_radiosity;
   FormFactorSums sums;
   std::vector<double> factors;
-  // Of the source at hand: what its leaf is clipped by, the screens that may hide it, and where its blockers
-  // lie.
+  // For the current source: the occluders of a leaf, the screens that may hide the source, the region of the
+  // blockers, and the candidates.
   std::vector<Occluder> leaf_occluders;
   std::vector<PatchId> screen_patches;
   ConvexRegion region;
@@ -85,7 +85,7 @@ void Gathering::AllowAggregates(double tolerance, const Rgb& known) {
   buffers_->ClearListed();
 }
 
-// Turns to the source; false if nothing of it can be seen.
+// Makes `source` the current source. False if the point sees nothing of it.
 bool Gathering::Face(PatchId source, DirectionPolygon* seen) {
   const Tree tree = sources_.Tree(source);
   if (tree.empty() || !view_.FaceSource(source)) return false;
@@ -98,7 +98,7 @@ void Gathering::AddSource(PatchId source, std::span<const PatchId> candidates, P
   if (Face(source, &seen)) Gather(source, seen, candidates, own);
 }
 
-// Whether the screens together hide all of what is seen of the source at hand.
+// True if the screens together hide all that is seen of the current source.
 bool Gathering::HiddenBy(std::span<const Screen> screens, const DirectionPolygon& seen) {
   if (screens.empty()) return false;
   std::vector<PatchId>& patches = buffers_->screen_patches;
@@ -121,7 +121,7 @@ bool Gathering::HiddenBy(std::span<const Screen> screens, const DirectionPolygon
 void Gathering::AddSource(PatchId source, const PatchHierarchy& patches, std::span<const Screen> screens) {
   DirectionPolygon seen;
   if (!Face(source, &seen) || HiddenBy(screens, seen)) return;
-  // Between the point and the source's plane, within what is seen of the source.
+  // Blockers lie between the point and the source's plane, within the view of the source.
   ConvexRegion& region = buffers_->region;
   std::vector<PatchId>& candidates = buffers_->candidates;
   region.clear();
@@ -163,7 +163,7 @@ void Gathering::Gather(PatchId source, const DirectionPolygon& seen, std::span<c
   parts_->direct += factor_ * sources_.Emittance(source);
 }
 
-// Gathers from the subtree at node i, of which the occluders may hide parts.
+// Adds the subtree at node i. The occluders may hide parts of the subtree.
 void Gathering::GatherShadowed(Tree tree, std::size_t i) {
   const Node& node = tree[i];
   const auto skip = static_cast<std::size_t>(node.skip);
@@ -171,7 +171,7 @@ void Gathering::GatherShadowed(Tree tree, std::size_t i) {
   if (seen.empty()) return;
   const Vec3 axis = ImageAxis(seen);
   if (axis.isZero(0)) {
-    // Seen all round: children fit where the whole does not.
+    // The node surrounds the point and fits into no image; its children may fit.
     if (skip == 1) return GatherUnfit(node, seen);
     for (std::size_t child = i + 1; child < i + skip; child += static_cast<std::size_t>(tree[child].skip))
       GatherShadowed(tree, child);
@@ -185,7 +185,7 @@ void Gathering::GatherShadowed(Tree tree, std::size_t i) {
   AddVisiblePieces(frame, factor_before);
 }
 
-// What the image shows of a node.
+// The image of a node's polygon.
 ImagePolygon Gathering::ImageOf(const Node& node, const ImageFrame& frame) const {
   ImagePolygon polygon;
   if (!view_.SourceIsPlain()) {
@@ -202,7 +202,7 @@ ImagePolygon Gathering::ImageOf(const Node& node, const ImageFrame& frame) const
   return polygon;
 }
 
-// The same in the image at hand, past the candidates.
+// Adds the subtree at node i in the current image, with the candidates as occluders.
 void Gathering::GatherNode(Tree tree, std::size_t i, const ImageFrame& frame,
                            const Clipper::Candidates& candidates) {
   const Node& node = tree[i];
@@ -245,7 +245,7 @@ void Gathering::GatherVisible(Tree nodes) {
   const auto count = static_cast<std::size_t>(nodes[0].leaf_count);
   FormFactorSums& sums = buffers_->sums;
   sums.Find(sources_.LeafPolygons(), first, first + count, view_.SourceEye(), at_.normal);
-  // What the sums may have lost counts beside the light of all leaves together.
+  // The sums are used if their loss of digits is small relative to the light of all leaves together.
   double turned = 0, together = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const double radiosity = sources_.LeafRadiosities()[first + i].maxCoeff();
@@ -266,13 +266,13 @@ bool Gathering::IsNegligible(const Rgb& light) const {
   return (light <= kLeftOut * Tolerance() * so_far_).all();
 }
 
-// Errors of samples in a slot have the same sign and add up from wall to wall. Measured: with the first power
-// of what does not come back, a slot errs by 5.7 % where 5 % are asked, with the second by 3.8 %.
+// In a slot, errors of samples have the same sign and add up from wall to wall. Measured for a tolerance of 5
+// %: the error in a slot is 5.7 % with the factor 1 - r, and 3.8 % with (1 - r)^2.
 double Gathering::Tolerance() const { return (1 - returned_) * (1 - returned_) * tolerance_; }
 
-// What errors of a source may be, beside the light that it would send unhindered.
+// The allowed error of a source, relative to its unoccluded light.
 double Gathering::ToleranceFor(const Rgb& light) const {
-  // How often that light is held by the other, in the channel where it is so least.
+  // The smallest ratio by / light over the channels.
   const auto held = [&](const Rgb& by) {
     double times = std::numeric_limits<double>::infinity();
     for (int c = 0; c < 3; ++c)
@@ -283,16 +283,16 @@ double Gathering::ToleranceFor(const Rgb& light) const {
   return Tolerance() * ((known_ > 0).any() ? of_many : std::max(1.0, of_many));
 }
 
-// Whether a subtree may be seen as one: where nothing hides it with its radiosity's moment, and else by the
-// plane that fits its radiosities. The error beside its own light is small, or the light beside that of the
-// whole source.
+// True if a subtree may count as one polygon: if nothing hides it, with its mean radiosity and moment;
+// otherwise with the best linear fit of its radiosities. The error must be small relative to the light of the
+// subtree or of the whole source.
 bool Gathering::MayAggregate(const Node& node, bool visible) const {
   double error = visible ? node.spread : node.residual;
   if (error <= tolerance_here_) return true;
   const Vec3 to = node.centre - at_.position;
   const double distance = to.norm(), gap = distance - node.radius;
   if (gap <= 0) return false;
-  // Form factors per area fall with the square of the distance, and about as fast with the two angles.
+  // A form factor per area depends on distance^-2 and on two cosines, which together change about as fast.
   constexpr double kSteepness = 3;
   if (visible) {
     const double reach = kSteepness * node.radius / gap;
@@ -304,7 +304,7 @@ bool Gathering::MayAggregate(const Node& node, bool visible) const {
   return error * node.area * high * deep <= tolerance_here_ * whole_ * std::numbers::pi * gap * gap;
 }
 
-// Adds a subtree that nothing hides, in parts that may be seen as one.
+// Adds a subtree that nothing hides, with aggregates where they are allowed.
 void Gathering::GatherAggregates(Tree nodes) {
   const bool plain = view_.SourceIsPlain();
   Buffers& buffers = *buffers_;
@@ -315,7 +315,7 @@ void Gathering::GatherAggregates(Tree nodes) {
       continue;
     }
     i += static_cast<std::size_t>(node.skip);
-    // Well above the horizon it is seen as it is.
+    // A node well above the horizon needs no clipping.
     if (plain || (!view_.SourceInContact() && at_.normal.dot(node.centre - at_.position) > node.radius)) {
       buffers.listed.Add(Vertices(node));
       buffers.listed_radiosity.push_back(node.radiosity);
@@ -326,20 +326,21 @@ void Gathering::GatherAggregates(Tree nodes) {
   }
 }
 
-// Adds what the node's radiosity makes by varying as the form factor per area does.
+// Adds the first-order correction to an aggregate: radiosity and form factor per area both vary over the
+// node.
 void Gathering::AddMoment(const Node& node) {
   const Vec3 r = node.centre - at_.position;
   const double d2 = r.squaredNorm();
-  // Nearer than two radii the form factor per area is no linear function over the node.
+  // Within two radii, the form factor per area is not linear over the node.
   constexpr double kFarSquared = 4;
   if (d2 < kFarSquared * node.radius * node.radius) return;
   const double high = at_.normal.dot(r), deep = -source_normal_.dot(r);
-  // Of high deep / (pi d^4), along the source's plane.
+  // The gradient of high * deep / (pi d^4) along the source's plane.
   const Vec3 gradient = deep / (std::numbers::pi * d2 * d2) * (at_.normal - 4 * high / d2 * r);
   irradiance_ += (node.moment * gradient).array();
 }
 
-// Adds what GatherAggregates() has listed. It need not be as exact as the rest.
+// Adds the polygons listed by GatherAggregates(). Form factors here may be less exact than elsewhere.
 void Gathering::AddListedSources() {
   if (tolerance_ == 0) return;
   Buffers& buffers = *buffers_;
@@ -349,7 +350,7 @@ void Gathering::AddListedSources() {
   buffers.ClearListed();
 }
 
-// A leaf that fits into no image.
+// Adds a leaf that fits into no image.
 void Gathering::GatherUnfit(const Node& leaf, const DirectionPolygon& seen) {
   if (method_) Add(leaf.first_leaf, method_->VisibleFormFactor(seen, occluders_, at_.normal));
   if (method_ && !parts_) return;
@@ -367,7 +368,7 @@ void Gathering::GatherUnfit(const Node& leaf, const DirectionPolygon& seen) {
   }
 }
 
-// Adds what the clipper left of leaves that are covered in part.
+// Adds the pieces that the clipper has left of leaves that are covered in part.
 void Gathering::AddVisiblePieces(const ImageFrame& frame, double factor_before) {
   ImageEdges& visible = clipper_.Visible();
   if (visible.Pieces() == 0) return;
@@ -383,14 +384,15 @@ void Gathering::AddVisiblePieces(const ImageFrame& frame, double factor_before) 
     if (!owner.IsGroup()) {
       Add(owner.Number(), std::max(0.0, factor));
     } else {
-      // Of a node that a shadow crosses the brighter part tends to be seen: its mean would not do.
+      // Of a node that a shadow crosses, often the brighter part is visible, so the mean radiosity would be
+      // too dark.
       const Node& node = sources_.NodeAt(static_cast<std::size_t>(owner.Number()));
       Add(RadiosityToward(node, frame.Direction(visible.Centroid(p))), std::max(0.0, factor));
     }
   }
 }
 
-// What the plane that fits the radiosities of a node says of the place that is seen in a direction.
+// The radiosity, by the node's linear fit, at the place that is seen in the direction.
 Rgb Gathering::RadiosityToward(const Node& node, const Vec3& direction) const {
   const double fall = source_normal_.dot(direction);
   if (fall >= 0 || view_.SourceInContact()) return node.radiosity;
@@ -401,8 +403,8 @@ Rgb Gathering::RadiosityToward(const Node& node, const Vec3& direction) const {
   return (node.radiosity + (node.slope * offset).array()).max(0.0);
 }
 
-// How many times its value the angles of a sum may add up to: sums lose digits in proportion. With a
-// tolerance fewer digits will do.
+// The largest allowed ratio of the angles of a sum to the sum; digits are lost in proportion to the ratio.
+// With a tolerance, fewer digits suffice.
 double Gathering::CancellationAllowed() const {
   constexpr double kNegligible = 1e-3;  // of the tolerance
   constexpr double kPerDigit = kFormFactorCancellation / kFormFactorError;

@@ -1,6 +1,6 @@
 // solver/transport/points/gathering.h
 //
-// What one receiver point gathers from the sources of a SourceSet, one patch after the other.
+// Computes the irradiance at one receiver point from the sources of a SourceSet, patch by patch.
 
 #pragma once
 
@@ -16,72 +16,79 @@
 namespace penumbra {
 
 struct PointIrradianceOptions {
-  // What decides which part of a source blockers leave. Null: the fastest exact way.
+  // Computes the part of a source that blockers leave visible. Null: the fastest exact method.
   const OcclusionMethod* method = nullptr;
-  // The thesis's substitutes for limits (6.3, 6.4, Appendix A), to compare with. A point that asks for a
-  // limit is moved this far along its approach [m]; sources are lifted this far along the receiver's normal
-  // [m].
+  // The thesis's substitutes for limits (6.3, 6.4, Appendix A), for comparison. A point with an approach is
+  // moved along the approach by `nudge` [m]. Sources are lifted along the receiver's normal by
+  // `source_push_off` [m].
   double nudge = 0;
   double source_push_off = 0;
-  // Where there is no method and this is positive: backprojection, which collapses segments of blockers'
-  // outlines that are shorter than this, relative to the source's diameter as seen.
+  // If `method` is null and this is positive, the method is Backprojection, which collapses segments of
+  // blockers' outlines shorter than this times the source's diameter as seen.
   double min_backprojection_segment = 0;
-  // The part of their tolerance to which samples for interpolants keep (PointIrradiance::NearlyOnPatch): what
-  // is left out comes back with every bounce, and in rooms that are nearly white there are many.
+  // PointIrradiance::NearlyOnPatch() multiplies its tolerance by this factor [1]. The light that a sample
+  // leaves out is missing in every bounce, and rooms that are nearly white have many bounces.
   double part_of_tolerance = 1;
 };
 
-// The light that a point receives from one patch.
+// The irradiance that a point receives from one patch.
 struct PatchContribution {
   PatchId source = kNoPatch;
   Rgb irradiance = Rgb::Zero();  // [W/m^2]
 };
 
-// One row a channel: its derivatives by x, y and z [W/m^3].
+// One row for each channel: the derivatives of its irradiance by x, y and z [W/m^3].
 using IrradianceGradient = Eigen::Matrix3d;
 
-// What irradiance at a point is made of.
+// The parts of the irradiance at a point.
 struct IrradianceParts {
-  Rgb direct = Rgb::Zero();  // from what surfaces emit of themselves [W/m^2]
-  // By the position of the point, its normal fixed. Edges through the point have no share in it.
+  Rgb direct = Rgb::Zero();  // from emittance [W/m^2]
+  // The gradient by the position of the point, with a fixed normal. Edges through the point add nothing to
+  // it.
   IrradianceGradient gradient = IrradianceGradient::Zero();
   std::vector<PatchContribution>
-      contributions;  // of the patches that light the point, in the order asked for
+      contributions;  // of the patches that light the point, in the order of AddSource()
 };
 
-// What share of a point's light comes back to it by way of a source that it sees with this form factor:
-// rho rho' F^2, the channel where it is most.
+// The fraction of a point's light that returns to the point by way of `source`: rho rho' F^2 for the channel
+// where it is largest. rho is the reflectance of `patch`, on which the point lies, rho' the reflectance of
+// `source`, and F = `factor` the form factor of the point to `source`.
 double SentBack(const Scene& scene, PatchId patch, PatchId source, double factor);
 
-// A local variable: its buffers are leases of the thread that makes it (Scratch).
+// Use it as a local variable: its buffers are leases of the thread that makes it (Scratch).
 class Gathering {
  public:
-  // Without a method, sources are clipped as whole trees, which is fastest; with one, it is asked about every
-  // polygon that blockers cover in part. `parts` may be null. All arguments must outlive the object.
+  // Without a method in the options, sources are clipped as whole trees, which is fastest. A method computes
+  // the form factor of every polygon that blockers cover in part. `parts` may be null. All arguments must
+  // outlive the object.
   Gathering(const Scene& scene, const SourceSet& sources, const ReceiverPoint& at,
             const PointIrradianceOptions& options, IrradianceParts* parts);
   ~Gathering();
   Gathering(const Gathering&) = delete;
   Gathering& operator=(const Gathering&) = delete;
 
-  // Adds the light of a patch past those of the candidates that stand before it; `own`, the receiver's patch,
-  // does not block.
+  // Adds the light of a patch, with those candidates as blockers that stand before it. `own`, the receiver's
+  // patch, does not block.
   void AddSource(PatchId source, std::span<const PatchId> candidates, PatchId own);
-  // The same past whatever of the hierarchy stands before it. Some of what may hide much is known as screens.
+  // AddSource() with all patches of the hierarchy as candidates. `screens` are some of the patches that may
+  // hide large parts of the view.
   void AddSource(PatchId source, const PatchHierarchy& patches, std::span<const Screen> screens);
 
-  // Adds the form factors of the set's leaves to these, by their number.
+  // From now on, adds the form factor of each leaf of the set to factors[number of the leaf].
   void RecordFactors(std::span<double> factors) { factors_ = factors; }
 
-  // From here on parts of trees may be seen as one of their mean radiosity where that costs at most about
-  // this share of the light that they send, or a part of that share of all light of the sources before. So
-  // the brightest should come first. If what the point receives is known, about, the light beside which all
-  // of this counts is a part of that. From the source on that sends back the most, (1 - r)^2 of the share
-  // holds, r = rho rho' F^2 as in PointIrradiance::Reverberation(). REQUIRES: the point lies on a patch.
+  // From now on, a subtree of a source may count as one polygon with one radiosity, for speed. Let L be the
+  // unoccluded light of a source, S the light of all sources before it, c < 1 a constant, and T = (1 - r)^2
+  // tolerance, where r is the largest SentBack() of the sources up to this one. The aggregates of the source
+  // may cause an error of about T max(L, c S); add bright sources first. If `known`, the approximate
+  // irradiance of the point, is given, the error may be about T c max(S, known) instead. REQUIRES: the point
+  // lies on a patch.
   void AllowAggregates(double tolerance, const Rgb& known = Rgb::Zero());
-  // What the sources so far would have brought without what hides them in part.
+  // The irradiance from the sources so far as if their blockers hid nothing; sources that are hidden
+  // completely do not count [W/m^2]. REQUIRES: AllowAggregates().
   const Rgb& unhindered() const { return unhindered_; }
-  // Whether light beside that of the sources before is less than a small part of that share.
+  // True if `light`, at most the light of all remaining sources, may be left out: in every channel it is at
+  // most a quarter of T S, in the terms of AllowAggregates().
   bool IsNegligible(const Rgb& light) const;
 
   const Rgb& irradiance() {
@@ -122,22 +129,22 @@ class Gathering {
   const OcclusionMethod* method_;
   IrradianceParts* parts_;
   PointView view_;
-  std::vector<Occluder>& occluders_;  // of the source at hand
+  std::vector<Occluder>& occluders_;  // of the current source
   Scratch<Buffers> buffers_;
   Clipper& clipper_;  // one of the buffers
   double tolerance_ = 0;
-  Rgb known_ = Rgb::Zero();       // about what the point receives; zero: not known
-  Rgb unhindered_ = Rgb::Zero();  // with a tolerance: what the sources so far would bring unhindered
-  Rgb so_far_ = Rgb::Zero();      // with a tolerance: the light of the sources that are done, about
-  double returned_ = 0;  // with a tolerance: the most of the point's light that a source sends back to it
-  // Of the source at hand, with a tolerance: what holds for it, its normal, and the form factor of all that
-  // is above the horizon.
+  Rgb known_ = Rgb::Zero();       // approximate irradiance of the point; zero: unknown
+  Rgb unhindered_ = Rgb::Zero();  // see unhindered(); set if tolerance_ > 0
+  Rgb so_far_ = Rgb::Zero();      // approximate light of the completed sources; set if tolerance_ > 0
+  double returned_ = 0;           // largest SentBack() of the sources so far; set if tolerance_ > 0
+  // Of the current source, if tolerance_ > 0: the tolerance for its light, its normal, and the form factor of
+  // all of its polygon above the horizon.
   double tolerance_here_ = 0;
   Vec3 source_normal_ = Vec3::Zero();
   double whole_ = 0;
-  double factor_ = 0;  // of the source at hand, so far
+  double factor_ = 0;  // of the current source, so far
   Rgb irradiance_ = Rgb::Zero();
-  std::span<double> factors_;  // per leaf of the set; empty: not asked for
+  std::span<double> factors_;  // for each leaf of the set; empty: not recorded
 };
 
 }  // namespace penumbra

@@ -11,47 +11,48 @@
 namespace penumbra {
 namespace {
 
-// What a linear function's deviation costs where it arrives: its second moment over the piece, 1/12, times
-// the share of the view, 1/2.
+// The error at receivers that a piece of constant light causes, per change of radiosity: the second moment
+// over the piece, 1/12, times the fraction of the view, 1/2.
 constexpr double kMoment = 1.0 / 24;
-// A piece that reaches to a patch fills half the view of points there, with the value of its near side. Along
-// the patch that is so only for points nearer than the piece is long.
+// Upper bounds of (width of a piece) / (distance to the nearest patch). A piece that touches a patch fills
+// half of the view of points there, with the value of its near side (kMostNear). For a width along the patch,
+// this holds only for points closer than the length of the piece (kMostBeside).
 constexpr double kMostNear = 6, kMostBeside = 1;
-// Pieces each way that the linear function of a part is worth.
+// Largest number of pieces in each direction that replace the linear function of a part.
 constexpr int kMostPieces = 4;
-// How often a part is halved at most: a corner where three patches meet has light that depends on the angle
-// at any distance.
+// Largest number of halvings of a part: near a corner of three patches, light depends on the angle at every
+// distance.
 constexpr int kMostHalved = 40;
 
-// A vertex that is this near to a cut is on it, relative to the part's diameter: a choice, far above
-// roundings and below any piece that counts.
+// A vertex within this distance of a cut, relative to the part's diameter, lies on the cut. A choice, far
+// above rounding, and below the size of any useful piece.
 constexpr double kOnCut = 1e-9;
-// Edges whose directions have a cosine this near to 1 are parallel: to 5e-5 of a radian, over which no light
-// changes.
+// Edges are parallel if the cosine of the angle between them is at least this: up to 5e-5 rad, over which
+// light does not change.
 constexpr double kParallel = 1 - 1e-9;
-// A second direction is cut across if it is more than 60 degrees from the first: its cosine is below this.
+// A second direction of cuts must be more than 60 degrees from the first; its cosine is below this.
 constexpr double kMostCosine = 0.5;
 
 struct Near {
-  double distance;  // of the leaf's centre [m]
+  double distance;  // from the leaf's centre [m]
   PatchId patch;
 };
 
-// A convex part of the leaf, with a linear function of the place for its irradiance.
+// A convex part of the leaf, in which irradiance is a linear function of position.
 struct Part {
   Polygon3 polygon;
   Vec3 centre = Vec3::Zero();
   Rgb mean = Rgb::Zero();
-  Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  // a row per channel [W/m^3]
+  Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  // one row for each channel [W/m^3]
   int halved = 0;
 };
 
-// A way to cut a part: across a direction, in the middle of its extent.
+// A direction in which a part may be cut, across the middle of its extent.
 struct Direction {
   Vec3 normal = Vec3::Zero();  // unit, in the leaf's plane
   double low = 0, high = 0;    // of normal . p [m]
-  int pieces = 1;              // that it takes
-  double error = 0;            // with the most pieces
+  int pieces = 1;              // number of pieces that the error requires
+  double error = 0;            // with the largest number of pieces
 };
 
 class Divider {
@@ -74,7 +75,7 @@ class Divider {
   }
 
  private:
-  // The patches that may be the nearest to a part of the leaf.
+  // Finds the patches that may be the nearest to a part of the leaf.
   void FindNear() {
     const Vec3 centre = Centroid(element_.Vertices());
     const double size = Diameter(element_.Vertices());
@@ -83,7 +84,7 @@ class Divider {
       near_.push_back({Distance(pair.source, centre), pair.source});
       nearest = std::min(nearest, near_.back().distance);
     }
-    // No point of the leaf is farther from its centre than `size`: distances from it differ by that at most.
+    // No point of the leaf is farther than `size` from the centre, so distances differ by at most `size`.
     std::erase_if(near_, [&](const Near& n) { return n.distance > nearest + 2 * size; });
   }
 
@@ -117,7 +118,7 @@ class Divider {
       slope += point.weight * value.matrix() * off.transpose();
       moment += point.weight * off * off.transpose();
     }
-    // The rules' points are about the centroid, so that mean and slope do not mix.
+    // The centroid of the rule's points is the part's centroid, so mean and slope are independent.
     part.gradient = moment.ldlt().solve(slope.transpose()).transpose() / size;
     return part;
   }
@@ -173,12 +174,12 @@ class Divider {
       const double width = high - low, at = direction.normal.dot(part.centre);
       direction.low = low;
       direction.high = high;
-      double change = 0;  // of radiosity, relative
+      double change = 0;  // relative change of radiosity over the width
       for (int c = 0; c < 3; ++c)
         if (material_.reflectance[c] > 0 && around[c] > 0)
           change = std::max(change, material_.reflectance[c] / around[c] *
                                         std::abs(part.gradient.row(c).dot(direction.normal)) * width);
-      // How much of the width leads away from what is near.
+      // The fraction of the width that leads away from the nearest patches.
       const double below = Nearest(part.centre + (low - at) * direction.normal),
                    above = Nearest(part.centre + (high - at) * direction.normal);
       const double away = width > 0 ? std::min(1.0, std::abs(above - below) / width) : 0;
@@ -196,7 +197,7 @@ class Divider {
     return directions;
   }
 
-  // Cuts the polygons into strips across the direction, as many as the whole extent has pieces.
+  // Cuts the polygons across the direction into the strips that divide the direction's extent into `pieces`.
   static void Cut(const Direction& direction, int pieces, double snap, std::vector<Polygon3>& polygons) {
     for (int k = 1; k < pieces; ++k) {
       const double at = direction.low + (direction.high - direction.low) * k / pieces;

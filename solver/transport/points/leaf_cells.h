@@ -1,10 +1,10 @@
 // solver/transport/points/leaf_cells.h
 //
-// Cuts leaves into cells whose light is even enough for who sees it. Links may treat a leaf's radiosity as
-// constant, since distance blurs; a point beside the leaf cannot. Towards edges where walls meet radiosity
-// goes as a power of the distance between 0 and 1 (0.763 at a right angle and reflectance 1/2): cells are cut
-// by lines along the edge, at halves of the distance again and again, which costs a number of cells that
-// grows as the logarithm of what squares would cost.
+// Cuts leaves into cells of nearly constant light. A link may treat the radiosity of a leaf as constant,
+// because distance blurs it; a point close to the leaf may not. Near an edge where two walls meet, radiosity
+// depends on the distance d from the edge as d^a with 0 < a < 1 (a = 0.763 for a right angle and reflectance
+// 1/2). Cuts parallel to the edge halve the cell nearest to the edge again and again. If squares of the same
+// accuracy number n, the number of cells is of the order of log n.
 
 #pragma once
 
@@ -16,31 +16,31 @@
 namespace penumbra {
 
 struct LeafCellOptions {
-  // About the largest error, relative to the radiosity around, that a cell's constant light may cause where
-  // it arrives.
+  // About the largest error of irradiance that the constant light of a cell may cause at other surfaces,
+  // relative to the radiosity of the part around the cell.
   double error = 1e-3;
-  // Radiosity below this counts as this much [W/m^2].
+  // Radiosities below this count as this in the relative error [W/m^2].
   Rgb dark = Rgb::Zero();
-  double min_area = 0;  // of parts that are halved [m^2]
+  double min_area = 0;  // parts of at most this area are not halved [m^2]
 };
 
-// A leaf's light in parts. On each the samples give a linear function of the place, which even pieces of the
-// part stand for.
+// The light of a leaf. In each part irradiance is a linear function of position, fitted to samples; pieces of
+// constant light replace the function.
 struct LeafCells {
   std::vector<Polygon3> parts;
-  std::vector<Fragment> pieces;  // convex, with their light; together they tile the leaf
+  std::vector<Fragment> pieces;  // convex, tile the leaf; with their light
 
-  Rgb Mean() const;  // irradiance [W/m^2]
+  Rgb Mean() const;  // mean irradiance over the pieces [W/m^2]
 };
 
-// The mean of what the fronts reflect [W/m^2].
+// The mean radiosity that the fronts of the scene reflect [W/m^2].
 Rgb MeanReflected(const RadiositySolution& solution);
 
-// The leaf's light by the sources that `exact` knows. Parts are halved, by a line along one of their edges,
-// until the samples (Cubature) say that a few pieces each way err by no more than is asked for. The error of
-// a piece is how much radiosity changes over it in a direction, times its width in that direction over its
-// distance from the nearest patch that sees it. `start` is what the leaf is first cut into: the parts of a
-// former call, or what its contacts make of it.
+// The light of a leaf from the sources of `exact`. A part is halved by a line parallel to one of its edges
+// until, by the samples (Cubature), a few pieces in each direction meet options.error. The estimated error of
+// a piece in a direction is proportional to (change of radiosity over the piece) * (width of the piece) /
+// (distance to the nearest patch that sees the piece). `start` holds the initial parts: the parts of an
+// earlier call, or the pieces between the leaf's contacts.
 LeafCells CutLeaf(const RadiositySolution& solution, const PointIrradiance& exact, ElementId leaf,
                   std::vector<Polygon3> start, const LeafCellOptions& options);
 

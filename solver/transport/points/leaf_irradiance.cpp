@@ -7,8 +7,8 @@
 namespace penumbra {
 namespace {
 
-// A polygon whose points agree to this, relative to their mean, is averaged well by one rule; others, with
-// shadows or contacts on them, are split into four, so often at most.
+// If the samples of a polygon differ by at most kEven times their mean, one rule suffices. Other polygons,
+// crossed by shadows or contacts, are split into four, at most kMostRefined times.
 constexpr double kEven = 0.25;
 constexpr int kMostRefined = 1;
 
@@ -29,7 +29,7 @@ LeafIrradiance ExactLeafIrradiance(const RadiositySolution& solution, const Poin
     const Rgb centre = at_point();
     if (sampling == LeafSampling::kCentroid) return centre;
     for (int refinement = 0;; ++refinement) {
-      // The centre tells whether the rule's points, evenly spaced, all fell on the stripes of a blind.
+      // The centre detects evenly spaced rule points that all fall on the stripes of a blind.
       Rgb lowest = centre, highest = centre;
       Rgb mean = Rgb::Zero();
       for (const CubaturePoint& point : Cubature(polygon, refinement)) {

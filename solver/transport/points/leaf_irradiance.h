@@ -1,7 +1,7 @@
 // solver/transport/points/leaf_irradiance.h
 //
-// The exact mean irradiance of leaves: what deferred correction adds, and what tells how far a solution is
-// off.
+// The exact mean irradiance of leaves: the target of deferred correction, and a measure of a solution's
+// error.
 
 #pragma once
 
@@ -15,16 +15,16 @@ namespace penumbra {
 
 struct LeafIrradiance {
   Rgb mean = Rgb::Zero();      // [W/m^2]
-  std::vector<Rgb> fragments;  // of each of the leaf's fragments, if it has any [W/m^2]
+  std::vector<Rgb> fragments;  // mean of each of the leaf's fragments, if any [W/m^2]
 };
 
 enum class LeafSampling : std::uint8_t {
-  kCentroid,  // one point for the leaf or each fragment
+  kCentroid,  // one point for the leaf, or for each fragment
   kCubature,  // a rule of degree 2 or 3, refined where its points disagree
 };
 
-// The means of irradiance at points; with a tolerance, which these may leave out of their sources' detail, by
-// PointIrradiance::NearlyOnPatch().
+// The mean irradiance of a leaf and its fragments, from samples at points. With a positive tolerance, the
+// samples are those of PointIrradiance::NearlyOnPatch().
 LeafIrradiance ExactLeafIrradiance(const RadiositySolution& solution, const PointIrradiance& irradiance,
                                    ElementId leaf, LeafSampling sampling, double tolerance = 0);
 

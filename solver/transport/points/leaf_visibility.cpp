@@ -8,14 +8,14 @@
 namespace penumbra {
 namespace {
 
-// Leaves are widened by this much of their diameter, and of their patch's, before the tubes are drawn. A
-// point on the border of two leaves then has the same blockers in both, those that touch the border among
-// them.
+// Leaves are widened by these fractions of their own diameter and of their patch's diameter before tubes are
+// made. A point on the border of two leaves then has the same blockers in both, including those that touch
+// the border.
 constexpr double kMargin = 0.01, kMarginOfPatch = 1e-5;
 
-// A list is narrowed where the leaves below have at least so many blockers together: a tube costs as much as
-// some hundred looks of a point at a blocker, and few blockers go. 40 is best where leaves have eight points,
-// 10 no better where they have fifty, in a refined mesh.
+// Lists of blockers are narrowed if (leaves below) * (blockers) is at least this: a tube costs as much as
+// about a hundred tests of a blocker from a point, and removes few blockers. 40 is best for eight points per
+// leaf; 10 is not better for fifty points per leaf, in a refined mesh.
 constexpr std::size_t kWorthwhile = 40;
 
 Polygon3 Widened(std::span<const Vec3> polygon, double margin) {
@@ -35,7 +35,7 @@ struct Lists {
   }
 };
 
-// All that leaves of one patch see: per leaf its lists, depth first.
+// The lists of all leaves of one patch, depth first.
 struct PatchLists {
   std::vector<ElementId> leaves;
   std::vector<Lists> lists;
@@ -53,7 +53,7 @@ class Filter {
  public:
   Filter(const ElementForest& forest, const ExecutionContext& context)
       : forest_(forest), scene_(forest.scene()), context_(context), leaves_below_(forest.size(), 0) {
-    for (std::size_t i = forest.size(); i-- > 0;) {  // children come after their parents
+    for (std::size_t i = forest.size(); i-- > 0;) {  // children have larger numbers than their parents
       const Element& element = forest.elements()[i];
       if (element.IsLeaf()) leaves_below_[i] = 1;
       if (element.parent != kNoElement)
@@ -133,7 +133,7 @@ LeafVisibility::LeafVisibility(const ElementForest& forest, const PatchVisibilit
       blockers_.insert(blockers_.end(), patch.lists[i].blockers.begin(), patch.lists[i].blockers.end());
       range_[static_cast<std::size_t>(patch.leaves[i])] = {first, pairs_.size()};
     }
-    patch = {};  // memory for what comes
+    patch = {};  // frees memory early
   }
 }
 

@@ -18,21 +18,21 @@ namespace penumbra {
 
 namespace {
 
-// With fewer sources than this a search for what hides them costs more than it saves.
+// With fewer sources, a search for screens costs more than it saves.
 constexpr std::size_t kManySources = 16;
 
-// What may hide many sources at once: the largest patches in view, if they are larger than this [sr].
+// The largest number of screens of a point, and their smallest solid angle [sr].
 constexpr std::size_t kMostScreens = 16;
 constexpr double kLeastScreen = 0.02;
 
-// Where sources would send this many times the light that arrives, were it not for what hides them, errors
-// beside what they would send are too large: a bright source of which a dark corner is seen.
+// If the unoccluded light of the sources exceeds the arriving light by more than this factor, errors relative
+// to the unoccluded light are too large: a dark corner that sees a small part of a bright source.
 constexpr double kMostlyHidden = 4;
 
-// A source, and about the light that it would give unhindered.
+// A source with an estimate of its unoccluded light.
 struct RankedSource {
-  double light;  // in the brightest channel
-  Rgb rest;      // at most, of this source and of those after it
+  double light;  // estimate, in the brightest channel
+  Rgb rest;      // upper bound for this source and all sources after it
   const PatchPair* pair;
 };
 
@@ -92,8 +92,8 @@ PointIrradiance PointIrradiance::WithSources(SourceSet sources) const {
   return other;
 }
 
-// The same as GatherOnPatch(), the sources in the order of about the light that they would give unhindered.
-// The last are left out where all of them together cannot matter.
+// GatherOnPatch() with the sources in descending order of their estimated unoccluded light. Leaves out the
+// last sources if all of them together are negligible.
 void PointIrradiance::GatherBrightestFirst(PatchId patch, const ReceiverPoint& at,
                                            Gathering& gathering) const {
   const Scratch<std::vector<RankedSource>> scratch;

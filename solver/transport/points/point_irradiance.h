@@ -3,8 +3,8 @@
 // IrradianceAtPoint() (thesis, chapter 6): the irradiance at a point from the leaves of a solution, with
 // exact form factors and exact visibility. Blockers are cut out of the sources, never sampled.
 //
-// Contact (thesis 6.3, 6.4) is handled as a limit, with no distance in it: where the point lies in the plane
-// of a source or a blocker, the direction from which it is approached decides on which side it lies.
+// Contacts (thesis 6.3, 6.4) are limits without a distance: if the plane of a source or a blocker contains
+// the point, the point's approach direction decides on which side of the plane the point lies.
 
 #pragma once
 
@@ -25,52 +25,54 @@ namespace penumbra {
 
 struct PointIrradianceResult {
   Rgb irradiance = Rgb::Zero();  // [W/m^2]
-  // The approach direction decided something: another side of this point may have another value, and samples
-  // there must not be shared between triangles.
+  // The approach direction affected the value. The limit from another side may differ, so triangles on
+  // different sides must not share the sample.
   bool one_sided = false;
 };
 
 class PointIrradiance {
  public:
-  // From the leaves of a solution. What they see is found where it is not given. Everything referred to must
-  // outlive this object.
+  // Irradiance from the leaves of a solution. Computes what the leaves see unless `leaves` is given. All
+  // arguments passed by reference must outlive the object.
   PointIrradiance(const RadiositySolution& solution, const PatchVisibility& visibility,
                   const PointIrradianceOptions& options = {},
                   std::shared_ptr<const LeafVisibility> leaves = nullptr);
-  // From any set of sources, with the sources and blockers that the patches have: direct light, say.
+  // Irradiance from any set of sources, such as the emitters. The visibility gives the sources and blockers
+  // of each patch.
   PointIrradiance(const Scene& scene, const PatchVisibility& visibility, SourceSet sources,
                   const PointIrradianceOptions& options = {});
 
-  // The same view of the scene with other sources.
+  // The same geometry and options with other sources.
   PointIrradiance WithSources(SourceSet sources) const;
 
-  // At a point on the front of a patch: only the sources of its leaf (or patch) and their blockers are looked
-  // at, and the patch itself neither lights nor blocks. Safe from any thread.
-  // If `parts` is not null it gets what the irradiance is made of.
+  // The irradiance at a point on the front of a patch. Tests only the sources of the leaf (without a
+  // solution: of the patch) and their blockers; the patch itself neither lights nor blocks. Sets `parts`,
+  // unless null, to the parts of the irradiance. May be called from any thread.
   PointIrradianceResult OnPatch(PatchId patch, const ReceiverPoint& at,
                                 IrradianceParts* parts = nullptr) const;
 
-  // The same for interpolants: what is seen of a source may be seen as one of its mean radiosity where that
-  // costs at most about `tolerance` of the light from there (Gathering::AllowAggregates).
+  // The irradiance of OnPatch() within a tolerance, for interpolants. A subtree of a source may count as one
+  // polygon with one radiosity, if this changes the light of the source by at most about `tolerance`
+  // (Gathering::AllowAggregates).
   PointIrradianceResult NearlyOnPatch(PatchId patch, const ReceiverPoint& at, double tolerance) const;
 
-  // The same as OnPatch(), and what each leaf of the source set contributes to it: `factors` gets their form
-  // factors, seen parts only, by their number. REQUIRES: it has as many as there are leaves.
+  // Returns the irradiance of OnPatch(), and sets factors[i] to the form factor of the visible part of leaf i
+  // of the source set. REQUIRES: factors.size() is the number of leaves of the source set.
   Rgb OnPatch(PatchId patch, const ReceiverPoint& at, std::span<double> factors) const;
 
   const SourceSet& sources() const { return sources_; }
 
-  // How many times light that arrives there counts by going to and fro between the patch and the wall that
-  // sends back the most: 1 / (1 - rho rho' F^2), F the form factor to that wall as if nothing hid it, the
-  // channel where it is most. At most 1.2 beside an edge of a room, 2.8 deep in a slot, at reflectances of
-  // 0.8.
+  // The factor by which light at the point grows by going back and forth between `patch` and the patch that
+  // returns the largest fraction: 1 / (1 - rho rho' F^2), for the channel where it is largest. rho and rho'
+  // are the two reflectances, F the unoccluded form factor of the point to the other patch. For reflectances
+  // of 0.8, at most 1.2 next to an edge of a room, and 2.8 deep in a slot.
   double Reverberation(PatchId patch, const ReceiverPoint& at) const;
 
-  // The patches that a leaf of the solution sees. REQUIRES: made from a solution.
+  // The patches that a leaf of the solution sees. REQUIRES: the object was made from a solution.
   std::span<const PatchPair> SeenFrom(ElementId leaf) const { return leaves_->SourcesOf(leaf); }
 
-  // Anywhere, in free space too: every patch may light and block, and a hierarchy finds those that do. Safe
-  // from any thread.
+  // The irradiance at any point, also in free space. Every patch may light and block; a hierarchy finds the
+  // patches that do. May be called from any thread.
   PointIrradianceResult Anywhere(const ReceiverPoint& at, IrradianceParts* parts = nullptr) const;
 
  private:
@@ -78,7 +80,7 @@ class PointIrradiance {
   void ChooseMethod();
   void GatherOnPatch(PatchId patch, const ReceiverPoint& at, Gathering& gathering) const;
   void GatherBrightestFirst(PatchId patch, const ReceiverPoint& at, Gathering& gathering) const;
-  // The form factor of a source of that patch that nothing hides.
+  // An estimate and an upper bound of the unoccluded form factor of a point to a source on a patch.
   struct UnhinderedFactor {
     double about, most;
   };
@@ -88,13 +90,13 @@ class PointIrradiance {
 
   const Scene& scene_;
   const PatchVisibility& visibility_;
-  const ElementForest* forest_ = nullptr;  // whose leaves leaves_ knows; null without a solution
+  const ElementForest* forest_ = nullptr;  // the forest of leaves_; null without a solution
   SourceSet sources_;
   std::shared_ptr<const LeafVisibility> leaves_;
   PointIrradianceOptions options_;
-  std::shared_ptr<const OcclusionMethod> method_;  // what options_ names, if it is ours
-  PatchHierarchy patches_;                         // all of them
-  PatchHierarchy source_patches_;                  // those that send light
+  std::shared_ptr<const OcclusionMethod> method_;  // the method that options_ names, if this object made it
+  PatchHierarchy patches_;                         // all patches
+  PatchHierarchy source_patches_;                  // the patches that send light
   ScreenFinder screens_;
 };
 

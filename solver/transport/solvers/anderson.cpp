@@ -7,14 +7,14 @@
 namespace penumbra {
 namespace {
 
-constexpr std::size_t kSteps = 8;  // that are kept
+constexpr std::size_t kSteps = 8;  // number of steps kept
 
-// Directions that are this small beside the largest are rounding.
+// Directions this small relative to the largest are rounding errors.
 constexpr double kRankThreshold = 1e-10;
 
 }  // namespace
 
-// The weighted scalar products of two vectors of unknowns, by channel.
+// The weighted scalar product of two vectors of unknowns, for each channel.
 Rgb AndersonAcceleration::Product(const std::vector<Rgb>& a, const std::vector<Rgb>& b) const {
   Rgb sum = Rgb::Zero();
   for (std::size_t i = 0; i < a.size(); ++i) sum += weight_[i] * a[i] * b[i];

@@ -1,6 +1,6 @@
 // solver/transport/solvers/anderson.h
 //
-// Fewer sweeps in bright rooms: guesses where a linear iteration leads from where it has been.
+// Anderson acceleration: reduces the number of sweeps in bright rooms by extrapolating a linear iteration.
 
 #pragma once
 
@@ -11,21 +11,22 @@
 
 namespace penumbra {
 
-// Anderson's acceleration of x <- G(x), each channel by itself (D. G. Anderson 1965). For linear G it is
+// Anderson acceleration of x <- G(x), for each channel separately (D. G. Anderson 1965). For linear G it is
 // GMRES over the last steps (Walker and Ni 2011).
 class AndersonAcceleration {
  public:
-  // `weight` says how much each unknown counts: its area.
+  // `weight` is the weight of each unknown, its area.
   explicit AndersonAcceleration(std::vector<double> weight) : weight_(std::move(weight)) {}
 
-  // Takes note of a step from x to g = G(x), and replaces g by a better guess if it has one: the combination
-  // of the last steps whose residual is least. Where the residual has grown, it starts again from g.
+  // Records the step from x to g = G(x). Replaces g by a better estimate, if there is one: the combination of
+  // the last steps with the smallest residual. If the residual has grown, forgets the earlier steps and keeps
+  // g.
   void Improve(const std::vector<Rgb>& x, std::vector<Rgb>& g);
 
  private:
   struct Step {
-    std::vector<Rgb> residual, value;  // differences to the step after
-    std::deque<Rgb> product;           // of the residuals, with each step up to this one
+    std::vector<Rgb> residual, value;  // differences to the next step
+    std::deque<Rgb> product;  // scalar products of this residual with those of all steps up to this one
   };
 
   Rgb Product(const std::vector<Rgb>& a, const std::vector<Rgb>& b) const;

@@ -14,7 +14,7 @@ constexpr std::size_t kLeafGrain = 8;
 
 std::vector<double> LeafClosures(const ElementForest& forest, const PatchVisibility& visibility,
                                  std::span<const ElementId> leaves, const ExecutionContext& context) {
-  // Every front shines alike, so that irradiance is the share of the hemisphere that fronts fill.
+  // All fronts have unit radiosity, so irradiance is the fraction of the hemisphere that fronts fill.
   Scene bright = forest.scene();
   for (Material& material : bright.materials) material.emittance = Rgb::Ones();
   const PointIrradiance seen(bright, visibility, SourceSet::Emitters(bright));

@@ -1,8 +1,8 @@
 // solver/transport/solvers/closure.h
 //
-// How much of what a surface sends out the scene takes up again: the sums that the rows of form factors must
-// have. In rooms that are nearly white light bounces a thousand times, and a row that is off by one in a
-// thousand doubles it or halves it: there the links are brought into balance by these (PushPull::Balance).
+// The closure of leaves: the correct sum of the form factors of each leaf. In rooms that are nearly white,
+// light bounces a thousand times, and an error of 1/1000 in the sum doubles or halves the light. There the
+// closures bring the links into balance (PushPull::Balance).
 
 #pragma once
 
@@ -15,9 +15,10 @@
 
 namespace penumbra {
 
-// The share of what the front of each of these leaves would send out evenly that meets fronts of the scene
-// [1]: in a closed room 1, to rounding, less what covers the leaf. Exact at the centroids of the leaf's parts
-// between contacts (CutLeavesAtContacts), which stand for their parts. Of no use if it was cancelled.
+// For each leaf, the fraction of the diffuse light leaving its front that meets fronts of the scene [1]. In a
+// closed room it is 1, up to rounding, minus the covered fraction of the leaf. Exact at the centroids of the
+// leaf's parts between contacts (CutLeavesAtContacts); each centroid stands for its part. The result is
+// useless if the context is cancelled.
 std::vector<double> LeafClosures(const ElementForest& forest, const PatchVisibility& visibility,
                                  std::span<const ElementId> leaves, const ExecutionContext& context);
 

@@ -13,8 +13,8 @@ bool IsBefore(std::span<const Vec3> polygon, const Patch& patch) {
   return true;
 }
 
-// Distances between the polygons, then along and across each, for all orders of the vertices; keeps the
-// least.
+// Lists the squared distances between the polygons, then those within each, for all orders of the vertices,
+// and keeps the lexicographically smallest list.
 class Least {
  public:
   void Try(std::span<const Vec3> a, std::span<const Vec3> b) {
@@ -40,7 +40,7 @@ class Least {
     PairShape& shape = trial_;
     shape.clear();
     bool below = least_.empty();
-    // False as soon as the order is behind the least.
+    // Returns false as soon as the list is larger than the smallest so far.
     const auto add = [&](const Vec3& p, const Vec3& q) {
       const double distance = (p - q).squaredNorm();
       if (!below) {

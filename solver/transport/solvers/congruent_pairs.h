@@ -1,6 +1,7 @@
 // solver/transport/solvers/congruent_pairs.h
 //
-// Which pairs of polygons look alike: on even meshes most do, and one form factor serves them all.
+// Finds congruent pairs of polygons: regular meshes have many, and all pairs of one shape have the same form
+// factor.
 
 #pragma once
 
@@ -11,11 +12,11 @@
 
 namespace penumbra {
 
-// The squared distances among the vertices of two convex polygons, in an order that neither depends on which
-// polygon is first nor on where their vertices begin or which way they run [m^2]. Equal shapes have the same
-// flux between them, but for rounding of the coordinates, where nothing blocks: they are images of each other
-// by a rigid motion or a reflection. Empty for polygons that are not wholly before each other's planes: their
-// distances do not tell on which side their fronts are.
+// The squared distances between the vertices of two convex polygons [m^2], in an order that depends neither
+// on the order of the two polygons nor on their first vertices or orientations. Pairs of equal shape are
+// images of each other under a rigid motion or a reflection. Without blockers, they exchange the same flux up
+// to rounding of the coordinates. Empty if one polygon is not completely before the other's plane: distances
+// do not tell the front from the back.
 using PairShape = std::vector<double>;
 PairShape ShapeOfPair(std::span<const Vec3> a, const Patch& patch_a, std::span<const Vec3> b,
                       const Patch& patch_b);

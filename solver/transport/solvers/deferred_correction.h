@@ -10,17 +10,17 @@
 
 namespace penumbra {
 
-// What exact irradiance adds to that of the links (Stetter 1978). One value: a step that is cancelled puts
-// back the whole of it.
+// The difference between exact irradiance and the irradiance of the links (Stetter 1978). A single value, so
+// that a cancelled step can restore it.
 struct DeferredCorrection {
-  std::vector<Rgb> of_element;   // of leaves: exact less linked irradiance [W/m^2]; empty: none
-  std::vector<Rgb> of_fragment;  // per fragment of the solution: exact irradiance less its leaf's [W/m^2]
-  // Per leaf in ascending order: the parts that LeafCells cut it into; empty until they were cut.
+  std::vector<Rgb> of_element;   // of leaves: exact irradiance - irradiance of the links [W/m^2]; empty: none
+  std::vector<Rgb> of_fragment;  // of the solution's fragments: exact irradiance - that of the leaf [W/m^2]
+  // For each leaf in ascending order: the parts into which LeafCells has cut it. Empty before the first cut.
   std::vector<std::vector<Polygon3>> parts_of_leaf;
 
-  // Adds what sets `exact`, by element, apart from the irradiance that the solution's leaves have.
+  // Adds exact - solution.irradiance to the correction of each leaf; `exact` is by element.
   void AddDifference(const RadiositySolution& solution, std::span<const Rgb> exact);
-  // Lights the solution's fragments: each has the irradiance of its leaf and what sets it apart from that.
+  // Sets the light of the solution's fragments: the irradiance of the leaf + of_fragment.
   void LightFragments(RadiositySolution& solution) const;
 };
 

@@ -11,13 +11,14 @@
 namespace penumbra {
 namespace {
 
-// A parent's light is the area-weighted mean of its children's; spreads are those of the leaves below.
+// Sets the light of parents to the area-weighted means of their children, and the spreads to those of the
+// leaves below.
 void Average(RadiositySolution& solution) {
   const ElementForest& forest = solution.forest;
   const std::size_t count = forest.size();
   solution.radiosity_spread.assign(count, 0);
   solution.spread_below.assign(count, 0);
-  // Children follow their parents.
+  // Children have larger numbers than their parents.
   for (std::size_t e = count; e-- > 0;) {
     const auto id = static_cast<ElementId>(e);
     const Element& element = forest[id];
@@ -67,7 +68,7 @@ DenseLight SolveDense(const DenseSystem& system, std::span<const Rgb> emittance,
     for (Eigen::Index i = 0; i < n; ++i) of[i] = values[static_cast<std::size_t>(i)][channel];
     return of;
   };
-  // Channels of equal reflectances share the factors.
+  // Channels with equal reflectances share the factorisation.
   Eigen::VectorXd factored;
   Eigen::PartialPivLU<Eigen::MatrixXd> factors;
   for (int channel = 0; channel < 3 && n > 0; ++channel) {
@@ -125,7 +126,7 @@ DenseSolver::DenseSolver(const Scene& scene, const PatchVisibility& visibility, 
   solved_ = !context.Cancelled();
   if (!solved_) {
     solution_.forest = ElementForest(scene);
-    PushPull dark(solution_);  // lights the elements by what they emit
+    PushPull dark(solution_);  // sets the light of the elements to emittance only
     return;
   }
   solution_ = ToRadiositySolution(system, SolveDense(system));

@@ -1,7 +1,7 @@
 // solver/transport/solvers/dense_solver.h
 //
-// Solves dense systems directly, for all three channels: reference solutions. DenseSolver is the solver of
-// that kind.
+// Direct solution of dense systems, for all three channels: reference solutions. DenseSolver is the
+// LightSolver of dense systems.
 
 #pragma once
 
@@ -14,34 +14,35 @@
 
 namespace penumbra {
 
-// The light of a dense system's unknowns.
+// The light of the unknowns of a dense system.
 struct DenseLight {
   std::vector<Rgb> irradiance, radiosity;  // per unknown [W/m^2]
 };
 
-// B = E + rho T B by LU factors with pivots. `emittance` [W/m^2] and `reflectance` are per unknown; those of
-// the scene's materials by default.
+// Solves B = E + rho T B by LU factorisation with pivoting. `emittance` [W/m^2] and `reflectance` are for
+// each unknown; by default those of the scene's materials.
 DenseLight SolveDense(const DenseSystem& system);
 DenseLight SolveDense(const DenseSystem& system, std::span<const Rgb> emittance,
                       std::span<const Rgb> reflectance);
 
-// The irradiance at a point on the front of a patch from the solution as it is, linear or quadratic over each
-// element [W/m^2]. Exact past whatever blocks, but for kSourceQuadratureError. Safe from any thread.
+// The irradiance at a point on the front of a patch [W/m^2], from the solution that is constant, linear or
+// quadratic over each element. Exact with any blockers, except for kSourceQuadratureError. May be called from
+// any thread.
 Rgb DenseIrradiance(const DenseSystem& system, const DenseLight& light, const PatchVisibility& visibility,
                     PatchId patch, const ReceiverPoint& at);
 
-// The solution as exact probes and meshes take it: each leaf has the mean of its radiosity. No links.
+// The solution in the form that exact probes and meshes need: each leaf has its mean radiosity. Has no links.
 RadiositySolution ToRadiositySolution(const DenseSystem& system, const DenseLight& light);
 
-// Unknowns that a dense solve may have: 4 GB with the copy that is factored.
+// The largest number of unknowns: 4 GB, with the copy that is factored.
 inline constexpr std::size_t kMostDenseUnknowns = 16'000;
 
-// The dense system of a uniform mesh, solved directly as it is made: there are no steps left. Linear and
-// quadratic elements hand on their means. The light stays as it was solved, whatever is shown of it.
+// Solves the dense system of a uniform mesh in its constructor; no steps remain. Linear and quadratic
+// elements pass on their means. The light never changes after the solution.
 class DenseSolver final : public LightSolver {
  public:
-  // Throws InputError if the system has more than kMostDenseUnknowns. Cancelled, it leaves the roots, dark
-  // but for what they emit.
+  // Throws InputError if the system has more than kMostDenseUnknowns unknowns. If the context is cancelled,
+  // the solution has the roots only, lit by their emittance only.
   DenseSolver(const Scene& scene, const PatchVisibility& visibility, const DenseOptions& options,
               const ExecutionContext& context);
 

@@ -36,7 +36,7 @@ void AddElements(const ElementForest& forest, BasisDegree degree, ElementId leaf
   }
 }
 
-// Form factors between the constant elements of two patches that see each other.
+// The form factors between the constant elements of two patches that see each other.
 class ConstantPairs {
  public:
   ConstantPairs(DenseSystem& system, const DenseOptions& options, std::vector<double>& row_error)
@@ -57,7 +57,7 @@ class ConstantPairs {
           AreaFormFactor(scene_, between, {a, from.polygon}, {b, to.polygon}, how);
       return FormFactorEstimate{from.area * estimate.factor, from.area * estimate.error};
     };
-    // Pairs that look alike share their form factor: the first one's.
+    // Congruent pairs share the form factor of the first such pair.
     std::vector<PairShape> shape(count_a * count_b);
     if (blockers.empty())
       ParallelFor(count_a, 1, [&](std::size_t i) {

@@ -1,16 +1,15 @@
 // solver/transport/solvers/dense_system.h
 //
-// The radiosity equation on the leaves of a forest as a dense matrix: what the hierarchical solver is
-// measured by.
+// The radiosity equation on the leaves of a forest as a dense matrix: the reference for the hierarchical
+// solver.
 //
-// Constant elements are Galerkin's: the form factors are those of areas, so that the light that leaves one
-// element is the light that arrives at the others, and the mean irradiance of a closed room is right on any
-// mesh. Linear and quadratic elements are collocated at Gauss nodes inside the elements: a row is then an
-// integral over sources alone, and where walls meet none of its nodes lies on the common edge. Rows of a
-// closed room add up to 1 all the same, and the irradiance that the solution sends to other points converges
-// faster than the solution does (iterated collocation; Atkinson, The numerical solution of integral equations
-// of the second kind, 1997). What collocation gives up is reciprocity, which holds to the order of the
-// method. Nothing is normalised.
+// Constant elements use the Galerkin method with form factors between areas: the light that leaves an element
+// equals the light that arrives at the others, and the mean irradiance of a closed room is correct on every
+// mesh. Linear and quadratic elements use collocation at Gauss nodes inside the elements: a row is an
+// integral over sources only, and no node lies on an edge where walls meet. Rows of a closed room still add
+// up to 1. The irradiance that the solution sends to other points converges faster than the solution itself
+// (iterated collocation; Atkinson, The numerical solution of integral equations of the second kind, 1997).
+// With collocation, reciprocity holds only to the order of the method. No form factor is normalised.
 
 #pragma once
 
@@ -30,67 +29,64 @@ namespace penumbra {
 
 struct DenseOptions {
   BasisDegree degree = BasisDegree::kConstant;
-  int divisions = 4;  // of each patch's sides into elements: a power of two (UniformForest)
-  // Of form factors between constant elements, where something stands between: the relative error that is
-  // asked for, and the points that a pair may cost (AreaFormFactorOptions). Others are exact but for
-  // rounding.
+  int divisions = 4;  // elements along each side of a patch: a power of two (UniformForest)
+  // For form factors between constant elements with blockers: the relative error, and the largest number of
+  // points for one pair (AreaFormFactorOptions). Other form factors are exact up to rounding.
   double tolerance = 1e-7;
   std::size_t max_points = 100'000;
 };
 
-// A leaf, or one of the two triangles of a leaf that is no parallelogram, if the degree is not constant.
+// A leaf. If the degree is not constant, a leaf that is no parallelogram gives two triangles.
 struct DenseElement {
   ElementId leaf = kNoElement;
   Polygon3 polygon;  // [m]
   double area = 0;   // [m^2]
   ElementBasis basis;
-  std::size_t first = 0;  // its first unknown; there are basis.size()
+  std::size_t first = 0;  // its first unknown; it has basis.size() unknowns
 };
 
 struct DenseSystem {
   ElementForest forest;
   BasisDegree degree = BasisDegree::kConstant;
   std::vector<DenseElement> elements;           // by patch, then in depth-first order of the leaves
-  std::vector<std::size_t> first_of_patch;      // into elements, and one past the last
-  std::vector<std::size_t> element_of_unknown;  // into elements
-  // Irradiance of the unknown of the row from unit radiosity of that of the column [1]: of a constant element
-  // its mean, else at its node.
+  std::vector<std::size_t> first_of_patch;      // in `elements`, and one past the last
+  std::vector<std::size_t> element_of_unknown;  // index in `elements`
+  // transport(i, j): irradiance of unknown i for unit radiosity of unknown j [1]; the mean over a constant
+  // element, otherwise the value at the node.
   Eigen::MatrixXd transport;
-  double form_factor_error = 0;  // the largest sum over a row of what form factors may be off by
+  double form_factor_error = 0;  // the largest sum over a row of the form factors' errors
 
   std::size_t size() const { return element_of_unknown.size(); }
   PatchId PatchOf(std::size_t unknown) const {
     return forest[elements[element_of_unknown[unknown]].leaf].patch;
   }
-  // The area that an unknown stands for [m^2]; they add up to the scene's.
+  // The area of an unknown [m^2]. All weights add up to the area of the scene.
   double Weight(std::size_t unknown) const;
 };
 
-// How well the matrix keeps what light must: sums of rows are 1 in closed rooms, and weight x transport is
-// symmetric.
+// Two properties of the exact operator: rows sum to 1 in closed rooms, and weight * transport is symmetric.
 struct DenseClosure {
   double least_row_sum = 1, largest_row_sum = 0;
   double reciprocity =
-      0;  // |W T - (W T)'| / |W T|, in Frobenius' norm; 0 by construction of constant elements
+      0;  // |W T - (W T)'| / |W T| in the Frobenius norm; 0 for constant elements by construction
 };
 DenseClosure MeasureClosure(const DenseSystem& system);
 
-// How many unknowns the leaves of a forest have.
+// The number of unknowns on the leaves of a forest.
 std::size_t CountUnknowns(const ElementForest& forest, BasisDegree degree);
 
-// REQUIRES: the visibility is that of the forest's scene. Parallel, and the same for any number of threads.
-// Empty, with no unknowns, if cancelled.
+// Computes the dense system. Parallel; the result does not depend on the number of threads. Has no unknowns
+// if the context is cancelled. REQUIRES: the visibility is that of the forest's scene.
 DenseSystem AssembleDense(const ElementForest& forest, const PatchVisibility& visibility,
                           const DenseOptions& options, const ExecutionContext& context);
 
-// Adds to `row`, an entry an unknown, the irradiance at a point on the front of a patch from unit radiosity
-// of each unknown [1]: exact past whatever blocks, but for kSourceQuadratureError. Safe from any
-// thread.
+// Adds to row[i] the irradiance at a point on the front of a patch for unit radiosity of unknown i [1]. Exact
+// with any blockers, except for kSourceQuadratureError. May be called from any thread.
 void AddTransport(const DenseSystem& system, const PatchVisibility& visibility, PatchId patch,
                   const ReceiverPoint& at, std::span<double> row);
 
-// Every patch of the scene cut into divisions x divisions elements. REQUIRES: a power of two, at most
-// 2^kMaxLevel.
+// All patches of the scene, each cut into divisions x divisions elements. REQUIRES: `divisions` is a power of
+// two, at most 2^kMaxLevel.
 ElementForest UniformForest(const Scene& scene, int divisions);
 
 }  // namespace penumbra

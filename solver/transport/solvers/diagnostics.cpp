@@ -28,7 +28,8 @@ LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution, const Execution
   const Scene& scene = solution.forest.scene();
   LinkDiagnostics diagnostics;
   diagnostics.closure.assign(scene.patches.size(), 0);
-  // What a unit of radiosity sends between two patches, the lower number first: one way, and less the other.
+  // The flux per unit radiosity between two patches, lower number first: the flux in one direction minus that
+  // in the other.
   struct Exchange {
     PatchId first, second;
     double difference;
@@ -88,7 +89,8 @@ ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch, st
   if (scene.patches.empty() || rays_per_patch == 0 || context.Cancelled()) return diagnostics;
   const RayCaster caster(scene);
   const double lift = ContactGap(scene);
-  // Rays that meet nothing, those that meet backs, and those that begin where something lies on the patch.
+  // For each patch: rays that hit nothing, rays that hit backs, and rays that start where something lies on
+  // the patch.
   std::vector<std::size_t> away(scene.patches.size()), back(scene.patches.size()),
       covered(scene.patches.size());
   ParallelFor(scene.patches.size(), 8, [&](std::size_t p) {
@@ -101,8 +103,8 @@ ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch, st
       const RayCaster::Hit hit = caster.Cast(ray.origin, ray.direction, id);
       if (hit.patch == kNoPatch) ++away[p];
       if (hit.patch == kNoPatch || hit.front) continue;
-      // A ray through the patch, from behind it (the ray above began before it): what lies on the patch is a
-      // lid.
+      // Casts a ray through the patch from behind; the first ray started before the patch. A hit close to the
+      // patch is something that lies on it.
       constexpr double kLiftsBehind = 3;
       const RayCaster::Hit lid =
           caster.Cast(ray.origin - kLiftsBehind * lift * patch.normal, patch.normal, id);
@@ -110,11 +112,11 @@ ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch, st
     }
   });
   double area = 0;
-  std::map<std::int32_t, bool> blind;  // by face, of those that are free anywhere
+  std::map<std::int32_t, bool> blind;  // of faces with an uncovered part: true if they see only backs
   for (std::size_t p = 0; p < scene.patches.size(); ++p) {
     area += scene.patches[p].area;
     diagnostics.escaping += scene.patches[p].area * static_cast<double>(away[p]);
-    // What something lies on sees nothing; a face is reversed as a whole.
+    // Completely covered patches see nothing. A face is reversed only as a whole.
     if (covered[p] == rays_per_patch) continue;
     for (const std::int32_t face : scene.patches[p].faces) {
       const auto [at, is_new] = blind.emplace(face, true);
@@ -138,13 +140,13 @@ std::vector<std::int32_t> DarkEmitters(const Scene& scene, std::size_t rays_per_
   ParallelFor(scene.patches.size(), 8, [&](std::size_t p) {
     const Patch& patch = scene.patches[p];
     for (std::size_t i = 0; emits(p) && i < rays_per_patch && !lights[p]; ++i) {
-      // Not lifted: what is next to nothing before it may be what hides it.
+      // No lift: the object that hides the emitter may lie directly before it.
       const DiffuseRay ray = MakeDiffuseRay(patch.Vertices(), patch.normal, 0, p * rays_per_patch + i, seed);
       const RayCaster::Hit hit = caster.Cast(ray.origin, ray.direction, static_cast<PatchId>(p));
       lights[p] = hit.patch != kNoPatch && hit.front;
     }
   });
-  // A face lights something if any of its patches does.
+  // A face lights something if one of its patches does.
   std::vector<char> dark(scene.faces.size(), 0);
   for (const bool light : {false, true})
     for (std::size_t p = 0; p < scene.patches.size(); ++p)
@@ -157,14 +159,14 @@ std::vector<std::int32_t> DarkEmitters(const Scene& scene, std::size_t rays_per_
 }
 
 LitSides FindLitSides(const Scene& scene, std::size_t rays_per_patch, std::uint64_t seed) {
-  // Lamps that are small are found from what they light by luck alone, and skies from their own side.
+  // Rays from receivers find small lamps only by chance, and skies only from the side that emits.
   constexpr std::size_t kRaysOfEmitter = 1024;
   const RayCaster caster(scene);
   const double lift = ContactGap(scene);
   const auto emits = [&](PatchId p) { return (scene.MaterialOf(p).emittance > 0).any(); };
   struct Seen {
-    bool front = false, back = false;  // whether an emitter sees it
-    std::vector<RayCaster::Hit> lit;   // by it
+    bool front = false, back = false;  // an emitter sees this side
+    std::vector<RayCaster::Hit> lit;   // hits of rays from this emitter
   };
   std::vector<Seen> seen(scene.patches.size());
   ParallelFor(seen.size(), 8, [&](std::size_t p) {

@@ -1,7 +1,7 @@
 // solver/transport/solvers/diagnostics.h
 //
-// What tells whether a scene and its links are sound: whether form factors add up, whether both links of a
-// pair agree, whether light can leave, whether a face looks the wrong way. Nothing here changes anything.
+// Tests for defects of a scene and its links: the sums of form factors, the reciprocity of links, light that
+// escapes, and faces that are reversed. The tests change nothing.
 
 #pragma once
 
@@ -15,50 +15,51 @@
 namespace penumbra {
 
 struct LinkDiagnostics {
-  // Per patch: the sum of the form factors of all links that end in its tree, weighted by area and per free
-  // area of the patch (FreeAreas) [1]. In a closed scene it is 1, but for the error of the links. 0 of a
-  // patch that is wholly covered, which counts for none of the following.
+  // For each patch: sum of receiver area * form factor over all links that end in its tree, divided by the
+  // free area of the patch (FreeAreas) [1]. In a closed scene 1, up to the error of the links. 0 for a patch
+  // that is covered completely; such patches do not count for the values below.
   std::vector<double> closure;
   double closure_min = 0, closure_max = 0;
   double closure_mean = 0;  // weighted by free area
   double covered_area = 0;  // of all patches [m^2]
 
-  // Reciprocity: |A1 F12 - A2 F21| / min(A1, A2) [1], of pairs of links between the same two elements (links
-  // are split one way at a time, so that few have such a counterpart), and of all pairs of patches, each with
-  // the sum over the links from one tree to the other.
+  // Reciprocity, |A1 F12 - A2 F21| / min(A1, A2) [1]: of pairs of links between the same two elements, and of
+  // pairs of patches with the sum over all links between their trees. Links are split in one direction at a
+  // time, so few links have a counterpart.
   std::size_t link_pairs = 0, patch_pairs = 0;
-  double link_reciprocity = 0, patch_reciprocity = 0;  // the worst
+  double link_reciprocity = 0, patch_reciprocity = 0;  // the largest values
 };
-// Of no use if it was cancelled.
+// The result is useless if the context is cancelled.
 LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution,
                               const ExecutionContext& context = ExecutionContext());
 
 struct ViewDiagnostics {
   std::size_t rays = 0;
-  double escaping = 0;  // share of what leaves the fronts, evenly and diffusely, that meets nothing
-  // Faces whose fronts, where nothing lies on them, see nothing but backs, by number: their vertices may run
-  // the wrong way.
+  double escaping = 0;  // fraction of the diffuse light leaving the fronts, evenly, that meets nothing
+  // Numbers of the faces whose fronts see only backs, apart from covered parts; the order of their vertices
+  // may be reversed.
   std::vector<std::int32_t> reversed_faces;
 };
-// Sends as many rays from each patch, by a low-discrepancy rule, cosine distributed. Deterministic for a
-// given seed. Of no use if it was cancelled.
+// Casts the same number of cosine-distributed low-discrepancy rays from each patch. Deterministic for a given
+// seed. The result is useless if the context is cancelled.
 ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch = 64, std::uint64_t seed = 1,
                               const ExecutionContext& context = ExecutionContext());
 
-// Faces that emit, by number, and from whose fronts no light falls on any front, by as many rays of each of
-// their patches: what hides an emitter lies before it, or it looks away from all there is.
+// Numbers of the faces that emit but light no front, by `rays_per_patch` rays from each of their patches. An
+// emitter lights nothing if an object before it hides it, or if it faces away from the scene.
 std::vector<std::int32_t> DarkEmitters(const Scene& scene, std::size_t rays_per_patch = 512,
                                        std::uint64_t seed = 1);
 
-// Area that reflects and that emitters see [m^2]: on fronts, whatever else, or on backs alone.
+// The total area of reflecting patches that emitters see from the front, and of those that emitters see only
+// from the back [m^2].
 struct LitSides {
   double front = 0, back = 0;
-  // Whether the scene, but for its lamps, is turned inside out: faces as they may be, a room's walls are lit
-  // from inside. A single face that light meets from behind is none.
+  // True if the scene, apart from its lamps, seems to be turned inside out: light reaches the walls of a room
+  // from inside, however its faces are oriented. A single face that is lit from behind is not enough.
   bool TurnedInsideOut() const { return back > front; }
 };
-// By so many rays from either side of each patch, and a thousand from each emitter. Deterministic for a given
-// seed.
+// Casts `rays_per_patch` rays from either side of each patch, and about a thousand from each emitter.
+// Deterministic for a given seed.
 LitSides FindLitSides(const Scene& scene, std::size_t rays_per_patch = 64, std::uint64_t seed = 1);
 
 }  // namespace penumbra

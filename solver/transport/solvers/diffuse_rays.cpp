@@ -10,8 +10,8 @@
 namespace penumbra {
 namespace {
 
-// Seeds begin this far apart in the sequence. A prime, so that few seeds share a beginning with some ray of
-// others.
+// Distance between the starts of two seeds in the sequence. A prime, so that few seeds share their first rays
+// with later rays of other seeds.
 constexpr std::uint64_t kSeedStride = 7919;
 
 Vec3 CosineDirection(const Vec3& normal, double s, double t) {

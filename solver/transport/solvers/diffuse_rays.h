@@ -13,9 +13,9 @@ struct DiffuseRay {
   Vec3 origin, direction;  // [m]; unit
 };
 
-// The i-th of a sequence of rays that leave a convex polygon evenly, cosine distributed about its normal
-// (unit), by a low-discrepancy rule. They begin `lift` [m] before it: what lies on it, looking the other way,
-// neither is met nor blocks.
+// Ray i of a low-discrepancy sequence of rays that leave a convex polygon evenly and cosine-distributed about
+// the unit vector `normal`. The rays start `lift` [m] before the polygon, so that they neither hit nor are
+// blocked by a polygon that lies on it with the opposite front.
 DiffuseRay MakeDiffuseRay(std::span<const Vec3> polygon, const Vec3& normal, double lift, std::size_t i,
                           std::uint64_t seed);
 

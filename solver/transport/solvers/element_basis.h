@@ -1,6 +1,6 @@
 // solver/transport/solvers/element_basis.h
 //
-// Polynomials over an element of the dense solver, by their values at nodes inside it.
+// Polynomials over an element of the dense solver, given by their values at nodes inside the element.
 
 #pragma once
 
@@ -14,43 +14,44 @@
 
 namespace penumbra {
 
-// The degree of the radiosity over an element: in all, over triangles; in each of two parameters, over
-// parallelograms.
+// The degree of the radiosity over an element: the total degree on triangles, the degree in each of two
+// parameters on parallelograms.
 enum class BasisDegree { kConstant = 0, kLinear = 1, kQuadratic = 2 };
 
-// Functions that are 1 at their own node and 0 at the others. The nodes are those of rules for the mean over
-// the element: Gauss and Legendre's, one, 2 x 2 or 3 x 3, on a parallelogram; of degree 1, 2 or 4, with one,
-// three or six nodes, on a triangle (Strang and Fix 1973; Dunavant 1985).
+// Basis functions that are 1 at their own node and 0 at the other nodes. The nodes are those of rules for the
+// mean over the element. On a parallelogram: Gauss-Legendre rules with 1, 2 x 2 or 3 x 3 nodes. On a
+// triangle: rules of degree 1, 2 or 4 with 1, 3 or 6 nodes (Strang and Fix 1973; Dunavant 1985).
 class ElementBasis {
  public:
-  static constexpr std::size_t kMost = 9;  // functions
+  static constexpr std::size_t kMost = 9;  // largest number of functions
 
-  // REQUIRES: a triangle or a parallelogram; of other quadrilaterals only the constant degree.
+  // REQUIRES: a triangle or a parallelogram; for kConstant, any quadrilateral.
   ElementBasis(std::span<const Vec3> polygon, BasisDegree degree);
 
   std::size_t size() const { return node_.size(); }
   const Vec3& Node(std::size_t i) const { return node_[i]; }  // [m]
-  double Weight(std::size_t i) const { return weight_[i]; }   // of the rule for the mean; they add up to 1
+  double Weight(std::size_t i) const { return weight_[i]; }   // of the rule for the mean; the sum is 1
 
-  // The functions are combinations of monomials, which are cheaper where many values are added up.
+  // Sums over many positions are cheaper in monomials than in basis functions. Adds factor * (monomials at
+  // the position) to `monomials`.
   using Values = std::array<double, kMost>;
   void AddMonomials(const Vec3& position, double factor, Values& monomials) const;
-  // What a sum of monomials over positions is for each function.
+  // Converts a sum of monomials over positions to the same sum of each basis function.
   Values FromMonomials(const Values& monomials) const;
 
-  // The functions at a position in the element's plane.
+  // The values of the basis functions at a position in the element's plane.
   Values At(const Vec3& position) const;
 
  private:
   int degree_ = 0;
   bool tensor_ = false;
-  Vec3 origin_, s_, t_;  // parameters: s . (position - origin) and t . (...)
+  Vec3 origin_, s_, t_;  // parameters: s_ . (position - origin_), t_ . (position - origin_)
   std::vector<Vec3> node_;
   std::vector<double> weight_;
   Eigen::MatrixXd coefficient_;  // of monomial m in function i
 };
 
-// Whether opposite sides of a quadrilateral are equal but for rounding of coordinates up to `extent` [m].
+// True if opposite sides of the quadrilateral are equal, up to rounding of coordinates up to `extent` [m].
 bool IsParallelogram(std::span<const Vec3> polygon, double extent);
 
 }  // namespace penumbra

@@ -14,13 +14,13 @@ namespace {
 
 constexpr std::size_t kRayGrain = 1024;
 
-// A polygon that sends out light.
+// A polygon that sends light.
 struct Sender {
   PatchId patch;
   const SourceSet::Node* node;
 };
 
-// The sender whose share of the flux covers (i + 1/2) / count.
+// The sender whose interval of the cumulative flux contains the fraction (i + 1/2) / count.
 const Sender& SenderOfRay(const std::vector<Sender>& senders, const std::vector<double>& cumulative,
                           std::size_t i, std::size_t count) {
   const double at = (static_cast<double>(i) + 0.5) / static_cast<double>(count) * cumulative.back();

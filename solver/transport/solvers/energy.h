@@ -1,6 +1,6 @@
 // solver/transport/solvers/energy.h
 //
-// Where the light goes: emitted = absorbed + escaped, each part measured on its own.
+// The energy balance of a solution: emitted = absorbed + escaped. Each term is measured independently.
 
 #pragma once
 
@@ -11,17 +11,17 @@
 
 namespace penumbra {
 
-// Fluxes [W], summed over the channels.
+// Fluxes, summed over the channels [W].
 struct EnergyBalance {
-  double emitted = 0;             // what the surfaces emit
-  double absorbed = 0;            // by fronts, from the solution's irradiance, and by black backs, by rays
-  double escaped = 0;             // what leaves the scene, by rays
+  double emitted = 0;             // by the surfaces
+  double absorbed = 0;            // by fronts (from the solution's irradiance) and by black backs (from rays)
+  double escaped = 0;             // leaves the scene, from rays
   double relative_imbalance = 0;  // |emitted - absorbed - escaped| / emitted; 0 in a dark scene
 };
 
-// Rays leave the leaves and fragments by a low-discrepancy rule, as many from each as its share of the flux,
-// cosine distributed. Their error is about 1 / rays for smooth scenes. Deterministic for a given seed. Of no
-// use if it was cancelled.
+// Casts cosine-distributed low-discrepancy rays from the leaves and fragments; the number of rays of each is
+// proportional to its flux. The error of the rays is about 1 / rays in smooth scenes. Deterministic for a
+// given seed. The result is useless if the context is cancelled.
 EnergyBalance MeasureEnergy(const RadiositySolution& solution, std::size_t rays = std::size_t{1} << 18,
                             std::uint64_t seed = 1, const ExecutionContext& context = ExecutionContext());
 

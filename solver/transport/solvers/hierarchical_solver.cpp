@@ -14,13 +14,14 @@
 namespace penumbra {
 namespace {
 
-constexpr std::size_t kExactGrain = 8;  // leaves that a task corrects
-// Radiosities below this share of what the fronts reflect on the whole count as that much, where sources are
-// cut.
+constexpr std::size_t kExactGrain = 8;  // leaves in one task of correction
+// Radiosities below this fraction of the mean reflected radiosity count as this fraction when leaves are cut
+// into cells.
 constexpr double kDark = 0.5;
-// By what passes that prepare the parts of leaves may err, and how it falls: by about what a pass gains.
+// Error of the first pass that prepares the parts of leaves, and the factor between passes: about the gain of
+// a pass.
 constexpr double kCoarsestCells = 0.1, kCellStep = 4;
-// Below this a pass that cuts nothing further is the last of them.
+// At or below this error, a pass that cuts nothing further is the last.
 constexpr double kFineCells = 1e-3;
 
 }  // namespace
@@ -41,7 +42,7 @@ HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility
       links_(scene, visibility, options, std::move(solution), context) {
   const RadiositySolution& light = links_.solution();
   const PushPull& push_pull = links_.push_pull();
-  // What corrected a leaf is what its links do not bring.
+  // The correction of a leaf is its irradiance minus that of its links.
   const std::vector<Rgb> linked = push_pull.Transport(light.radiosity);
   correction_.of_element.assign(light.forest.size(), Rgb::Zero());
   for (const ElementId leaf : push_pull.leaves())
@@ -59,7 +60,7 @@ void HierarchicalSolver::Restore(Snapshot before) {
   correction_ = std::move(before.correction);
 }
 
-// What corrected the old leaves says nothing of new ones, or of other light.
+// Corrections of old leaves are not valid for new leaves or for other light.
 void HierarchicalSolver::TakeCorrectionsBack() {
   links_.solution().fragments.clear();
   correction_ = {};
@@ -99,7 +100,7 @@ std::optional<IterationReport> HierarchicalSolver::Iterate(const ExecutionContex
   if (report.links_split > 0) {
     seen_from_leaves_.reset();
     if (going) TakeCorrectionsBack();
-    // The new links carry light at once, so that what is left is a solution on all of them.
+    // The new links carry light at once, so that the solution is consistent with all links.
     going = going && links_.Settle(correction_.of_element, cutoff, report, context);
   }
   if (!going) {
@@ -203,8 +204,8 @@ std::optional<double> HierarchicalSolver::Correct(LeafSampling sampling, const E
   return change;
 }
 
-// Adds what exact irradiance is above that of the leaves and fragments, without any bounces of it. Returns
-// the root mean square change of the leaves' irradiance, relative to its mean; nothing if cancelled.
+// Adds the difference between exact irradiance and the irradiance of leaves and fragments, without bounces.
+// Returns the root mean square change of the leaves' irradiance, relative to its mean; nothing if cancelled.
 std::optional<double> HierarchicalSolver::AddExact(LeafSampling sampling, const ExecutionContext& context) {
   const RadiositySolution& solution = links_.solution();
   const std::span<const ElementId> leaves = links_.push_pull().leaves();
@@ -297,11 +298,11 @@ bool HierarchicalSolver::CorrectAll(const ExecutionContext& context) {
        error /= kCellStep) {
     const std::size_t before = parts();
     if (!CorrectByCells(error, context)) break;
-    // Where parts are as small as they may become, a smaller error cuts no more.
+    // If all parts are as small as allowed, a smaller error makes no more cuts.
     if (error < kFineCells && parts() == before) break;
   }
-  // All passes but the last only need to come near: the last one, here or by SetLight(), replaces what they
-  // added.
+  // All passes except the last may be approximate: the last pass, here or in SetLight(), replaces their
+  // corrections.
   const int passes = options_.max_corrections - (options_.last_correction_elsewhere ? 1 : 0);
   for (int pass = 1; pass <= passes && !context.Cancelled(); ++pass) {
     context.Report("correct", static_cast<double>(pass - 1) / options_.max_corrections);

@@ -1,13 +1,15 @@
 // solver/transport/solvers/hierarchical_solver.h
 //
-// The hierarchical radiosity solver (thesis, chapter 4; Hanrahan, Salzman and Aupperle 1991): gather over
-// links, push-pull through the quadtrees, refine links, until nothing changes beyond the relative cut-off.
+// The hierarchical radiosity solver (thesis, chapter 4; Hanrahan, Salzman and Aupperle 1991): gathers over
+// links, pushes and pulls light through the quadtrees, and refines links, until changes are below the
+// relative cut-off.
 //
-// Links are what refinement is steered by and what iterations cost little with, but each of them errs by up
-// to eps, and the errors of sources add up to missing energy. So the converged solution is corrected: the
-// exact irradiance of every leaf from all leaves (IrradianceAtPoint) less what the links bring is added to
-// the leaf, and the bounces of that are gathered over the links again. This is deferred correction (Stetter
-// 1978): each pass multiplies the error of the transport by the relative error of the links, some hundredths.
+// Links control refinement and make iterations cheap, but each link has an error of up to eps, and the errors
+// of sources add up to missing energy. The solver therefore corrects the converged solution (deferred
+// correction, Stetter 1978): it computes the exact irradiance of every leaf from all leaves
+// (IrradianceAtPoint), adds the difference from the links' irradiance to the leaf, and gathers the bounces of
+// the difference over the links. Each pass multiplies the error of the transport by the relative error of the
+// links, a few hundredths.
 
 #pragma once
 
@@ -29,11 +31,11 @@ namespace penumbra {
 
 class HierarchicalSolver final : public LightSolver {
  public:
-  // Links the roots. Cancelled, it leaves a solution without links. The scene and the visibility must outlive
-  // the solver.
+  // Makes links between the roots. If the context is cancelled, the solution has no links. The scene and the
+  // visibility must outlive the solver.
   HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
                      const ExecutionContext& context = ExecutionContext());
-  // Goes on from a solution of the same scene: its links and its light, corrections included.
+  // Continues from a solution of the same scene, with its links and its light including corrections.
   HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
                      RadiositySolution solution, const ExecutionContext& context = ExecutionContext());
 
@@ -43,39 +45,41 @@ class HierarchicalSolver final : public LightSolver {
   bool Converged() const override { return links_.Converged(); }
   const RadiositySolution& solution() const override { return links_.solution(); }
   const SolverReport& report() const override { return report_; }
-  // Gathers until the light settles over the links there are; no form factor is computed. The light is linear
-  // in the emittances.
+  // Gathers over the existing links until the light settles; computes no form factors. The light is linear in
+  // the emittances.
   bool Relight(const ExecutionContext& context) override;
   bool TakesLight() const override { return true; }
-  // A pass of deferred correction whose means somebody else has computed.
+  // One pass of deferred correction with exact irradiance from the caller.
   bool SetLight(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
                 const ExecutionContext& context) override;
   double PartOfTolerance() const override;
   std::shared_ptr<const LeafVisibility> SeenFromLeaves(
       const ExecutionContext& context = ExecutionContext()) override;
-  // Over the links, uncorrected.
+  // Over the links, without corrections.
   std::vector<Rgb> MeanIrradianceByBounce(int bounces) const override;
 
-  // One iteration: gather and push-pull until the cut-off is met, then refine every link that the oracle
-  // rejects, and its children in turn, and gather over the new links. Returns what it did; links_split == 0
-  // and a residual below the cut-off mean convergence. Nothing if cancelled, which leaves the solution as it
-  // was.
+  // One iteration: gathers with push-pull until the cut-off is met; splits every link that the oracle
+  // rejects, and then rejected links among the new ones; gathers over the new links. Returns a report. The
+  // solution has converged when links_split == 0 and the residual is below the cut-off. Returns nothing if
+  // cancelled; the solution is then unchanged.
   std::optional<IterationReport> Iterate(const ExecutionContext& context);
   // One pass of deferred correction. Returns the root mean square change of the leaves' irradiance, relative
-  // to its mean; nothing if cancelled. An iteration that refines takes corrections back. With source_error
-  // the parts of leaves are chosen anew, and the sampling is as theirs.
+  // to the mean irradiance; nothing if cancelled. A later iteration that refines links drops the corrections.
+  // With SolverOptions::source_error > 0, the pass cuts the leaves into new parts, which determine the
+  // samples instead of `sampling`.
   std::optional<double> Correct(LeafSampling sampling, const ExecutionContext& context);
-  // All passes that the options ask for. False if cancelled, which leaves those that were done.
+  // All passes that the options request. False if cancelled; completed passes remain.
   bool CorrectAll(const ExecutionContext& context);
-  // All steps. A cancelled run leaves the solution of the last whole one. Returns the whole iterations.
+  // All remaining steps. If cancelled, the solution is that of the last complete step. Returns the reports of
+  // the complete iterations.
   std::vector<IterationReport> Solve(const ExecutionContext& context);
 
-  // Links would have been split, but were too many (SolverOptions::max_links).
+  // Links should have been split, but would have been too many (SolverOptions::max_links).
   bool Full() const { return links_.Full(); }
   RadiositySolution TakeSolution() && { return std::move(links_.solution()); }
 
  private:
-  // What a step that is cancelled goes back to.
+  // The state that a cancelled step restores.
   struct Snapshot {
     LinkSolver::Snapshot links;
     DeferredCorrection correction;
@@ -85,7 +89,7 @@ class HierarchicalSolver final : public LightSolver {
   PointIrradianceOptions HowToSample() const;
   void TakeCorrectionsBack();
   std::optional<double> AddExact(LeafSampling sampling, const ExecutionContext& context);
-  // Correct() with parts of leaves that may err by so much.
+  // Correct() with parts of leaves that may cause the relative error `error`.
   std::optional<double> CorrectByCells(double error, const ExecutionContext& context);
 
   const Scene& scene_;
@@ -93,9 +97,9 @@ class HierarchicalSolver final : public LightSolver {
   SolverOptions options_;
   LinkSolver links_;
   DeferredCorrection correction_;
-  bool corrected_ = false;  // CorrectAll() came to its end, and nothing took that back
+  bool corrected_ = false;  // CorrectAll() has finished, and its corrections are still in place
   SolverReport report_;
-  std::shared_ptr<const LeafVisibility> seen_from_leaves_;  // null after leaves changed
+  std::shared_ptr<const LeafVisibility> seen_from_leaves_;  // null after leaves have changed
 };
 
 LightSolverRegistry::Method HierarchicalSolverMethod();

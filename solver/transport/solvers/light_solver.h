@@ -1,7 +1,7 @@
 // solver/transport/solvers/light_solver.h
 //
-// A method that solves for the light in a scene, step by step. Whoever drives one (Pipeline, the window, a
-// program of the user) knows no more of it than this.
+// The interface of methods that solve for the light in a scene, step by step. Callers (Pipeline, the window,
+// user programs) depend on this interface only.
 
 #pragma once
 
@@ -25,90 +25,89 @@
 
 namespace penumbra {
 
-// The steps that solvers are driven in.
+// The kinds of steps.
 enum class SolverStep : std::uint8_t {
   kIterate,  // one round of the method
-  kCorrect,  // deferred correction by exact irradiance, which follows the last round
+  kCorrect,  // deferred correction by exact irradiance, after the last round
 };
 // "iterate" or "correct".
 std::string_view StepName(SolverStep step);
 
-// What a solver counted so far.
+// The counts of a solver so far.
 struct SolverReport {
   std::vector<IterationReport> iterations;
-  bool full = false;  // links would have been split, but were too many (SolverOptions::max_links)
+  bool full = false;  // links should have been split, but would have been too many (SolverOptions::max_links)
   struct Dense {
     std::size_t unknowns = 0;
     DenseClosure closure;
     double form_factor_error = 0;  // DenseSystem::form_factor_error
   };
-  std::optional<Dense> dense;  // of solvers that assemble a system
+  std::optional<Dense> dense;  // only of solvers that assemble a system
 };
 
-// A solver is made ready to step: links are made, or a system is assembled. That may be cancelled.
+// The constructor of a solver makes links or assembles a system, which may be cancelled.
 class LightSolver {
  public:
   virtual ~LightSolver() = default;
   LightSolver(const LightSolver&) = delete;
   LightSolver& operator=(const LightSolver&) = delete;
 
-  // False if the construction was cancelled: the scene is dark but for what surfaces emit.
+  // False if the construction was cancelled: the scene is then lit by emittance only.
   virtual bool Ready() const = 0;
-  // The step that brings the light nearer to its end; nothing if the light is solved, or cannot be solved
-  // further within the options.
+  // The step that brings the light closer to the solution. Nothing if the light is solved, or if the options
+  // allow no more steps.
   virtual std::optional<SolverStep> Next() const = 0;
-  // Makes one step, whether or not it is the next one. False if it was cancelled, or if the method
-  // has no such step: a round then leaves the light as it was, a correction leaves the passes that were made
-  // whole.
+  // Makes one step, whether or not Next() names it. False if the step was cancelled or the method has no such
+  // step. A cancelled round leaves the light unchanged; a cancelled correction keeps its completed passes.
   virtual bool Step(SolverStep step, const ExecutionContext& context) = 0;
-  // No round would change the light by more than the options allow.
+  // True if no round would change the light by more than the options allow.
   virtual bool Converged() const = 0;
 
-  // The light so far, as sources of further light.
+  // The current light, as sources of further light.
   virtual const RadiositySolution& solution() const = 0;
   virtual const SolverReport& report() const = 0;
 
-  // Lights the scene anew after its emittances or reflectances were changed, as one round; takes corrections
-  // back. False if it was cancelled, or if the method has to be made anew for that.
+  // Recomputes the light after the scene's emittances or reflectances have changed, as one round, and drops
+  // corrections. False if cancelled, or if a new solver is necessary.
   virtual bool Relight(const ExecutionContext& context) = 0;
-  // Whether another stage may replace the light (SetLight).
+  // True if SetLight() is available: another stage may replace the light.
   virtual bool TakesLight() const = 0;
-  // Takes the irradiance of the leaves [W/m^2], by element, and that of the fragments for exact, and adds the
-  // bounces of what this changes. The fragments replace the solution's. False if it was cancelled, which
-  // leaves the light as it was. REQUIRES: TakesLight(); the fragments ascend by leaf, tile theirs, and
-  // average to its irradiance.
+  // Takes the given irradiance as exact: that of the leaves, by element [W/m^2], and that of the fragments,
+  // which replace the solution's fragments. Adds the bounces of the change. False if cancelled; the light is
+  // then unchanged. REQUIRES: TakesLight(); the fragments ascend by leaf, tile their leaf, and have the
+  // leaf's irradiance as their area-weighted mean.
   virtual bool SetLight(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
                         const ExecutionContext& context) = 0;
 
-  // PointIrradianceOptions::part_of_tolerance, by how much light comes back [1].
+  // PointIrradianceOptions::part_of_tolerance for the amount of light that returns in this scene [1].
   virtual double PartOfTolerance() const = 0;
-  // What the leaves of the solution see. Null if finding it was cancelled.
+  // The visibility of the solution's leaves. Null if its computation was cancelled.
   virtual std::shared_ptr<const LeafVisibility> SeenFromLeaves(const ExecutionContext& context) = 0;
-  // The mean irradiance of the fronts by bounce [W/m^2]: first what comes from the emitters, then what that
-  // brings when it is reflected once, and so on. Empty where the method does not tell.
+  // The mean irradiance of the fronts for each bounce [W/m^2]: entry 0 is light from emitters, entry k light
+  // that was reflected k times. Empty if the method does not provide it.
   virtual std::vector<Rgb> MeanIrradianceByBounce(int bounces) const = 0;
 
  protected:
   LightSolver() = default;
 };
 
-// Told of each step that was made whole.
+// Called after each complete step.
 using StepObserver = std::function<void(SolverStep)>;
 
-// Makes the next step until there is none. Everyone who solves to the end steps by this loop. False if it was
+// Makes the next step until there is none. All callers that solve to the end use this loop. False if
 // cancelled.
 bool SolveStepByStep(LightSolver& solver, const ExecutionContext& context, const StepObserver& observer = {});
 
-// What a solver is made from. Scene and visibility must outlive the solver.
+// The input of a solver. Scene and visibility must outlive the solver.
 struct SolverScene {
   const Scene& scene;
   const PatchVisibility& visibility;
-  // A solution of the same scene by the same method, which the solver takes and goes on from; null: none.
-  // REQUIRES: null for methods that cannot be lit anew (Relight).
+  // A solution of the same scene by the same method. The solver takes the solution and continues from it.
+  // Null: none. REQUIRES: null for methods that cannot Relight().
   RadiositySolution* goes_on_from = nullptr;
 };
 
-// Makes solvers, ready to step unless the context is cancelled.
+// The methods make solvers that are ready to step, unless the context is cancelled.
 using LightSolverRegistry = Registry<LightSolver, SolverScene, LightSolverOptions, ExecutionContext>;
 
 }  // namespace penumbra

@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// Every solver there is; the first is the default.
+// All solvers; the first is the default.
 LightSolverRegistry& LightSolvers();
 
 }  // namespace penumbra

@@ -11,27 +11,27 @@
 namespace penumbra {
 namespace {
 
-// How multigridding begins, and by what the bound falls from one iteration to the next. Coarse links need not
-// settle better than this.
+// Multigridding starts with kCoarsestEps times eps and divides by kEpsStep after each iteration. For coarse
+// links the light settles to kCoarseCutoff.
 constexpr double kCoarsestEps = 64;  // x eps
 constexpr double kEpsStep = 4;
 constexpr double kCoarseCutoff = 0.01;
 
-// The area of an element for which eps is meant: a 16 x 16 mesh of all fronts together.
+// The area of an element for which eps is meant: 1/256 of the area of all fronts, a 16 x 16 mesh.
 double ReferenceArea(const Scene& scene) {
   double area = 0;
   for (const Patch& patch : scene.patches) area += patch.area;
   return area / 256;
 }
 
-// The options, if there are methods of the names that they give. Throws InputError if there are not.
+// Returns the options. Throws InputError if no method has one of their names.
 const SolverOptions& Checked(const SolverOptions& options) {
   RefinementOracles().Find(options.oracle);
   LinkFormFactorMethods().Find(options.form_factors);
   return options;
 }
 
-// Nothing if it was cancelled.
+// Links between the roots; nothing if cancelled.
 std::optional<LinkSet> LinkRoots(const ElementForest& forest, const PatchVisibility& visibility,
                                  const std::string& form_factors, const ExecutionContext& context) {
   std::vector<LinkGroup> groups(forest.size());
@@ -49,7 +49,7 @@ std::optional<LinkSet> LinkRoots(const ElementForest& forest, const PatchVisibil
   return links;
 }
 
-// How many links there would be at most, once a plan is done.
+// The largest number of links after a plan.
 std::size_t CountLinks(const RadiositySolution& solution, const RefinementPlan& plan) {
   std::size_t count = solution.links.links.size() - plan.links_split;
   for (const LinkGroup& group : plan.groups) count += group.candidates.size();
@@ -59,7 +59,7 @@ std::size_t CountLinks(const RadiositySolution& solution, const RefinementPlan& 
 }  // namespace
 
 bool IsStuck(std::span<const IterationReport> reports) {
-  constexpr double kNearer = 0.9;  // that an iteration without new links brings the light at least
+  constexpr double kNearer = 0.9;  // factor by which an iteration without new links must reduce the residual
   if (reports.size() < 2) return false;
   const IterationReport &last = reports[reports.size() - 1], &before = reports[reports.size() - 2];
   return last.links_split == 0 && before.links_split == 0 && last.eps == before.eps &&
@@ -112,7 +112,7 @@ bool LinkSolver::Restore(Snapshot before) {
   return other_elements;
 }
 
-// Brings the links into balance where the room is nearly white. False if it was cancelled.
+// Brings the links into balance if the room is nearly white. False if cancelled.
 bool LinkSolver::Balance(const ExecutionContext& context) {
   if (push_pull_->IsBalanced()) return !context.Cancelled();
   if (!nearly_white_) {
@@ -153,7 +153,7 @@ double LinkSolver::Cutoff() const {
                   std::min(kCoarseCutoff, options_.relative_cutoff * eps_ / options_.eps));
 }
 
-// Forms the links of the plan and puts them in their place. False if it was cancelled before that.
+// Forms the links of the plan and replaces the dropped links. False if cancelled before the replacement.
 bool LinkSolver::Apply(const RefinementPlan& plan, Snapshot& before, const ExecutionContext& context) {
   const auto method = LinkFormFactorMethods().Make(options_.form_factors, {});
   const std::vector<LinkSet> formed = FormLinkGroups(solution_.forest, plan.groups, *method, context);

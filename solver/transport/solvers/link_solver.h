@@ -1,6 +1,7 @@
 // solver/transport/solvers/link_solver.h
 //
-// What links do (thesis, chapter 4): light settles on them, and oracles split them.
+// The part of the hierarchical solver that works on links (thesis, chapter 4): light settles on the links,
+// and oracles split them.
 
 #pragma once
 
@@ -19,55 +20,58 @@
 
 namespace penumbra {
 
-// Elements and links, the light on them, and how far they are refined.
+// Elements and links, with their light and the state of refinement.
 class LinkSolver {
  public:
-  // What a step that is cancelled goes back to.
+  // The state that a cancelled step restores.
   struct Snapshot {
     std::size_t elements = 0;
-    std::optional<LinkSet> links;  // once they have been replaced
+    std::optional<LinkSet> links;  // set once links have been replaced
     std::vector<Fragment> fragments;
     std::vector<Rgb> irradiance, radiosity;
     std::vector<double> radiosity_spread, spread_below;
     bool converged = false;
   };
 
-  // Links the roots. Cancelled, it has no links. The scene and the visibility must outlive the solver.
+  // Makes links between the roots. If the context is cancelled, there are no links. The scene and the
+  // visibility must outlive the solver.
   LinkSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
              const ExecutionContext& context);
-  // Goes on with the links and the light of a solution of the same scene.
+  // Continues with the links and the light of a solution of the same scene.
   LinkSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
              RadiositySolution solution, const ExecutionContext& context);
 
   Snapshot TakeSnapshot() const;
-  // True if the elements are not those of before.
+  // Restores the state of the snapshot. True if the elements have changed.
   bool Restore(Snapshot snapshot);
 
-  // Sweeps until no radiosity is farther from its limit than `cutoff`, relative to the largest reflected one.
-  // `correction` [W/m^2], by element or empty, is added to what links bring to leaves. False if it was
-  // cancelled.
+  // Sweeps until the distance of every radiosity from its limit is at most `cutoff` times the largest
+  // reflected radiosity. Adds `correction` (by element, or empty) [W/m^2] to the light that links bring to
+  // the leaves. False if cancelled.
   bool Settle(std::span<const Rgb> correction, double cutoff, IterationReport& report,
               const ExecutionContext& context);
   bool Settle(std::span<const Rgb> correction, IterationReport& report, const ExecutionContext& context) {
     return Settle(correction, options_.relative_cutoff, report, context);
   }
-  // Splits every link that the oracle rejects, and those that take its place in turn. Fragments are dropped
-  // where links are split. False if it was cancelled.
+  // Splits every link that the oracle rejects, and then rejected links among the new ones. Drops the
+  // fragments if a link is split. False if cancelled.
   bool Split(Snapshot& before, IterationReport& report, const ExecutionContext& context);
-  // Tells what an iteration left, judges convergence, and lowers eps for the next one (multigridding).
+  // Completes the report of an iteration, tests for convergence, and lowers eps for the next iteration
+  // (multigridding).
   void EndIteration(IterationReport& report);
-  // Reflects the irradiance of the leaves anew, after the materials of the scene were changed.
+  // Recomputes the radiosity of the leaves from their irradiance, after the materials of the scene have
+  // changed.
   void ReflectAnew();
 
   bool Linked() const { return linked_; }
   bool Converged() const { return converged_; }
-  // Links would have been split, but were too many (SolverOptions::max_links).
+  // Links should have been split, but would have been too many (SolverOptions::max_links).
   bool Full() const { return full_; }
-  // By which links are judged next [W/m^2].
+  // The eps of the next iteration [W/m^2].
   double eps() const { return eps_; }
-  // How well the light has to settle before links are judged: coarse links need less.
+  // The residual at which the light has settled before links are judged; larger for a larger eps.
   double Cutoff() const;
-  // LightToCome() when the light last settled [1].
+  // LightToCome() at the last Settle() [1].
   double to_come() const { return to_come_; }
   const RadiositySolution& solution() const { return solution_; }
   RadiositySolution& solution() { return solution_; }
@@ -84,15 +88,15 @@ class LinkSolver {
   RadiositySolution solution_;
   std::unique_ptr<PushPull> push_pull_;
   bool linked_ = true;
-  std::optional<bool> nearly_white_;  // once it is known
+  std::optional<bool> nearly_white_;  // empty until computed
   double to_come_ = 0;
-  std::vector<double> closure_;  // per element, of leaves that were asked for; negative where unknown
+  std::vector<double> closure_;  // by element, for leaves that were computed; negative: unknown
   bool converged_ = false, full_ = false;
   std::size_t root_links_ = 0;
 };
 
-// Rooms are nearly white where so much light is still to come for each unit that is there: reflectances above
-// 0.95. Below that the links' errors, some thousandths, come back some twenty times, which corrections mend.
+// A room counts as nearly white if LightToCome() exceeds this: reflectances above 0.95. Below it, the errors
+// of links, a few thousandths, return about twenty times, which corrections repair.
 inline constexpr double kNearlyWhite = 20;
 
 }  // namespace penumbra

@@ -9,14 +9,15 @@
 namespace penumbra {
 namespace {
 
-// The most sweeps that one settling makes: without acceleration rooms of reflectance 0.99 need some 1,400.
+// The largest number of sweeps: without acceleration, rooms of reflectance 0.99 need about 1,400.
 constexpr std::size_t kMaxSweeps = 5000;
 
-// Sweeps that bring the light no nearer than it has been are the last: what is left are roundings, or light
-// that grows on the links without end.
+// Settling ends after this number of sweeps without a smaller residual: what remains is rounding, or light
+// that grows on the links without limit.
 constexpr std::size_t kStagnant = 100;
 
-// The most terms of the bound's partial sum, and the gain from one more below which it is left at that.
+// The largest number of terms in the bound's partial sum. The sum ends if another term lowers the bound to no
+// less than kWorthAnotherTerm of its value.
 constexpr int kMostTerms = 200;
 constexpr double kWorthAnotherTerm = 0.9;
 
@@ -43,7 +44,7 @@ Rgb LightToCome(const PushPull& push_pull, const RadiositySolution& solution,
     for (const ElementId leaf : push_pull.leaves())
       for (int c = 0; c < 3; ++c)
         if (next[leaf][c] > 0) growth[c] = std::max(growth[c], next[leaf][c] / term[leaf][c]);
-    // The terms after this one fall at least as fast as `growth` says, everywhere.
+    // The terms after this one fall at least by the factor `growth` everywhere.
     Rgb now = Rgb::Zero();
     for (const ElementId leaf : push_pull.leaves())
       for (int c = 0; c < 3; ++c)
@@ -80,12 +81,12 @@ Settled Settle(PushPull& push_pull, RadiositySolution& solution, std::span<const
     const std::vector<Rgb> before = light_of_leaves();
     settled.residual = Residual(push_pull.Sweep(options.scheme, correction), to_come, push_pull);
     ++settled.sweeps;
-    // What a sweep leaves is bound by its change from wherever it began: a guess need not be good.
+    // The change of a sweep bounds the remaining error from any starting point, so guesses may be bad.
     if (settled.residual <= options.cutoff) break;
     stagnant = settled.residual < nearest ? 0 : stagnant + 1;
     nearest = std::min(nearest, settled.residual);
     if (stagnant == kStagnant) break;
-    // The last word is a sweep's.
+    // The last step is a sweep, not a guess.
     if (options.acceleration == Acceleration::kNone || settled.sweeps == kMaxSweeps) continue;
     std::vector<Rgb> guess = light_of_leaves();
     anderson.Improve(before, guess);

@@ -1,6 +1,7 @@
 // solver/transport/solvers/settling.h
 //
-// Sweeps until the light has settled: which scheme, which acceleration, and a bound of what is still missing.
+// Sweeps until the light has settled, with a choice of scheme and acceleration, and a bound of the missing
+// light.
 
 #pragma once
 
@@ -14,24 +15,24 @@
 namespace penumbra {
 
 enum class Acceleration : std::uint8_t {
-  kNone,      // sweep after sweep, as in the thesis
-  kAnderson,  // guess ahead from one sweep to the next (AndersonAcceleration)
+  kNone,      // plain sweeps, as in the thesis
+  kAnderson,  // extrapolates between sweeps (AndersonAcceleration)
 };
 
-// A bound, by channel, of the light that is still to come, for each unit by which the last sweep changed the
-// radiosity of any leaf: the largest entry of M (I - M)^-1 1, M being reflectance times the links' transport.
-// For closed rooms of reflectance r it is r / (1 - r); open ones have less. It holds for the links as they
-// are, whose form factors need not add up to 1, by partial sums and a geometric bound of the rest (a
-// Collatz-Wielandt bound of M's norm). Infinite if light grows on the links without end.
-// Cancelled, it gives what it has come to.
+// A bound of the missing light for each channel, per unit of the largest change of a leaf's radiosity in the
+// last sweep: the largest entry of M (I - M)^-1 1, where M is reflectance times the links' transport. In
+// closed rooms of reflectance r the bound is r / (1 - r); in open rooms it is less. The bound holds for the
+// existing links, whose form factors need not add up to 1: partial sums, plus a geometric bound of the rest
+// (a Collatz-Wielandt bound of the norm of M). Infinite if light grows on the links without limit. If
+// cancelled, returns the bound computed so far.
 Rgb LightToCome(const PushPull& push_pull, const RadiositySolution& solution,
                 const ExecutionContext& context = ExecutionContext());
 
 struct Settled {
-  // What is missing from any radiosity is at most this much, relative to the largest reflected radiosity.
+  // Bound of the light missing from any radiosity, relative to the largest reflected radiosity.
   double residual = 1;
   std::size_t sweeps = 0;
-  double to_come = 0;  // LightToCome() of the channel where it is most
+  double to_come = 0;  // the largest channel of LightToCome()
 };
 
 struct SettlingOptions {
@@ -40,7 +41,7 @@ struct SettlingOptions {
   double cutoff;  // the residual at which the light has settled
 };
 
-// Sweeps until the light has settled, or until cancelled.
+// Sweeps until the light has settled or the context is cancelled.
 Settled Settle(PushPull& push_pull, RadiositySolution& solution, std::span<const Rgb> correction,
                const SettlingOptions& options, const ExecutionContext& context);
 

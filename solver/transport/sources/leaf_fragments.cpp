@@ -11,10 +11,11 @@
 namespace penumbra {
 namespace {
 
-// A cut that leaves less than this share of the leaf on one side is not made: it brings nothing but slivers.
+// A cut is not made if it leaves less than this fraction of the leaf's area on one side, since it would only
+// make a sliver.
 constexpr double kLeastShare = 1e-6;
 
-// Cuts those pieces that the contact itself crosses along its line.
+// Cuts the pieces that the contact crosses along the contact's line.
 void CutAll(const Contact& contact, const Vec3& normal, double snap, double least_area,
             std::vector<Polygon3>& pieces) {
   const Vec3 side = normal.cross(contact.b - contact.a).normalized();

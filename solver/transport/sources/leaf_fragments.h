@@ -1,8 +1,8 @@
 // solver/transport/sources/leaf_fragments.h
 //
-// Cuts leaves where other patches touch them. A quadtree cannot follow the foot of a box that stands askew on
-// the floor: the leaf below has one radiosity for its lit and its covered part, and the foot sees that from
-// nearest by. Fragments give each side its own.
+// Cuts leaves along contacts with other patches. A quadtree cannot follow the foot of a box that stands at an
+// angle on the floor: without cuts, the leaf below the box has one radiosity for its lit and its covered
+// part, and the box sees this radiosity from close by. Fragments give each side its own radiosity.
 
 #pragma once
 
@@ -13,8 +13,8 @@
 
 namespace penumbra {
 
-// The fragments of all leaves that a contact crosses, without light, by leaf. Each leaf's fragments are
-// convex and tile it. Of no use if it was cancelled.
+// The fragments of all leaves that a contact crosses, ordered by leaf, without light. The fragments of a leaf
+// are convex and tile the leaf. The result is useless if the context is cancelled.
 std::vector<Fragment> CutLeavesAtContacts(const ElementForest& forest,
                                           const ExecutionContext& context = ExecutionContext());
 

@@ -11,7 +11,7 @@
 namespace penumbra {
 namespace {
 
-// Gauss and Legendre's nodes and weights on [0, 1].
+// Gauss-Legendre nodes and weights on [0, 1].
 constexpr int kNodes = 10;
 constexpr std::array<double, kNodes> kNode = {0.013046735741414128, 0.067468316655507732, 0.16029521585048778,
                                               0.28330230293537639,  0.42556283050918442,  0.57443716949081558,
@@ -22,15 +22,15 @@ constexpr std::array<double, kNodes> kWeight = {
     0.14776211235737646,  0.14776211235737646,  0.13463335965499812, 0.10954318125799103,
     0.074725674575290266, 0.033335672154344367};
 
-// A piece is far from the point when its centre is this many of its half diagonals away. The kernel is then
-// analytic in ellipses about the sides whose semi-axes add up to 5.8 half sides or more, and ten nodes are
-// off by about 5.8^-20 = 5e-16 of the piece.
+// A piece is far from the point if the distance of its centre is at least this times its half diagonal. The
+// kernel is then analytic in ellipses about the sides whose semi-axes add up to at least 5.8 half sides, and
+// the error of ten nodes is about 5.8^-20 = 5e-16 of the piece.
 constexpr double kFar = 3;
 
-// Halvings after which a piece counts as far: it is smaller than the roundings of its coordinates.
+// After this number of halvings a piece counts as far: it is smaller than the rounding of its coordinates.
 constexpr int kMostHalvings = 110;
 
-// A convex quadrilateral; of a triangle, the last vertex twice.
+// A convex quadrilateral; a triangle repeats its last vertex.
 using Piece = std::array<Vec3, 4>;
 
 class Nodes {
@@ -44,7 +44,7 @@ class Nodes {
     for (const Vec3& v : piece) square = std::max(square, (v - centre).squaredNorm());
     if ((centre - at_.position).squaredNorm() >= kFar * kFar * square || halvings >= kMostHalvings)
       return AddGauss(piece);
-    // Across the longer pair of sides.
+    // Halves the longer pair of sides.
     const double along = std::max((piece[1] - piece[0]).squaredNorm(), (piece[2] - piece[3]).squaredNorm());
     const double across = std::max((piece[3] - piece[0]).squaredNorm(), (piece[2] - piece[1]).squaredNorm());
     if (along >= across) {
@@ -76,12 +76,12 @@ class Nodes {
 
   const ReceiverPoint& at_;
   const Patch& source_;
-  double height_;  // of the point above the source [m]
+  double height_;  // height of the point above the source's plane [m]
   std::vector<SourceNode>& nodes_;
 };
 
-// Of the sum over all pieces, none of which is off by more than 5e-16 of itself, and of what blockers'
-// outlines lose on their way through an image.
+// Error of the sum over all pieces: each piece has a relative error of at most 5e-16, and blockers' outlines
+// lose digits in the image.
 constexpr double kNodesError = 1e-13;
 
 }  // namespace
@@ -115,7 +115,7 @@ void AddVisibleSourceNodes(PointView& view, std::span<const Vec3> part, std::spa
     if (!above.empty()) AddSourceNodes(at, patch, above, nodes);
     return;
   }
-  // Directions back to where they meet the source's plane.
+  // Projects the visible pieces from the point onto the source's plane.
   const double height = patch.normal.dot(patch.vertex[0] - at.position);
   Polygon3 piece;
   ForEachVisiblePiece(seen, occluders, at.normal, [&](std::span<const Vec3> directions) {

@@ -26,14 +26,14 @@ void AppendFan(const Fragment& fragment, std::size_t number, std::vector<SourceS
   }
 }
 
-// A fragment, or a triangle of which the four pieces before it in the list are the quarters.
+// A fragment, or a triangle whose four quarters precede it in the list.
 struct CellTriangle {
   std::array<Vec3, 3> corner;
   std::size_t fragment = 0;
-  std::size_t pieces = 1;  // that it consists of, itself counted; they precede it
+  std::size_t pieces = 1;  // number of pieces that form it, including itself; they precede it
 };
 
-// Whether the four are the quarters of a triangle, in the order of its corners and the middle one last.
+// True if a, b, c and `middle` are the quarters of a triangle, in the order of the triangle's corners.
 bool AreQuarters(const CellTriangle& a, const CellTriangle& b, const CellTriangle& c,
                  const CellTriangle& middle) {
   return a.corner[1] == b.corner[0] && b.corner[2] == c.corner[1] && c.corner[0] == a.corner[2] &&
@@ -41,11 +41,11 @@ bool AreQuarters(const CellTriangle& a, const CellTriangle& b, const CellTriangl
          middle.corner[2] == a.corner[1];
 }
 
-// The fragments in their order, each followed by the triangle that it completes the quarters of, if any: a
-// quartered triangle that is far or hidden as a whole need not be looked at quarter by quarter.
+// The fragments in their order. A triangle follows its last quarter if all four quarters exist: a quartered
+// triangle that is far away or hidden as a whole is then handled as one.
 std::vector<CellTriangle> JoinQuarters(std::span<const Fragment> fragments) {
   std::vector<CellTriangle> pieces;
-  std::vector<std::size_t> open;  // those that are parts of nothing yet
+  std::vector<std::size_t> open;  // pieces that are no quarters so far
   for (std::size_t f = 0; f < fragments.size(); ++f) {
     const Polygon3& polygon = fragments[f].polygon;
     const bool triangle = polygon.size() == 3;
@@ -71,11 +71,10 @@ std::vector<CellTriangle> JoinQuarters(std::span<const Fragment> fragments) {
   return pieces;
 }
 
-// Appends the pieces, each before its parts. A node of parts gets its radiosity from them.
+// Appends the pieces as nodes, parents before children. A parent's radiosity follows from its children.
 void AppendPieces(std::span<const CellTriangle> pieces, std::span<const Fragment> fragments,
                   std::size_t first, std::vector<SourceSet::Node>& nodes) {
-  // From the end a whole comes before its parts: their places are found backwards, and they are appended
-  // forwards.
+  // In reverse order a triangle precedes its quarters: roots are found backwards and appended forwards.
   std::vector<std::size_t> roots;
   for (std::size_t i = pieces.size(); i > 0; i -= pieces[i - 1].pieces) roots.push_back(i - 1);
   for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
@@ -91,7 +90,7 @@ void AppendPieces(std::span<const CellTriangle> pieces, std::span<const Fragment
   }
 }
 
-// Appends the subtree below `id`; one whose leaves all have the same radiosity becomes a single node.
+// Appends the subtree below `id`. A subtree whose leaves all have the same radiosity becomes a single node.
 void Append(const RadiositySolution& solution, std::span<const Fragment> fragments, ElementId id,
             std::vector<SourceSet::Node>& nodes) {
   const Element& element = solution.forest[id];
@@ -101,7 +100,7 @@ void Append(const RadiositySolution& solution, std::span<const Fragment> fragmen
     const std::span<const Fragment> own = FragmentsOf(fragments, id);
     const std::size_t first = own.empty() ? 0 : static_cast<std::size_t>(own.data() - fragments.data());
     AppendPieces(JoinQuarters(own), own, first, nodes);
-    // A fragment alone is the leaf itself. As its subtree it would have a slope, by rounding.
+    // A single fragment replaces its leaf; a subtree of one node would get a slope from rounding.
     if (nodes.size() == at + 2) nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(at));
     nodes[at].skip = static_cast<std::int32_t>(nodes.size() - at);
     return;
@@ -160,7 +159,7 @@ SourceSet SourceSet::Emitters(const Scene& scene) {
 }
 
 void SourceSet::NumberLeaves() {
-  std::vector<std::int32_t> before(nodes_.size() + 1, 0);  // leaves before each node
+  std::vector<std::int32_t> before(nodes_.size() + 1, 0);  // number of leaves before each node
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     Node& node = nodes_[i];
     node.first_leaf = before[i];
@@ -174,7 +173,7 @@ void SourceSet::NumberLeaves() {
     nodes_[i].leaf_count = before[i + static_cast<std::size_t>(nodes_[i].skip)] - before[i];
 }
 
-// Nodes share corners to the bit, parents with children and neighbours with each other.
+// Numbers the corners. Equal corners of parents, children and neighbours are equal to the bit.
 void SourceSet::NumberCorners() {
   struct Corner {
     const Vec3* place;
@@ -198,7 +197,7 @@ void SourceSet::NumberCorners() {
   }
 }
 
-// Where the nodes' polygons are, and how large.
+// Sets the centres, radii and areas of the nodes' polygons.
 void SourceSet::MeasurePolygons() {
   for (Node& node : nodes_) {
     const std::span<const Vec3> polygon(node.vertex.data(), static_cast<std::size_t>(node.size));
@@ -208,7 +207,7 @@ void SourceSet::MeasurePolygons() {
   }
 }
 
-// By area, of all leaves.
+// The mean of radiosity - emittance over all leaves, weighted by area.
 Rgb SourceSet::MeanReflected() const {
   Rgb reflected = Rgb::Zero();
   double area = 0;
@@ -223,8 +222,8 @@ Rgb SourceSet::MeanReflected() const {
 
 namespace {
 
-// Sums over leaves by area, of radiosities and of places. Those count from a point near by: far from the
-// origin their squares would keep no digits.
+// Area-weighted sums over leaves of radiosities and positions. Positions are relative to a nearby point: far
+// from the origin, their squares would lose all digits.
 struct Moments {
   double area = 0;
   Rgb sum = Rgb::Zero(), squares = Rgb::Zero();
@@ -252,10 +251,10 @@ struct Moments {
   }
 };
 
-// The slope of the plane that fits radiosities with this moment best. Across what is much narrower than long,
-// or has its leaves in a row, there is none.
+// The slope of the best linear fit to radiosities with this moment. Zero across a region that is much
+// narrower than long, or whose leaves lie in a row.
 Eigen::Matrix3d Slope(const Eigen::Matrix3d& moment, const Moments& leaves) {
-  constexpr double kNarrow = 1e-9;  // by the square of the width
+  constexpr double kNarrow = 1e-9;  // threshold for the squared width
   const Eigen::Matrix3d squares =
       leaves.squares_of_places - leaves.place * leaves.place.transpose() / leaves.area;
   Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> decomposition;
@@ -266,9 +265,9 @@ Eigen::Matrix3d Slope(const Eigen::Matrix3d& moment, const Moments& leaves) {
 
 }  // namespace
 
-// Means and spreads, from the leaves.
+// Sets the means, spreads and linear fits of the inner nodes.
 void SourceSet::MeasureSubtrees() {
-  // Darker than this share of the mean of reflected light nothing counts by itself (RelativeErrors).
+  // Radiosities below this fraction of the mean reflected radiosity count as this fraction (RelativeErrors).
   constexpr double kDark = 0.01;
   const Rgb dark = kDark * MeanReflected();
   std::vector<Moments> moments(nodes_.size());

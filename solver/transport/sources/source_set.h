@@ -1,7 +1,7 @@
 // solver/transport/sources/source_set.h
 //
-// The light sources of IrradianceAtPoint(): the radiosities of a solution's leaves, in an order that a walk
-// down the trees can follow. The same set serves every receiver point, so that no step shows between receiver
+// The light sources of IrradianceAtPoint(): the leaves of a solution with their radiosities, in depth-first
+// order of their trees. All receiver points use the same set, so that no steps appear between receiver
 // elements.
 
 #pragma once
@@ -22,36 +22,37 @@ struct RadiositySolution;
 
 class SourceSet {
  public:
-  // A node of a source's quadtree, in depth-first order. Subtrees of one radiosity are a single leaf: the
-  // polygon's integral is exact whatever its size.
+  // A node of a source's quadtree, in depth-first order. A subtree with one radiosity is a single leaf: the
+  // integral over a polygon is exact whatever the size.
   struct Node {
-    // What a walk asks every node for comes first: it shares cache lines.
-    std::int32_t size = 0;                        // corners: 3 or 4
-    std::int32_t skip = 1;                        // nodes in this subtree, this one counted: a leaf has 1
-    std::int32_t first_leaf = 0, leaf_count = 1;  // the subtree's leaves, among all of the set
-    std::array<std::int32_t, 4> corner = {};      // the places of its vertices, among all of the set
-    std::int32_t fragment = -1;                   // that the node is a part of; -1: of none
-    // Of a subtree: how far its leaves' radiosities are from their mean, relative to that or, where it is
-    // darker, to the reflected light around; root mean square, the worst channel [1].
+    // The members that a traversal reads first share cache lines.
+    std::int32_t size = 0;  // corners: 3 or 4
+    std::int32_t skip = 1;  // number of nodes in this subtree, including this node; 1 for a leaf
+    std::int32_t first_leaf = 0, leaf_count = 1;  // range of the subtree's leaves in the set
+    std::array<std::int32_t, 4> corner = {};      // indices of the vertices in Corners()
+    std::int32_t fragment = -1;                   // index of the fragment that contains the node; -1: none
+    // For a subtree: the root mean square deviation of the leaves' radiosities B from their mean, divided by
+    // max(mean, 1 % of the scene's mean reflected radiosity), for the worst channel [1].
     double spread = 0;
-    double residual = 0;          // the same, but from the plane that fits them best
+    double residual = 0;          // root mean square deviation from the best linear fit, divided alike
     Vec3 centre = Vec3::Zero();   // of the polygon [m]
-    double radius = 0;            // about it [m]
+    double radius = 0;            // largest distance of a vertex from `centre` [m]
     double area = 0;              // [m^2]
-    Rgb radiosity = Rgb::Zero();  // [W/m^2]; of a subtree, the mean by area
+    Rgb radiosity = Rgb::Zero();  // [W/m^2]; of a subtree, the area-weighted mean
 
     std::array<Vec3, 4> vertex;  // [m]
-    // One row a channel: its leaves' radiosities less their mean, times areas and places, summed [W m].
+    // One row for each channel: sum over leaves of (B - mean B) * area * centre of the leaf [W m].
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
-    // One row a channel: how that plane rises along the polygon [W/m^3].
+    // One row for each channel: the slope of the best linear fit of B along the polygon [W/m^3].
     Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();
   };
 
-  // What the leaves of the solution emit and reflect.
+  // The leaves of the solution with their radiosities.
   static SourceSet FromSolution(const RadiositySolution& solution);
-  // The same with other fragments than the solution's. REQUIRES: they ascend by leaf.
+  // The leaves of the solution with `fragments` instead of the solution's fragments. REQUIRES: `fragments`
+  // ascends by leaf.
   static SourceSet FromSolution(const RadiositySolution& solution, std::span<const Fragment> fragments);
-  // What surfaces emit of themselves: direct light.
+  // The emitters with their emittances, for direct light.
   static SourceSet Emitters(const Scene& scene);
 
   const Node& NodeAt(std::size_t i) const { return nodes_[i]; }
@@ -62,10 +63,10 @@ class SourceSet {
     return {nodes_.data() + first_[patch], nodes_.data() + first_[patch + 1]};
   }
 
-  // The places that the corners of nodes have, each once a patch [m].
+  // The corners of all nodes, each once for each patch [m].
   std::span<const Vec3> Corners() const { return corners_; }
 
-  // All leaves, tree after tree: their polygons and radiosities.
+  // The polygons and radiosities of all leaves, tree after tree.
   const PolygonBatch& LeafPolygons() const { return leaf_polygons_; }
   std::span<const Rgb> LeafRadiosities() const { return leaf_radiosity_; }
   std::span<const Vec3> LeafVertices(std::int32_t leaf) const {
@@ -73,12 +74,12 @@ class SourceSet {
     return {node.vertex.data(), static_cast<std::size_t>(node.size)};
   }
 
-  // The fragment that a leaf of the set is a part of, by its place in the list; -1: of none.
+  // The index of the fragment that contains a leaf of the set; -1: none.
   std::int32_t FragmentOf(std::int32_t leaf) const {
     return nodes_[static_cast<std::size_t>(leaf_node_[static_cast<std::size_t>(leaf)])].fragment;
   }
 
-  // What the patch emits of itself [W/m^2].
+  // The emittance of the patch [W/m^2].
   const Rgb& Emittance(PatchId patch) const { return emittance_[static_cast<std::size_t>(patch)]; }
 
  private:
@@ -88,13 +89,13 @@ class SourceSet {
   Rgb MeanReflected() const;
   void MeasureSubtrees();
 
-  std::vector<std::size_t> first_;  // per patch, into nodes_
+  std::vector<std::size_t> first_;  // of each patch, in nodes_
   std::vector<Node> nodes_;
   std::vector<Vec3> corners_;
   PolygonBatch leaf_polygons_;
   std::vector<Rgb> leaf_radiosity_;
-  std::vector<std::int32_t> leaf_node_;  // into nodes_
-  std::vector<Rgb> emittance_;           // per patch
+  std::vector<std::int32_t> leaf_node_;  // index in nodes_
+  std::vector<Rgb> emittance_;           // of each patch
 };
 
 }  // namespace penumbra

@@ -13,24 +13,24 @@
 namespace penumbra {
 namespace {
 
-// Of many pairs, each is known this well before it is decided which deserve more.
+// Relative tolerance of a first estimate of each pair of many; it shows which pairs need more points.
 constexpr double kRoughTolerance = 1e-2;
 
-// Where some pairs of many are blocked, the others together need not err by less than this share of what
-// those may.
+// If some pairs of many have blockers, the other pairs together may have an error of this fraction of the
+// tolerance of all pairs.
 constexpr double kShareOfClear = 0.1;
 
-// Points that each of many pairs may cost at least.
+// The smallest point budget of each of many pairs.
 constexpr std::size_t kLeastOfMany = 2000;
 
-// Pairs that err by no more than this part of what each of them may are left as they are.
+// A pair whose error is at most this fraction of the error allowed per pair is not refined.
 constexpr double kGoodAlready = 0.5;
 
-// What lies outside an edge of a triangle by less than this, relative to the extent of the patch that the
-// triangle is part of, is on the edge: some hundred times the rounding of a height above a plane.
+// Points that lie outside an edge of a triangle by less than this times the extent of the triangle's patch
+// count as on the edge. About a hundred times the rounding of a height above a plane.
 constexpr double kOnEdge = 1e-13;
 
-// Counts pairs from several threads, and tells the context.
+// Counts finished pairs from several threads, and reports progress to the context.
 class PairCounter {
  public:
   PairCounter(const ExecutionContext* context, const char* phase, std::size_t pairs)
@@ -51,7 +51,7 @@ class PairCounter {
 
 double Area(const AreaPart& part) { return VectorArea(part.polygon).norm(); }
 
-// What may stand between two areas, ascending.
+// The patches that may stand between two areas, ascending.
 void FindBetween(const PatchHierarchy& patches, const TubeEnds& ends, const Patch& receiver,
                  const Patch& source, std::vector<PatchId>& found) {
   Vec3 low = ends.receiver[0], high = low;
@@ -78,7 +78,7 @@ std::vector<AreaPart> PartsOfFace(const Scene& scene, std::int32_t face) {
     if (std::find(patch.faces.begin(), patch.faces.end(), face) == patch.faces.end()) continue;
     Polygon3 part(patch.Vertices().begin(), patch.Vertices().end());
     if (patch.faces.size() > 1) {
-      // Two triangles were joined: this one's share is what lies in it.
+      // The patch joins two triangles; the face is the part in its own triangle.
       const Polygon3& triangle = scene.faces[static_cast<std::size_t>(face)].vertices;
       for (std::size_t i = 0; i < triangle.size() && !part.empty(); ++i) {
         const Vec3 edge = triangle[(i + 1) % triangle.size()] - triangle[i];
@@ -142,8 +142,8 @@ class PairsOfParts {
     });
   }
 
-  // Solves those anew that matter most, until the pairs that nothing stands between, or the others, err by no
-  // more than this share of the flux together.
+  // Recomputes the pairs with the largest errors among the pairs without blockers (`clear`) or those with
+  // blockers, so that the flux errors of these pairs add up to at most area_ * error.
   void Refine(bool clear, double error, const AreaFormFactorOptions& options) {
     const double asked = area_ * error;
     std::vector<std::size_t> which;
@@ -190,7 +190,7 @@ class PairsOfParts {
   const Scene& scene_;
   std::span<const AreaPart> from_, to_;
   PatchHierarchy patches_;
-  double area_ = 0;  // of the first list [m^2]
+  double area_ = 0;  // of the parts of the first list [m^2]
   std::vector<FormFactorEstimate> pairs_;
 };
 
@@ -205,7 +205,7 @@ FormFactorEstimate AreaFormFactor(const Scene& scene, std::span<const AreaPart> 
     alone.tells = true;
     pairs.Solve("integrate", pairs.All(), alone);
   } else {
-    // First as well as is cheap, then those that matter as well as matters for the sum.
+    // First a rough estimate of all pairs; then each pair as exactly as the sum requires.
     AreaFormFactorOptions rough = options;
     rough.tolerance = std::max(options.tolerance, kRoughTolerance);
     rough.clear_tolerance = std::max(options.clear_tolerance, kRoughTolerance);

@@ -10,34 +10,34 @@
 namespace penumbra {
 namespace {
 
-// The integrand changes over the height of an edge above the area, which points that lie
-// farther apart would not notice. Edges lower than this, relative to the area's diameter, get lines around
-// their feet, at distances that grow by this factor.
+// Below an edge at height h, the integrand changes over a distance of about h, which sample points farther
+// apart would miss. Edges lower than kLowEdge times the area's diameter get lines parallel to their
+// projections, at the distances h kGrading^k.
 constexpr double kLowEdge = 0.05, kGrading = 8;
 
-// Lines between two blockers grow as the square of their number: beyond this, halving finds them.
+// The number of lines between two blockers grows as the square of the number of blockers. Above this number,
+// halving of cells finds the events.
 constexpr std::size_t kMostPairedBlockers = 40;
 constexpr std::size_t kMostLines = 4096;
 
-// A plane that meets the area's at an angle of a smaller sine than this does so in a line whose direction
-// roundings of 1e-16 turn by 1e-7 and more. Such a line helps nobody; the change is so slow there that
-// halving finds it.
+// If a plane meets the area's plane at an angle with a smaller sine, rounding of 1e-16 turns the line of
+// intersection by 1e-7 or more. Such a line is useless; the integrand changes so slowly there that halving of
+// cells suffices.
 constexpr double kLeastSine = 1e-9;
 
-// A line has two normals, of which one counts: the one that looks upwards, and to the right if it rises by no
-// more than this. A tenth of the angle that MergeLines() tells apart.
+// Of its two normals a line has the one with positive y, or with positive x if |y| is at most this. A tenth
+// of the angle that MergeLines() distinguishes.
 constexpr double kLevel = 1e-9;
 
-// Where a blocker touches the area the integrand jumps, where it only stands before it the slope does. A
-// choice: lines of contacts are cut along before any others of about their length.
+// Weight of the plane of a blocker that touches the area, where the integrand jumps; along other lines only
+// its slope jumps. A choice: cells are cut along contacts before other lines of about the same length.
 constexpr double kContactWeight = 8;
 
-// Where along a line it is asked whether the source is behind two blockers, from 0 to 1: near the ends, and
-// evenly between.
+// Positions along a line, from 0 to 1, at which AddWedge() tests whether the source lies behind two blockers.
 constexpr std::array<double, 5> kAskedAt = {0.02, 0.25, 0.5, 0.75, 0.98};
 
-// The integrand changes over about this share of the distance of what makes a line: half of a change lies on
-// either side of it.
+// The integrand changes within about this fraction of the distance between line and event, because half of
+// the change lies on either side of the line.
 constexpr double kReachShare = 0.5;
 
 double DistanceToSegment(const Vec3& x, const Vec3& p, const Vec3& q) {
@@ -46,7 +46,8 @@ double DistanceToSegment(const Vec3& x, const Vec3& p, const Vec3& q) {
   return (x - p - t * along).norm();
 }
 
-// How near to x, a point of the event's line, the nearer of vertex and edge is along the line of sight [m].
+// The distance from x, a point of the event's line, to the nearer of vertex and edge, along the line of sight
+// [m].
 double Nearness(const Event& event, const Vec3& x) {
   if (event.edge_on) return DistanceToSegment(x, event.from, event.to);
   const Vec3 sight = event.vertex - x, edge = event.to - event.from;
@@ -82,7 +83,7 @@ class EventLineFinder {
   std::vector<EventLine> lines_;
 };
 
-// Lines around the feet of edges that hang low over the area.
+// Adds lines around the projections of edges that lie low above the area.
 void EventLineFinder::FindGrades(std::span<const Vec3> polygon, PatchId owner) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
@@ -91,13 +92,13 @@ void EventLineFinder::FindGrades(std::span<const Vec3> polygon, PatchId owner) {
     const double length = along.norm(), least = kSameLine * pair_.diameter;
     if (height > kLowEdge * pair_.diameter || length <= least) continue;
     EventLine line;
-    line.normal = Vec2(along.y(), -along.x()) / length;  // so that Along() runs from p to q
+    line.normal = Vec2(along.y(), -along.x()) / length;  // so that Along() has the direction from p to q
     line.grade = owner == kNoPatch;
     line.events = {{kNoPatch, owner, p, p, q, true}};
     const double foot = line.normal.dot(p.head<2>()), from = line.Along().dot(p.head<2>());
     line.offset = foot;
     AddStretch(line, from, from + length);
-    if (height <= least) continue;  // it touches: the integrand changes on every scale, and that shows
+    if (height <= least) continue;  // it touches: the integrand changes on every scale, and samples show this
     for (double away = height; away < pair_.diameter; away *= kGrading)
       for (const double side : {-1.0, 1.0}) {
         line.offset = foot + side * away;
@@ -106,9 +107,9 @@ void EventLineFinder::FindGrades(std::span<const Vec3> polygon, PatchId owner) {
   }
 }
 
-// The lines on which the sight of the source changes in kind: the traces of the wedges through a vertex of
-// one polygon and an edge of another, and of the blockers' planes. Curved ones, of three edges, are left to
-// halving.
+// Adds the lines at which the visible part of the source changes in kind: the traces of the wedges through a
+// vertex of one polygon and an edge of another, and of the blockers' planes. Curved events (EEE) are left to
+// halving of cells.
 void EventLineFinder::FindLines(std::span<const PatchId> blockers) {
   const double rounding = kSameLine * pair_.diameter;
   std::vector<std::pair<PatchId, Polygon3>> between;
@@ -126,7 +127,7 @@ void EventLineFinder::FindLines(std::span<const PatchId> blockers) {
       local.emplace_back(p.x(), p.y(), std::max(0.0, height));
       touches = touches || height <= rounding;
     }
-    // Its plane, where it is seen edge-on.
+    // The blocker's plane, in which the blocker is seen edge-on.
     const Vec3 normal(pair_.frame.u.dot(patch.normal), pair_.frame.v.dot(patch.normal),
                       pair_.frame.n.dot(patch.normal));
     const double length = normal.head<2>().norm();
@@ -158,8 +159,8 @@ void EventLineFinder::AddWedges(std::span<const Vec3> vertices, std::span<const 
     for (std::size_t i = 0; i < edges.size(); ++i) AddWedge(v, edges[i], edges[(i + 1) % edges.size()], a, b);
 }
 
-// The trace of the wedge through v and the edge from p to q: the points from which v is seen before or behind
-// the edge.
+// Adds the trace of the wedge through v and the edge from p to q: the points from which v and a point of the
+// edge coincide.
 void EventLineFinder::AddWedge(const Vec3& v, const Vec3& p, const Vec3& q, PatchId a, PatchId b) {
   const double rounding = kSameLine * pair_.diameter;
   const std::size_t before = lines_.size();
@@ -171,7 +172,8 @@ void EventLineFinder::AddWedge(const Vec3& v, const Vec3& p, const Vec3& q, Patc
   line.normal = normal.head<2>() / length;
   line.offset = normal.dot(v) / length;
   line.events = {{a, b, v, p, q, false}};
-  // The images of the edge's ends, from v onto the plane z = 0. An end below v has its image on this side.
+  // Projects the edge's ends from v onto the plane z = 0. The image of an end below v lies on the same side
+  // of v as the end.
   const Vec2 along = line.Along();
   const double infinity = std::numeric_limits<double>::infinity();
   const auto rise = [&](const Vec3& e) { return std::abs(e.z() - v.z()) <= rounding ? 0 : e.z() - v.z(); };
@@ -195,7 +197,7 @@ void EventLineFinder::AddWedge(const Vec3& v, const Vec3& p, const Vec3& q, Patc
     AddStretch(line, high, infinity);
   }
   if (a == kNoPatch || lines_.size() == before) return;
-  // Two blockers matter where the source is behind them.
+  // The event of two blockers matters only where the source lies behind them.
   const EventLine& last = lines_.back();
   bool matters = false;
   for (const double s : kAskedAt)
@@ -205,7 +207,7 @@ void EventLineFinder::AddWedge(const Vec3& v, const Vec3& p, const Vec3& q, Patc
   if (!matters) lines_.pop_back();
 }
 
-// Adds the line if its stretch from low to high runs through the area.
+// Adds the line if the part between `low` and `high` runs through the area.
 void EventLineFinder::AddStretch(EventLine line, double low, double high) {
   const Stretch inside = Inside(line, pair_.area);
   line.low = std::max(low, inside.low);
@@ -213,7 +215,7 @@ void EventLineFinder::AddStretch(EventLine line, double low, double high) {
   if (line.high - line.low > kSameLine * pair_.diameter) lines_.push_back(std::move(line));
 }
 
-// Whether the ray from the point of the receiver's plane meets the source.
+// True if the ray from the point `from` of the receiver's plane through `through` meets the source.
 bool EventLineFinder::LooksAtSource(const Vec2& from, const Vec3& through) const {
   const Vec3 eye(from.x(), from.y(), 0), direction = through - eye;
   for (std::size_t i = 0; i < pair_.local_source.size(); ++i) {
@@ -224,9 +226,9 @@ bool EventLineFinder::LooksAtSource(const Vec2& from, const Vec3& through) const
   return true;
 }
 
-// Joins lines that coincide, and sorts them, the heaviest first.
+// Merges coincident lines, and sorts lines by weight x length, descending.
 void EventLineFinder::MergeLines() {
-  constexpr double kSteps = 1e8;  // angles this fine [1/rad]
+  constexpr double kSteps = 1e8;  // resolution of angles [1/rad]
   struct Key {
     std::int64_t angle;
     double offset;
@@ -276,7 +278,6 @@ void EventLineFinder::MergeLines() {
 
 }  // namespace
 
-// How near to the stretch of the line from low to high what makes it comes [m].
 double Reach(const EventLine& line, double low, double high) {
   double reach = std::numeric_limits<double>::infinity();
   for (const double s : {0.0, 0.5, 1.0}) {

@@ -1,10 +1,10 @@
 // solver/visibility/area/event_lines.h
 //
-// Lines in a receiver's plane on which what is seen of a source past blockers changes in kind: the traces of
-// wedges through a vertex and an edge, as in Heckbert, Discontinuity meshing for radiosity (1992), and of the
-// blockers' planes. They are candidates of integration: every line that may matter, with the stretch where it
-// may; whether something hides the event there is not asked, and what jumps across it is not known. (That is
-// what the mesh's discontinuities are: exact visible segments with their jumps.)
+// Lines in a receiver's plane at which the topology of the visible part of a source may change: the traces of
+// wedges through a vertex and an edge (Heckbert, Discontinuity meshing for radiosity, 1992) and the traces of
+// the blockers' planes. An integration over the receiver may cut its cells along these lines. The lines are
+// candidates: an event may be hidden, and the size of the jump is unknown. The mesh's discontinuities, in
+// contrast, are exact visible segments with their jumps.
 
 #pragma once
 
@@ -17,60 +17,62 @@
 
 namespace penumbra {
 
-// Lines this near to each other or to a corner are one, relative to the area's diameter: a choice, well above
-// the roundings of what makes them, and below what would show in a sum.
+// Two lines, or a line and a corner, with a distance below this times the area's diameter coincide. The value
+// is a choice: far above the rounding of the lines, and too small to show in a sum.
 inline constexpr double kSameLine = 1e-10;
 
-// A part of a receiver and the part of a source that it sees, for which lines are sought.
+// A part of a receiver and a part of a source, the input of the search for event lines.
 struct SightPair {
   PatchId source = kNoPatch;
   Frame frame;                // of the receiver's plane
-  Polygon2 area;              // the receiver's part, in the frame
-  Polygon3 local_source;      // the source's part, in the frame: z is the height [m]
-  double diameter = 0;        // of the area [m]
-  double source_breadth = 0;  // the smallest of the source's part [m]
+  Polygon2 area;              // the receiver's part, in `frame`
+  Polygon3 local_source;      // the source's part, in `frame`: z is the height [m]
+  double diameter = 0;        // of `area` [m]
+  double source_breadth = 0;  // the smallest breadth of the source's part [m]
 };
 
-// What makes an event: a vertex and an edge, or an edge and its end alone where a blocker is seen edge-on.
+// The cause of an event line: a vertex and an edge, or the edge of a blocker that is seen edge-on.
 struct Event {
-  PatchId a = kNoPatch, b = kNoPatch;  // whose vertex, whose edge; kNoPatch stands for the source
+  PatchId a = kNoPatch, b = kNoPatch;  // owners of vertex and edge; kNoPatch: the source
   Vec3 vertex, from, to;               // in the receiver's frame [m]
   bool edge_on = false;
 };
 
-// A line on which what is seen may change in kind, and its stretch that matters.
+// A line at which visibility may change in kind, with the stretch on which the change is possible.
 struct EventLine {
   Vec2 normal = Vec2::UnitX();  // unit
   double offset = 0;            // normal . p [m]
-  double low = 0, high = 0;     // of the stretch, along Along() [m]
-  double weight = 1;            // how many events coincide
-  bool grade = false;           // or where the integrand changes fast
-  double reach = 0;             // how near what makes it comes [m]
-  std::vector<Event> events;    // none for grades
+  double low = 0, high = 0;     // ends of the stretch, along Along() [m]
+  double weight = 1;            // the number of events that coincide; contacts count more
+  bool grade = false;           // a low edge of the source makes the integrand change fast here
+  double reach = 0;             // the integrand changes within about this distance of the line [m]
+  std::vector<Event> events;    // of the lines that coincide
 
   Vec2 Along() const { return {-normal.y(), normal.x()}; }
 };
 
-// Where a line runs in a convex polygon, along Along() [m]; high <= low: nowhere.
+// The stretch of a line inside a convex polygon, along Along() [m]; high <= low if there is none.
 struct Stretch {
   double low = 0, high = 0;
 };
 Stretch Inside(const EventLine& line, std::span<const Vec2> polygon);
 
-// How near to the stretch of the line from low to high what makes it comes [m].
+// The smallest distance of the line's vertices and edges, along the line of sight, from three points of the
+// line: the two ends `low` and `high`, and their midpoint [m].
 double Reach(const EventLine& line, double low, double high);
 
-// Whether some event of the line has just these blockers, which ascend, or the source.
+// True if some event of the line has both owners, a and b, among `blockers` and the source. REQUIRES:
+// `blockers` ascends.
 bool IsCastByAny(const EventLine& line, std::span<const PatchId> blockers);
 
 struct EventLines {
-  std::vector<EventLine> lines;  // those that coincide are one; the heaviest first
-  bool all_known = true;         // false if there were too many, and the lightest were left out
+  std::vector<EventLine> lines;  // without coincident lines; the largest weight x length first
+  bool all_known = true;         // false: there were too many lines, and the lightest are missing
 };
 
-// The lines that run through the area: events of the source with the blockers, and of not too many blockers
-// among each other; and lines around the feet of edges that hang low over the area, where the integrand
-// changes fast. Curved events, of three edges, are left out.
+// The event lines that cross the area: events of the source with each blocker, events between pairs of
+// blockers if the blockers are few, and lines around the projections of edges that lie low above the area,
+// where the integrand changes fast. Curved events (EEE) are not included.
 EventLines FindEventLines(const Scene& scene, const SightPair& pair, std::span<const PatchId> blockers);
 
 }  // namespace penumbra

@@ -1,8 +1,8 @@
 // solver/visibility/area/kronrod_rule.h
 //
-// Gauss's rules for integrals and Kronrod's extensions of them (Kronrod 1965; the numbers are QUADPACK's,
-// Piessens et al. 1983): the two values that they give from the same points differ by more than what the
-// better one is off, where the integrand is smooth.
+// Gauss rules and their Kronrod extensions (Kronrod 1965; the numbers are from QUADPACK, Piessens et al.
+// 1983). A Gauss rule and its extension share their sample points. For smooth integrands, the difference of
+// their values is larger than the error of the Kronrod value.
 
 #pragma once
 
@@ -11,13 +11,14 @@
 
 namespace penumbra {
 
-// Nodes and weights on [0, 1]. Gauss's nodes are those of odd index; elsewhere his weights are 0.
+// Nodes and weights on [0, 1]. The nodes of the Gauss rule are those of odd index; gauss[i] is 0 for even i.
 template <std::size_t N>
 struct KronrodRule {
   std::array<double, N> node, kronrod, gauss;
 };
 
-// From the nodes in [0, 1) of the interval [-1, 1], the largest first, with the weights; 0 in the middle.
+// Makes a rule on [0, 1] from the nodes in [0, 1) of a rule on [-1, 1], largest first, and their weights. The
+// last node is the middle, 0.
 template <std::size_t N>
 constexpr KronrodRule<N> MakeKronrodRule(const std::array<double, (N + 1) / 2>& node,
                                          const std::array<double, (N + 1) / 2>& kronrod,

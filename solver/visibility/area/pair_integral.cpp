@@ -21,55 +21,57 @@
 namespace penumbra {
 namespace {
 
-// QUADPACK's: where the integrand is analytic, Kronrod's error is the 1.5th power of the difference.
+// From QUADPACK: for an analytic integrand, the error of the Kronrod value is the 1.5th power of the
+// difference.
 constexpr double kAnalyticScale = 200;
 
-// What roundings make of a cell, relative to its value: point form factors are good to kFormFactorError where
-// nothing blocks; the edges of shadows are crossings of planes.
+// Rounding error of a cell's value, relative to the value. Without blockers, point form factors are exact to
+// kFormFactorError; with blockers, the edges of shadows are intersections of planes.
 constexpr double kClearNoise = 1e-14, kShadowNoise = 1e-12;
 
-// Widths below this, relative to the area's diameter, are not cut further.
+// Cells narrower than this times the area's diameter are not cut.
 constexpr double kLeastWidth = 1e-13;
 
-// Lines that are cut along before any point is looked at, so that small lit parts are not missed.
+// Number of lines along which cells are cut before the first evaluation, so that small lit parts are not
+// missed.
 constexpr std::size_t kForcedLines = 16;
 
-// No factor need be better than this, however small: a tenth of the rounding of 1. A strip of 1e-6 of a wall
-// has ten digits then.
+// No form factor needs a smaller error: a tenth of the rounding of 1. A strip of 1e-6 of a wall then has ten
+// digits.
 constexpr double kLeastAllowed = 2e-17;
 
-// Of the error that is asked for, the share that may stay in cells that are not refined in a round.
+// Fraction of the remaining error that may stay in the cells that a round does not refine.
 constexpr double kLeftAlone = 0.3;
 
-// The same, of the error that is asked for: what is below that as a whole need not shrink.
+// Cells whose errors sum to less than this fraction of the requested error need no refinement either.
 constexpr double kLeftOfAsked = 0.5;
 
-// The nearest points of a rule see what changes on either side of a line over more than this share of the gap
-// between them.
+// The points of a rule resolve a change if its width is more than this fraction of the gap between the
+// nearest points on either side of the line.
 constexpr double kSeenInGap = 0.5;
 
-// A point is where it is meant to be but for this many roundings of its coordinates, relative to the extent.
+// Error of a point's position, in roundings relative to the patch's extent.
 constexpr double kPointRoundings = 4;
-// A form factor falls with the square of the distance and with two cosines that change no faster than it:
-// relative to itself by four times a move over the distance.
+// A form factor depends on distance^-2 and two cosines: a relative move d / distance changes it by at most 4
+// d / distance, relatively.
 constexpr double kFallOff = 4;
 
 struct Cell {
   Quad quad;
   std::vector<PatchId> blockers;
-  std::vector<std::int32_t> lines;  // that cross it
-  double value = 0;                 // its part of the integral [m^2]
-  double error_s = 0, error_t = 0;  // of the value, along the two parameters
-  double unseen = 0;                // what lines may hide that have all points on one side
-  std::int32_t unseen_line = -1;    // the worst of them
-  bool shadowed = false;            // something may block
-  bool settled = false;             // nothing is to be gained by splitting it
+  std::vector<std::int32_t> lines;  // lines that cross the cell
+  double value = 0;                 // the cell's part of the integral [m^2]
+  double error_s = 0, error_t = 0;  // errors of the value along the two parameters
+  double unseen = 0;                // value that may be hidden by lines with all sample points on one side
+  std::int32_t unseen_line = -1;    // the line with the largest such value
+  bool shadowed = false;            // a blocker may hide a part
+  bool settled = false;             // a further split would gain nothing
   std::size_t points = 0;
 
   double Error() const { return error_s + error_t + unseen; }
 };
 
-// The integral, over a convex part of one patch, of the form factor to a convex part of another.
+// Integrates, over a convex part of one patch, the form factor to a convex part of another.
 class PairIntegral {
  public:
   PairIntegral(const Scene& scene, const PartPair& parts, std::vector<PatchId> blockers,
@@ -140,7 +142,7 @@ PairIntegral::PairIntegral(const Scene& scene, const PartPair& parts, std::vecto
     std::erase_if(cell.lines, [&](std::int32_t l) { return !Crosses(l, cell); });
     cells_.push_back(std::move(cell));
   }
-  // The lines are sorted, the heaviest first.
+  // The lines are sorted by weight.
   for (std::size_t l = 0, forced = 0; l < events_.lines.size(); ++l) {
     if (!events_.lines[l].grade && ++forced > kForcedLines) continue;
     std::vector<Cell> cut;
@@ -153,7 +155,7 @@ PairIntegral::PairIntegral(const Scene& scene, const PartPair& parts, std::vecto
   }
 }
 
-// Whether a stretch of the line runs through the cell, away from its border.
+// True if a stretch of the line runs through the cell, away from the cell's border.
 bool PairIntegral::Crosses(std::int32_t l, const Cell& cell) const {
   const EventLine& line = events_.lines[static_cast<std::size_t>(l)];
   double lowest = 0, highest = 0;
@@ -206,7 +208,8 @@ void PairIntegral::Cut(const Cell& cell, const EventLine& line, std::vector<Cell
   for (const Quad& quad : quads) parts.push_back(PartOf(cell, quad));
 }
 
-// Along the line with the largest share, or where none is left across the direction of the larger error.
+// Cuts the cell along the line with the largest unseen value, else along the line with the largest weight x
+// length, else in half across the direction of the larger error.
 void PairIntegral::Split(const Cell& cell, std::vector<Cell>& parts) const {
   if (cell.unseen > std::max(cell.error_s, cell.error_t))
     return Cut(cell, events_.lines[static_cast<std::size_t>(cell.unseen_line)], parts);
@@ -269,9 +272,9 @@ void PairIntegral::Evaluate(Cell& cell, const KronrodRule<N>& rule) const {
   if (cell.shadowed && !cell.lines.empty()) FindUnseen(cell, largest);
 }
 
-// Adds up what lines may hide that cross the cell with all its points on one side, or with none near enough
-// to see what changes fast. Away from contacts the integrand changes over the distance of what makes the
-// event, or over the breadth of the source's image.
+// Sums up the values that lines may hide: lines that cross the cell with all sample points on one side, or
+// with no point near enough to resolve the change. Except at contacts, the width of the change is the
+// distance of the event or the breadth of the source's image.
 void PairIntegral::FindUnseen(Cell& cell, double largest) const {
   constexpr KronrodRule<7> rule = kSeven;
   constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -284,7 +287,7 @@ void PairIntegral::FindUnseen(Cell& cell, double largest) const {
   double worst = 0;
   for (const std::int32_t l : cell.lines) {
     const EventLine& line = events_.lines[static_cast<std::size_t>(l)];
-    double above = kNone, below = kNone;  // the distances of the nearest points
+    double above = kNone, below = kNone;  // distances of the nearest points
     for (const Vec2& p : points) {
       const double height = line.normal.dot(p) - line.offset;
       double& nearest = height > 0 ? above : below;
@@ -328,8 +331,8 @@ void PairIntegral::Evaluate(Cell& cell) const {
     cell.blockers = std::move(blockers);
   }
   cell.shadowed = !cell.blockers.empty();
-  // The integrand is analytic where nothing blocks, and past a single blocker between its events: curved
-  // events take edges of three polygons.
+  // The integrand is analytic without blockers, and between the events of a single blocker, since curved
+  // events need edges of three polygons.
   bool analytic = !cell.shadowed;
   if (cell.shadowed) {
     Evaluate(cell, kSeven);
@@ -355,7 +358,7 @@ void PairIntegral::Evaluate(Cell& cell) const {
   cell.settled = cell.Error() <= noise || width <= kLeastWidth * pair_.diameter;
 }
 
-// How far an error has come on its way to the one that is asked for, counted in digits.
+// Progress of an error from `first` to `asked`, on a logarithmic scale.
 double ShareOfDigits(double first, double error, double asked) {
   return asked > 0 && asked < error && error < first ? std::log(first / error) / std::log(first / asked) : 0;
 }
@@ -408,8 +411,8 @@ FormFactorEstimate PairIntegral::Integrate() {
                     std::make_move_iterator(parts[k].end()));
     }
   }
-  // Points are where they are meant to be but for a rounding of their coordinates; how much that matters
-  // depends on how near the source is.
+  // Points have the rounding errors of their coordinates. The effect on the form factor grows as the source
+  // comes closer.
   const double apart = (Centroid(source_part_) - pair_.frame.FromPlane(pair_.area[0])).norm() -
                        pair_.diameter - Diameter(source_part_);
   const double nearness = std::min(1 / pair_.diameter, apart > 0 ? kFallOff / apart : 1 / pair_.diameter);

@@ -1,7 +1,7 @@
 // solver/visibility/area/pair_integral.h
 //
-// The exact visible form factor of a point, integrated over a part of a patch: the work of AreaFormFactor()
-// for one pair of parts that may see each other.
+// The integral of the exact visible form factor of a point over a part of a patch. AreaFormFactor() calls it
+// for each pair of parts that may see each other.
 
 #pragma once
 
@@ -13,19 +13,19 @@
 
 namespace penumbra {
 
-// Two parts that may see each other, clipped to each other.
+// Two parts that may see each other; each is clipped to the front of the other's plane.
 struct PartPair {
   PatchId receiver = kNoPatch, source = kNoPatch;
   TubeEnds ends;
-  double sender_area = 0;  // of the part that sends the flux, unclipped [m^2]
+  double sender_area = 0;  // of the unclipped part that sends the flux [m^2]
 };
 
-// How far off a factor may be for this tolerance (AreaFormFactorOptions::tolerance).
+// The largest error that this tolerance allows for a factor (AreaFormFactorOptions::tolerance).
 double AllowedError(double factor, double tolerance);
 
-// The integral over the tube's receiver of the form factor to its source past the blockers, which ascend
-// [m^2], with an error as in AreaFormFactor(). Adaptive: cells are cut along the event lines that cross them,
-// the heaviest first, and then halved, where the difference of two rules says so.
+// The integral of the visible form factor over the tube's receiver [m^2], with an error as in
+// AreaFormFactor(). The integration is adaptive: where the two rules differ, cells are cut along the event
+// lines that cross them, the heaviest first, and then halved. REQUIRES: `blockers` ascends.
 FormFactorEstimate IntegratePair(const Scene& scene, const PartPair& pair, std::vector<PatchId> blockers,
                                  const AreaFormFactorOptions& options);
 

@@ -1,6 +1,6 @@
 // solver/visibility/area/quad.h
 //
-// Convex quadrilaterals in a plane as images of the unit square, for integration by products of rules.
+// Convex quadrilaterals in a plane as bilinear images of the unit square, for integration by product rules.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace penumbra {
 
-// Counter-clockwise; a triangle repeats its first corner.
+// Counter-clockwise. A triangle repeats its first corner.
 using Quad = std::array<Vec2, 4>;
 
 // The bilinear map from the unit square.
@@ -20,14 +20,15 @@ inline Vec2 At(const Quad& q, double s, double t) {
   return (1 - t) * ((1 - s) * q[0] + s * q[1]) + t * ((1 - s) * q[3] + s * q[2]);
 }
 
-// The area that a unit of (s, t) covers there.
+// The Jacobian determinant of At() at (s, t): area per unit area of the unit square.
 inline double Jacobian(const Quad& q, double s, double t) {
   const Vec2 ds = (1 - t) * (q[1] - q[0]) + t * (q[2] - q[3]),
              dt = (1 - s) * (q[3] - q[0]) + s * (q[2] - q[1]);
   return Cross2(ds, dt);
 }
 
-// Convex quadrilaterals, and triangles as such with a repeated vertex, that make up a convex polygon.
+// Appends convex quadrilaterals that tile the convex polygon. Triangles are quadrilaterals with a repeated
+// vertex.
 inline void AddQuads(std::span<const Vec2> polygon, std::vector<Quad>& quads) {
   for (std::size_t i = 2; i < polygon.size(); i += 2)
     if (i + 1 < polygon.size())

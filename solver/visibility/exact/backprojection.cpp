@@ -20,8 +20,8 @@ using Cdt = CGAL::Constrained_Delaunay_triangulation_2<
     CGAL::Triangulation_data_structure_2<VertexBase, CGAL::Constrained_triangulation_face_base_2<Kernel>>,
     CGAL::Exact_predicates_tag>;
 
-// Of each place, the occluders that hold it or whose outline runs through it: numbers in image.occluders(),
-// ascending.
+// For each place, the occluders that contain the place or whose outline passes through it: indices in
+// image.occluders(), ascending.
 std::vector<std::vector<std::int32_t>> OccludersAtPlaces(const Image& image) {
   std::vector<std::vector<std::int32_t>> at(image.places().size());
   for (std::size_t p = 0; p < at.size(); ++p) {
@@ -38,7 +38,7 @@ std::vector<std::vector<std::int32_t>> OccludersAtPlaces(const Image& image) {
   return at;
 }
 
-// The places are vertices and the edges were split at them: nothing is left to cross.
+// Edges are split at all places, so constraints do not cross.
 void Triangulate(const Image& image, Cdt& cdt) {
   std::vector<Cdt::Vertex_handle> handle;
   Cdt::Face_handle hint;
@@ -71,8 +71,9 @@ void ForEachTriangle(const Image& image, const Body& body) {
   Cdt cdt;
   Triangulate(image, cdt);
   const std::vector<std::vector<std::int32_t>> at = OccludersAtPlaces(image);
-  // The hull of the places is the source's part. No outline crosses a triangle: a convex occluder that holds
-  // its three vertices holds all of it, and one that does not holds nothing of its inside.
+  // The hull of the places is the source's part. No outline crosses a triangle: a convex occluder that
+  // contains the three vertices contains the triangle, and any other occluder contains no inner point of the
+  // triangle.
   for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f) {
     std::array<std::int32_t, 3> place;
     for (int k = 0; k < 3; ++k) place[static_cast<std::size_t>(k)] = f->vertex(k)->info();

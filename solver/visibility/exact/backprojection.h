@@ -1,8 +1,8 @@
 // solver/visibility/exact/backprojection.h
 //
 // Backprojection (thesis, section 6.2): the outlines of all blockers, projected from the point onto the
-// source, as segments of a constrained Delaunay triangulation of it; each triangle is wholly visible or
-// hidden. In exact numbers.
+// source, are constraints of a Delaunay triangulation of the source. Each triangle is visible or hidden as a
+// whole. Uses exact numbers.
 
 #pragma once
 
@@ -14,35 +14,35 @@
 
 namespace penumbra {
 
-// The triangulated source as seen, to look at. A source that fills most of a hemisphere comes in up to four
-// parts that share no vertices.
+// The triangulated source as seen from the point, for inspection. A source that fills most of a hemisphere is
+// split into at most four parts, which share no vertices.
 struct BackprojectedSource {
   struct Triangle {
     std::array<std::int32_t, 3> vertex;
     bool visible = false;
   };
-  // An edge of triangles that lies on the outline of an occluder.
+  // An edge of the triangulation that lies on the outline of an occluder.
   struct BlockerEdge {
     std::int32_t a = 0, b = 0;  // vertices, a < b
-    std::int32_t occluder = 0;  // index in what was given; one entry for each that shares the edge
+    std::int32_t occluder = 0;  // index of the occluder in the input; an edge on n outlines has n entries
   };
 
-  std::vector<Vec3> vertex;  // directions; the vertices of a planar source's part lie in one plane
+  std::vector<Vec3> vertex;  // directions; the vertices of each part of a planar source lie in one plane
   std::vector<Triangle> triangle;
   std::vector<BlockerEdge> blocker_edge;  // ascending by a, b, occluder
 };
 
 class Backprojection final : public OcclusionMethod {
  public:
-  // Edges of blockers' outlines, as projected onto the image of the source, that are shorter than
-  // `min_segment` times the source's diameter there are collapsed into their middle (thesis, Appendix A,
-  // item 6; there to keep the triangulation stable, here to save time). 0 leaves everything exact.
+  // Collapses an edge of a blocker's outline into its midpoint if the edge's projection onto the image of the
+  // source is shorter than `min_segment` times the diameter of that image (thesis, Appendix A, item 6; the
+  // thesis needs this for a stable triangulation, this class only to save time). With 0 the result is exact.
   explicit Backprojection(double min_segment = 0) : min_segment_(min_segment) {}
 
   double VisibleFormFactor(const DirectionPolygon& source, std::span<const Occluder> occluders,
                            const Vec3& normal) const override;
 
-  // What VisibleFormFactor() adds up.
+  // The triangulation whose visible triangles VisibleFormFactor() adds up.
   BackprojectedSource Project(const DirectionPolygon& source, std::span<const Occluder> occluders,
                               const Vec3& normal) const;
 

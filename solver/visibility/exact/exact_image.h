@@ -1,11 +1,10 @@
 // solver/visibility/exact/exact_image.h
 //
-// What a point sees of a source and its occluders as a plane figure in exact numbers: the common ground of
-// backprojection and vertex tracing. Every coincidence of the doubles that come in (shared corners and
-// edges, three edges through a point) is an exact equality here, and what nearly coincides is an exact
-// sliver. There is no tolerance.
+// A source and its occluders as seen from a point, as a plane figure in exact numbers; the common basis of
+// backprojection and vertex tracing. Input doubles that coincide (shared corners, shared edges, three edges
+// through a point) are exactly equal here, and near coincidences are exact slivers. There are no tolerances.
 //
-// A template over CGAL's kernel, so that only sources include CGAL.
+// A template over the CGAL kernel, so that only source files include CGAL.
 
 #pragma once
 
@@ -24,14 +23,15 @@
 
 namespace penumbra {
 
-// The image point of direction d is (d_i / (axis . d) - origin.x, d_j / (axis . d) - origin.y). The map keeps
-// orientation: what runs counter-clockwise about its inside as a DirectionPolygon does so in the image.
+// The image point of a direction d is (d_i / (axis . d) - origin.x, d_j / (axis . d) - origin.y). The map
+// keeps orientation: a DirectionPolygon that is counter-clockwise about its interior has a counter-clockwise
+// image.
 struct ImagePlane {
   Vec3 axis = Vec3::UnitZ();
   int i = 0, j = 1, k = 2;
   Vec2 origin = Vec2::Zero();
 
-  // The plane axis . p = 1, with the two coordinates most perpendicular to the axis.
+  // The plane axis . p = 1, with the two coordinates whose axes are most perpendicular to `along`.
   explicit ImagePlane(const Vec3& along) : axis(along) {
     axis.cwiseAbs().maxCoeff(&k);
     i = (k + 1) % 3;
@@ -46,7 +46,7 @@ struct ImagePlane {
     base[k] = (1 - axis[i] * origin.x() - axis[j] * origin.y()) / axis[k];
     return base;
   }
-  // An image vector as a vector of the plane. Base() + Lift(p) is the direction of image point p.
+  // The vector of the plane for a vector of the image. Base() + Lift(p) is the direction of image point p.
   Vec3 Lift(const Vec2& vector) const {
     Vec3 lifted;
     lifted[i] = vector.x();
@@ -56,7 +56,7 @@ struct ImagePlane {
   }
 };
 
-// A box of doubles that holds an exact point or figure.
+// A box in doubles that contains an exact point or figure.
 struct ImageBox {
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
   Vec2 high = Vec2::Constant(-std::numeric_limits<double>::infinity());
@@ -66,14 +66,14 @@ struct ImageBox {
   }
 };
 
-// What an edge belongs to.
+// The owner of an edge.
 class EdgeOwner {
  public:
   // The outline of the source.
   static constexpr EdgeOwner Source() { return EdgeOwner(kSource); }
-  // No outline: the edge is the border between two parts of one occluder.
+  // A border between two parts of one occluder, not part of any outline.
   static constexpr EdgeOwner Diagonal() { return EdgeOwner(kDiagonal); }
-  // The outline of an occluder, by its place in the list of occluders.
+  // The outline of an occluder; `occluder` is the index in the list of occluders.
   static constexpr EdgeOwner Occluder(std::int32_t occluder) { return EdgeOwner(occluder); }
 
   constexpr bool IsOccluder() const { return code_ >= 0; }
@@ -95,35 +95,35 @@ class ExactImage {
   using Point = typename Kernel::Point_2;
   using Line = typename Kernel::Line_2;
 
-  // A direction as image point (x / w, y / w); behind the image plane w is negative.
+  // A direction as image point (x / w, y / w). Directions behind the image plane have w < 0.
   struct Homogeneous {
     Number x, y, w;
-    bool diagonal = false;  // of a corner: the edge that begins here is not the outline's own
+    bool diagonal = false;  // of a corner: the edge that starts here is a diagonal, no edge of the outline
   };
 
-  // An edge of the source's or of an occluder's outline.
+  // An edge of the outline of the source or of an occluder.
   struct Edge {
-    Line line;  // what the outline bounds lies on its positive side
+    Line line;  // the interior of the outline is on its positive side
     EdgeOwner owner = EdgeOwner::Source();
-    bool seen = false;             // a part of it lies in the source
-    std::size_t from = 0, to = 0;  // that part, as points of this image
+    bool seen = false;             // a part of the edge lies in the source
+    std::size_t from = 0, to = 0;  // indices of that part's end points
   };
 
-  // A convex region bounded by the lines of edges[first ... last - 1].
+  // The convex region bounded by the lines of edges[first] to edges[last - 1].
   struct Outline {
     std::int32_t first = 0, last = 0;
     ImageBox box;
   };
 
-  // Where corners and edges are in one place.
+  // An image point with all corners and edges that coincide there.
   struct Place {
     Point point;
     ImageBox box;
     Vec2 offset = Vec2::Zero();  // the point in doubles
   };
 
-  // Of the part of the source with these vertices, all of which lie before the plane's axis. Segments of the
-  // occluders' outlines shorter than min_segment times the diameter of the source are collapsed.
+  // Makes the image of the part of a source with the given vertices, all of which have axis . vertex > 0.
+  // Edges of occluders' outlines shorter than min_segment times the diameter of the source are collapsed.
   ExactImage(const ImagePlane& plane, std::span<const std::array<Number, 3>> source,
              std::span<const Occluder> occluders, double min_segment)
       : plane_(plane) {
@@ -133,8 +133,8 @@ class ExactImage {
     FindPlaces();
   }
 
-  // Calls body(image) for images of parts of the source that together show all of it. A hemisphere may need
-  // four.
+  // Calls body(image) for images of parts of the source that together cover the source. A source that fills a
+  // hemisphere may need four images.
   template <class Body>
   static void ForEachPart(const DirectionPolygon& source, std::span<const Occluder> occluders,
                           const Vec3& normal, double min_segment, const Body& body);
@@ -143,12 +143,14 @@ class ExactImage {
 
   bool empty() const { return source_.last == 0; }
   const ImagePlane& plane() const { return plane_; }
-  // Source first, then the occluders that the source's edges do not part from it.
+  // The edges of the source come first, then those of the occluders that no edge of the source separates from
+  // it.
   const Outline& source() const { return source_; }
   const std::vector<Outline>& occluders() const { return occluders_; }
   const std::vector<Edge>& edges() const { return edges_; }
-  // The normal of the plane through the viewpoint that is seen as the line; it points to the positive side.
-  // Each coordinate is off by kNormalError at most, relative to the sum of those of the line.
+  // The normal of the plane through the viewpoint whose image is the line, on the positive side of the line.
+  // The error of each coordinate is at most kNormalError times the sum of the absolute values of the line's
+  // coordinates.
   Vec3 NormalOf(const Line& line) const {
     const Number a = line.a(), b = line.b(), c = line.c() - a * plane_.origin.x() - b * plane_.origin.y();
     constexpr double kAny = std::numeric_limits<double>::infinity();
@@ -159,18 +161,18 @@ class ExactImage {
     normal[plane_.j] = ToDouble(b + c * plane_.axis[plane_.j], accuracy);
     return normal;
   }
-  // Corners of the source, corners of occluders inside it and crossings of edges; lexicographically
-  // ascending, so that their numbers ascend or descend along any line.
+  // The corners of the source, the corners of occluders inside the source, and the crossings of edges, in
+  // ascending lexicographic order: along any line, their numbers ascend or descend.
   const std::vector<Place>& places() const { return places_; }
-  // The places on what is seen of an edge, ascending.
+  // The places on the visible part of an edge, ascending.
   const std::vector<std::int32_t>& PlacesOn(std::int32_t edge) const {
     return on_edge_[static_cast<std::size_t>(edge)];
   }
 
-  // How far the offset of a place may be off, in each coordinate.
+  // Bound of the error of each coordinate of a place's offset.
   double offset_error() const { return kOffsetAccuracy * diameter_; }
 
-  // On which side of an edge's line a place lies: 1 on that of its outline, 0 on it.
+  // The side of an edge's line on which a place lies: 1 inside the edge's outline, -1 outside, 0 on the line.
   int SideOf(std::int32_t edge, std::int32_t place) const {
     const std::vector<std::int32_t>& on = PlacesOn(edge);
     if (std::binary_search(on.begin(), on.end(), place)) return 0;
@@ -178,7 +180,8 @@ class ExactImage {
         places_[static_cast<std::size_t>(place)].point);
   }
 
-  // A number in doubles: off by less than `accuracy` or than its last digits.
+  // An exact number as a double. The error is at most the larger of `accuracy` and a rounding of the last
+  // digits.
   static double ToDouble(const Number& number, double accuracy) {
     auto [low, high] = to_interval(number);
     if (high - low > std::max(2 * accuracy, kLastDigits * std::abs(low + high))) {
@@ -189,18 +192,18 @@ class ExactImage {
   }
 
  private:
-  // Of an image coordinate where lengths are compared: the rounding of 1, which is the size of the image.
+  // Accuracy of image coordinates where lengths are compared: the rounding of 1, the size of the image.
   static constexpr double kPlaceAccuracy = 1e-16;
   static constexpr double kLastDigits = 2 * std::numeric_limits<double>::epsilon();
 
   static constexpr std::size_t kNoPoint = std::numeric_limits<std::size_t>::max();
 
-  // Offsets of places are off by less than this, relative to the diameter of the source. Their intervals
-  // usually are as narrow; where not, exact numbers are called for.
+  // Bound of the error of places' offsets, relative to the diameter of the source. The kernel's intervals are
+  // usually that narrow; otherwise exact numbers are computed.
   static constexpr double kOffsetAccuracy = 2e-15;
 
-  // Below this diameter of the source, in the image, intervals about the lines are narrowed first: crossings
-  // computed from them then keep their digits without exact numbers.
+  // If the diameter of the source's image is below this, the intervals of lines and points are narrowed
+  // first. Crossings computed from them then keep their digits without exact numbers.
   static constexpr double kSmallSource = 0.03;
 
   static Homogeneous Cross(const Homogeneous& a, const Homogeneous& b) {
@@ -247,8 +250,8 @@ class ExactImage {
     return *point;
   }
 
-  // The convex hull, which differs from the polygon by the roundings of its vertices only: false if it has no
-  // inside.
+  // Adds the convex hull of the source, which differs from the polygon only by the rounding of its vertices.
+  // False if the hull has no interior.
   bool ImageSource(std::span<const std::array<Number, 3>> source);
   void ImageOccluder(const Cone& cone, std::int32_t number, double min_segment);
   void AddOccluder(std::span<const Homogeneous> outline, std::int32_t number);
@@ -259,7 +262,7 @@ class ExactImage {
   void ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge, std::size_t& point_a,
                     std::size_t& point_b);
 
-  // That a point lies on an edge.
+  // Point `point` lies on edge `edge`.
   struct Incidence {
     std::size_t point;
     std::int32_t edge;
@@ -269,7 +272,7 @@ class ExactImage {
 
   ImagePlane plane_;
   double diameter_ = 0;
-  std::vector<Point> point_;  // ends and crossings of edges, some in the same place
+  std::vector<Point> point_;  // end points and crossings of edges; several may coincide
   std::vector<Incidence> incidence_;
   Outline source_;
   std::vector<Outline> occluders_;
@@ -286,7 +289,7 @@ bool ExactImage<Kernel>::ImageSource(std::span<const std::array<Number, 3>> sour
   const auto image = [&](const std::array<Number, 3>& d) {
     return ToImage(coordinate(d, plane_.i), coordinate(d, plane_.j), coordinate(d, plane_.k));
   };
-  // The origin is the first vertex, nearly, so that a tiny far source keeps its digits.
+  // The origin is close to the first vertex, so that small distant sources lose no digits.
   const Homogeneous first = image(source[0]);
   plane_.origin = {ToDouble(first.x / first.w, 1), ToDouble(first.y / first.w, 1)};
 
@@ -328,7 +331,7 @@ bool ExactImage<Kernel>::ImageSource(std::span<const std::array<Number, 3>> sour
   return true;
 }
 
-// Both ends of a short edge become its middle: the outline stays convex.
+// Replaces both ends of each short edge by its midpoint; the outline stays convex.
 template <class Kernel>
 void ExactImage<Kernel>::CollapseShort(double length, std::vector<Homogeneous>& outline) const {
   const auto at = [&](const Homogeneous& h) {
@@ -353,8 +356,8 @@ void ExactImage<Kernel>::ImageOccluder(const Cone& cone, std::int32_t number, do
   std::vector<Vec3> direction(cone.direction.begin(), cone.direction.begin() + cone.size);
   for (const Vec3& d : direction) outline.push_back(ToImage(d));
 
-  // A corner that roundings turned inwards goes, or the plane of a short edge could cut the cone in two. Of
-  // long edges the planes are safe.
+  // Removes a corner that rounding has turned inwards: the plane of a short edge could otherwise cut the cone
+  // in two. The planes of long edges are safe.
   for (std::size_t k = 0; k < outline.size() && outline.size() >= 3;) {
     const std::size_t n = outline.size(), before = (k + n - 1) % n, after = (k + 1) % n;
     if (direction[before].dot(direction[after]) > 0 &&
@@ -383,7 +386,8 @@ template <class Kernel>
 void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::int32_t number) {
   const std::size_t n = outline.size();
   if (n < 3 || (n == 3 && Dot(Cross(outline[0], outline[1]), outline[2]) <= 0)) return;
-  // Three directions of nearly a half circle, one of them turned inwards by roundings: two convex halves.
+  // An outline of three directions on nearly a half circle, with one corner turned inwards by rounding,
+  // becomes two convex halves.
   for (std::size_t k = 0; k < n && n > 3; ++k) {
     const std::size_t before = (k + n - 1) % n, after = (k + 1) % n;
     if (Dot(Cross(outline[before], outline[k]), outline[after]) >= 0) continue;
@@ -399,7 +403,7 @@ void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::
     return;
   }
 
-  // Whether an edge of the source parts it from the occluder.
+  // Returns if an edge of the source separates the source from the occluder.
   for (std::int32_t s = source_.first; s < source_.last; ++s) {
     const Line& line = edges_[static_cast<std::size_t>(s)].line;
     if (std::none_of(outline.begin(), outline.end(),
@@ -427,15 +431,15 @@ void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::
   if (!before) region.box = source_.box;
 }
 
-// The part of the last edge, which runs from a to b, that lies in the source. The corners' points, once
-// found, are shared by neighbouring edges.
+// Finds the part of the last edge, from a to b, that lies in the source. Neighbouring edges share the points
+// of their common corner.
 template <class Kernel>
 void ExactImage<Kernel>::ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge,
                                       std::size_t& point_a, std::size_t& point_b) {
   struct End {
     Homogeneous at;
-    std::int32_t cut = -1;         // by this edge of the source
-    std::vector<std::int32_t> on;  // lies on these edges of the source
+    std::int32_t cut = -1;         // the edge of the source that cuts here; -1: none
+    std::vector<std::int32_t> on;  // the edges of the source on which the point lies
   };
   End from, to;
   from.at = a;
@@ -470,12 +474,12 @@ void ExactImage<Kernel>::ClipToSource(const Homogeneous& a, const Homogeneous& b
   };
   edge.from = add(from, point_a);
   edge.to = add(to, point_b);
-  // Only a corner of the source may be touched at both ends.
+  // An edge that touches the source at both ends may touch it in one corner only.
   edge.seen = from.on.empty() || to.on.empty() || point_[edge.from] != point_[edge.to];
   if (along >= 0) Meet(number, along);
 }
 
-// Finds the points that what is seen of two edges has in common, but for ends of both.
+// Finds the common points of the visible parts of two edges, except points that are ends of both.
 template <class Kernel>
 void ExactImage<Kernel>::Meet(std::int32_t ia, std::int32_t ib) {
   const Edge &a = edges_[static_cast<std::size_t>(ia)], &b = edges_[static_cast<std::size_t>(ib)];
@@ -518,8 +522,8 @@ void ExactImage<Kernel>::FindPlaces() {
       boxes.push_back(
           {Join(BoxOf(point_[edge.from]), BoxOf(point_[edge.to])), e, static_cast<std::int32_t>(o)});
     }
-  // Candidates by a sweep over the boxes, which are rounded outwards. An outline does not cross itself, and
-  // where it meets the source is known.
+  // A sweep over the boxes, which are rounded outwards, finds the candidates. An outline does not cross
+  // itself, and its points on the source are known.
   std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) {
     return a.box.low.x() != b.box.low.x() ? a.box.low.x() < b.box.low.x() : a.edge < b.edge;
   });
@@ -556,8 +560,8 @@ void ExactImage<Kernel>::FindPlaces() {
   }
 }
 
-// The part of a polygon of directions before the plane through the point. Where the cut runs over the zenith
-// it may be half a great circle, and must have a vertex there.
+// The part of a polygon of directions before a plane through the viewpoint. A cut that passes through the
+// zenith may be half a great circle; it then gets a vertex at the zenith.
 template <class Kernel>
 auto ExactImage<Kernel>::PartBefore(const Directions& polygon, const Vec3& plane,
                                     const std::array<Number, 3>& zenith) -> Directions {
@@ -598,7 +602,7 @@ void ExactImage<Kernel>::ForEachPart(const DirectionPolygon& source, std::span<c
   for (int v = 0; v < source.size(); ++v)
     whole.push_back({Number(source[v].x()), Number(source[v].y()), Number(source[v].z())});
 
-  // The least cosine to the axis that a direction may have, to keep the image within reason.
+  // The smallest cosine between a direction and the axis, to limit the size of the image.
   constexpr double kLeastCosine = 0.2;
   Vec3 best = Vec3::Zero();
   double best_cosine = kLeastCosine;
@@ -616,8 +620,8 @@ void ExactImage<Kernel>::ForEachPart(const DirectionPolygon& source, std::span<c
     return;
   }
 
-  // Four parts by two planes through the normal. A quarter of the hemisphere lies within 55 degrees of the
-  // sum of the three vectors.
+  // Two planes through the normal cut the source into four parts. A quarter of the hemisphere lies within 55
+  // degrees of the sum of the three vectors.
   int across = 0;
   normal.cwiseAbs().minCoeff(&across);
   const Vec3 t = normal.cross(Vec3::Unit(across)).normalized(), u = normal.cross(t);

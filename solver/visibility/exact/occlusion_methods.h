@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// Every occlusion method there is, the fastest exact one first.
+// All occlusion methods; the fastest exact method comes first.
 OcclusionRegistry& OcclusionMethods();
 
 }  // namespace penumbra

@@ -18,11 +18,11 @@ using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using Image = ExactImage<Kernel>;
 using Direction = Kernel::Direction_2;
 
-// The paper's formula is used where its error is below this, relative to the form factor of the unoccluded
-// source.
+// The paper's formula is used if its error, relative to the form factor of the unoccluded source, is below
+// this.
 constexpr double kFormulaError = 1e-13;
 
-// A direction at a vertex: along the line of an edge or against it.
+// A direction at a vertex: along the line of an edge, or opposite to it.
 struct Ray {
   std::int32_t edge = 0;
   bool against = false;
@@ -30,11 +30,11 @@ struct Ray {
   bool operator==(const Ray&) const = default;
 };
 
-// A border of a visible span: the visible region lies to the left of the ray from the place, or to its right.
+// A border of a visible span: a ray from the place with the visible region on its left or on its right.
 struct Border {
-  std::int32_t line = 0;  // the least of the edges on that ray
+  std::int32_t line = 0;  // smallest number of the edges on the ray
   std::int32_t place = 0;
-  bool ascending = false;  // whether the ray meets places of higher numbers
+  bool ascending = false;  // the ray meets places with higher numbers
   bool left = false;
 };
 
@@ -49,7 +49,7 @@ class Tracer {
   }
 
  private:
-  // A span about a vertex ends (change -1) or begins (+1) here, counter-clockwise.
+  // The end (change -1) or the start (change +1) of a span about a vertex, counter-clockwise.
   struct End {
     Ray ray;
     bool of_source = false;
@@ -80,7 +80,7 @@ class Tracer {
     return *line.ascending != ray.against;
   }
 
-  // The sign of the turn from the line of one edge to that of another.
+  // The sign of the turn from the line of one edge to the line of another.
   int Turn(std::int32_t from, std::int32_t to) {
     const auto& edges = image_.edges();
     return CGAL::sign(CGAL::determinant(
@@ -88,7 +88,7 @@ class Tracer {
         edges[static_cast<std::size_t>(to)].line.a(), edges[static_cast<std::size_t>(to)].line.b()));
   }
 
-  // What an outline covers of the directions about a place: a half circle at an edge, a sector at a corner.
+  // The directions about a place that an outline covers: a half circle at an edge, a sector at a corner.
   Cover CoverAbout(const Image::Outline& outline, std::int32_t place, Ray& begin, Ray& end) {
     if (!outline.box.Meets(image_.places()[static_cast<std::size_t>(place)].box)) return Cover::kNone;
     std::int32_t in = -1, out = -1;
@@ -137,7 +137,7 @@ void Tracer::TracePlace(std::int32_t place, std::vector<Border>& borders) {
     }
   }
 
-  // Spans over the zero angle are there from the start.
+  // Spans that contain the angle zero are open at the start.
   int in_source = inside ? 1 : 0, occluders = 0;
   for (std::size_t k = 0; k < ends_.size(); k += 2)
     if (DirectionOf(ends_[k + 1].ray) < DirectionOf(ends_[k].ray))
@@ -159,18 +159,18 @@ void Tracer::TracePlace(std::int32_t place, std::vector<Border>& borders) {
   }
 }
 
-// Adds the borders' contributions by the formula of Stark and Riesenfeld, eqs (6) to (9), to `sum`. False if
-// that may be off by more than `error`.
+// Adds the contributions of the borders by the formula of Stark and Riesenfeld, eqs (6) to (9), to `sum`.
+// False if the error may exceed `error`.
 //
-// Its F(x, y, m) = A x / 2 arctan(A y) + C (y - m x) / 2 arctan(C (x + m y)) is even in the direction (dx,
-// dy) = (1, m) of the border, and begins and ends of spans are as many: the first term cancels at each vertex
-// and the second is, with the plane of the border through the point, whose unit normal be m, and the
-// receiver's normal n,
-//   C (y - m x) = n . m,    arctan(C (x + m y)) = atan2(d . (m x n), d . n)
-// for any vector d towards the vertex. It is the angle on the great circle of the border from its highest
-// point to the vertex: Lambert's term of an edge is the difference of those of its ends. Written so, it has
-// no slope and is good for vertical borders and for vertices on the horizon; but not for a border whose plane
-// nearly is the horizon.
+// The paper's F(x, y, m) = A x / 2 arctan(A y) + C (y - m x) / 2 arctan(C (x + m y)) is even in the direction
+// (dx, dy) = (1, m) of the border. Starts and ends of spans are equal in number, so the first term cancels at
+// each vertex. For the second term, let m be the unit normal of the plane through the border and the point,
+// and n the receiver's normal. For any vector d towards the vertex,
+// C (y - m x) = n . m,    arctan(C (x + m y)) = atan2(d . (m x n), d . n).
+// The arctan is the angle on the great circle of the border from its highest point to the vertex; Lambert's
+// term of an edge is the difference of these angles at its ends. This form contains no slope, so vertical
+// borders and vertices on the horizon need no special case. The form fails for a border whose plane is close
+// to the horizon.
 bool AddByFormula(const Image& image, const std::vector<Border>& borders, const Vec3& normal, double error,
                   double& sum) {
   constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
@@ -202,9 +202,10 @@ bool AddByFormula(const Image& image, const std::vector<Border>& borders, const 
   return true;
 }
 
-// Adds the edges of the visible region: along each line the border that leaves one vertex and the one that
-// comes back from the next. Lambert's terms alone would lose the digits of a small source. Each edge stands
-// for the triangle that it makes with one corner of the source: none of these is larger than the source.
+// Adds the contributions of the edges of the visible region. On each line, a border that leaves a vertex and
+// the border that returns from the next vertex form an edge. Lambert's terms alone would lose the digits of a
+// small source. Each edge therefore stands for a triangle with one corner of the source; no such triangle is
+// larger than the source.
 void AddByEdges(const Image& image, const std::vector<Border>& borders, const Vec3& normal, double& sum) {
   const Vec3 base = image.plane().Base();
   for (std::size_t k = 0; k < borders.size(); k += 2) {

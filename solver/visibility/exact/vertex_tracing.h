@@ -1,7 +1,7 @@
 // solver/visibility/exact/vertex_tracing.h
 //
-// Vertex tracing (Stark and Riesenfeld 1999): the corners of what is visible, found one by one, and at each
-// the angular spans that are visible. No polygon is ever assembled. In exact numbers.
+// Vertex tracing (Stark and Riesenfeld 1999): finds the vertices of the visible region one by one, and the
+// visible angular spans of each vertex. Builds no polygon. Uses exact numbers.
 
 #pragma once
 
@@ -13,10 +13,11 @@ namespace penumbra {
 
 struct TracedFormFactor {
   double form_factor = 0;
-  // Vertices of the visible region, intrinsic, apparent or conjunctive, and the borders of visible spans at
-  // them.
+  // The number of vertices of the visible region (intrinsic, apparent or conjunctive), and the number of
+  // borders of their visible spans.
   std::int64_t vertices = 0, borders = 0;
-  // Borders whose contribution is the paper's formula. The others were added up as edges.
+  // The number of borders whose contribution is the paper's formula. The contributions of the other borders
+  // are added up edge by edge.
   std::int64_t formula_borders = 0;
 };
 

@@ -12,23 +12,23 @@
 namespace penumbra {
 namespace {
 
-// Openings narrower than kCrack of the largest coordinate are closed: that is how far the place where a
-// segment crosses a wall may be off, for segments that rise from it by more than one in kMostSlope.
+// Openings narrower than kCrack times the largest coordinate are closed. That is the error of the place where
+// a segment crosses a wall, for segments whose length is at most kMostSlope times the height that they gain.
 constexpr double kMostSlope = 64, kCrack = 4 * kMostSlope * kCoplanar;
 
-// A wall that leaves more than this share of what reaches it is not worth its beams: they overlap.
+// A wall that leaves a larger fraction of the section open is not used: its beams would overlap.
 constexpr double kMostOpen = 0.6;
 
-// Walls that hide fewer than this share of the segments between corners are not looked at.
+// Walls that hide a smaller fraction of the segments between corners are not tested.
 constexpr double kLeastCorners = 0.4;
 
-// An opening in more pieces than this is taken as their hull.
+// If an opening has more pieces, their convex hull replaces them.
 constexpr std::size_t kMostPieces = 3;
 
-// Pieces whose hull is larger by no more than this factor are taken as the hull.
+// If the area of the pieces' convex hull is at most this times their area, the hull replaces them.
 constexpr double kNearlyConvex = 1.01;
 
-// Walls that are looked at before the beams at hand are taken as they are.
+// Number of walls to test before the current beams are taken as final.
 constexpr int kMostSections = 48;
 
 double Height(const Vec3& normal, const Vec3& on, const Vec3& p) { return normal.dot(p - on); }
@@ -38,9 +38,9 @@ struct Wall {
   std::vector<PatchId> parts;
 };
 
-// Clips `polygon` to what lines from `from` through `through` reach beyond it: the planes through an edge of
-// one and a vertex of the other that have `from` behind and `through` before them. `slack` is what their
-// heights there may be off [m].
+// Clips `polygon` to the region that lines from `from` through `through` reach beyond `through`. The clipping
+// planes contain an edge of one polygon and a vertex of the other, and have `from` behind and `through`
+// before them. `slack` is the error of heights above these planes at `polygon` [m].
 void ClipToReach(std::span<const Vec3> from, std::span<const Vec3> through, double rounding, double slack,
                  Polygon3& polygon) {
   const auto clip = [&](std::span<const Vec3> edges, std::span<const Vec3> vertices) {
@@ -79,7 +79,7 @@ void ClipToReach(std::span<const Vec3> from, std::span<const Vec3> through, doub
   if (!polygon.empty()) clip(through, from);
 }
 
-// Where segments between corners of the two cross the wall's plane.
+// The points where segments between corners of the two polygons cross the wall's plane.
 std::vector<Vec3> Crossings(const Wall& wall, std::span<const Vec3> before, std::span<const Vec3> behind) {
   std::vector<Vec3> points;
   points.reserve(before.size() * behind.size());
@@ -151,8 +151,8 @@ void BeamFinder::CollectWalls(std::span<const Vec3> a, std::span<const Vec3> b,
   }
 }
 
-// Whether one lies before the wall's plane and the other behind it, so far apart that it is known well where
-// segments between them cross it.
+// True if one polygon lies before the wall's plane and the other behind it, far enough apart that the places
+// where segments between them cross the plane are well defined.
 bool BeamFinder::Separates(const Wall& wall, std::span<const Vec3> before,
                            std::span<const Vec3> behind) const {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest, reach = 0;
@@ -168,7 +168,7 @@ bool BeamFinder::Separates(const Wall& wall, std::span<const Vec3> before,
   return reach <= kMostSlope * kMostSlope;
 }
 
-// The share of the segments between corners that the wall's parts cut.
+// The fraction of the segments between corners that the wall's parts cut.
 double BeamFinder::CornersHidden(const Wall& wall, std::span<const Vec3> before,
                                  std::span<const Vec3> behind) const {
   const std::vector<Vec3> crossings = Crossings(wall, before, behind);
@@ -181,8 +181,8 @@ double BeamFinder::CornersHidden(const Wall& wall, std::span<const Vec3> before,
   return static_cast<double>(hidden) / static_cast<double>(crossings.size());
 }
 
-// The pieces that the wall leaves open of what reaches it through the stations. False if they are not worth a
-// beam.
+// Finds the pieces of the wall's section with the tube through the stations that the wall leaves open. False
+// if they leave too much open for a beam.
 bool BeamFinder::Open(const Stations& stations, const Wall& wall, std::vector<Polygon3>& pieces) const {
   const double crack = kCrack * scale_;
   Polygon3 section = ConvexHull(Crossings(wall, stations.front(), stations.back()), wall.normal);
@@ -221,8 +221,8 @@ bool BeamFinder::Open(const Stations& stations, const Wall& wall, std::vector<Po
   return open < kMostOpen * area;
 }
 
-// Narrows all stations to what sees each other through the piece, and puts it among them. False if nothing
-// does.
+// Clips all stations to the parts that see each other through the piece, and inserts the piece as a station.
+// False if nothing remains.
 bool BeamFinder::Narrow(Stations& stations, const Wall& wall, Polygon3 piece) const {
   const std::size_t count = stations.size();
   std::vector<char> before(count), behind(count);
@@ -235,11 +235,11 @@ bool BeamFinder::Narrow(Stations& stations, const Wall& wall, Polygon3 piece) co
     before[i] = ahead(1);
     behind[i] = ahead(-1);
   }
-  // A plane through three corners has the rounding of each.
+  // A plane through three corners has the rounding of each corner.
   constexpr double kPlaneRoundings = 3;
   const auto clip = [&](const Polygon3& from, Polygon3& to) {
-    // Heights are off by `rounding` at both polygons that span a plane, and by as many times that beyond them
-    // as `to` is farther.
+    // Heights have the error `rounding` at the two polygons that span a plane; beyond them the error grows in
+    // proportion to the distance.
     double near = std::numeric_limits<double>::infinity(), far = 0;
     for (const Vec3& v : from) near = std::min(near, std::abs(Height(wall.normal, wall.on, v)));
     for (const Vec3& v : to) far = std::max(far, std::abs(Height(wall.normal, wall.on, v)));
@@ -257,7 +257,7 @@ bool BeamFinder::Narrow(Stations& stations, const Wall& wall, Polygon3 piece) co
   return true;
 }
 
-// The last station before the wall and the first behind it.
+// The indices of the last station before the wall and the first station behind the wall.
 std::pair<std::size_t, std::size_t> BeamFinder::Neighbours(const Stations& stations, const Wall& wall) const {
   std::size_t near = 0, far = stations.size() - 1;
   for (std::size_t i = 1; i + 1 < stations.size(); ++i) {
@@ -272,7 +272,7 @@ std::pair<std::size_t, std::size_t> BeamFinder::Neighbours(const Stations& stati
 
 void BeamFinder::Divide(const Stations& stations, const std::vector<char>& used) {
   if (first_only_ && !found_.beams.empty()) return;
-  // Those that hide most are looked at first.
+  // Walls that hide more come first.
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t w = 0; w < walls_.size(); ++w) {
     if (used[w] || (stations.size() > 2 && !Separates(walls_[w], stations.front(), stations.back())))

@@ -9,13 +9,13 @@
 namespace penumbra {
 namespace {
 
-// By how much the highest (sign 1) or lowest (sign -1) point of a box lies in the half-space.
+// The height of the highest (sign 1) or lowest (sign -1) point of a box above the border of the half-space.
 double Reach(const HalfSpace& space, const Vec3& centre, const Vec3& half, double sign) {
   return space.normal.dot(centre) - space.offset + sign * space.normal.cwiseAbs().dot(half);
 }
 
-// What may be wrong about whether a box reaches into a half-space, in roundings of a height: those of the
-// box's centre and sizes, of the plane, and of the distance between them.
+// Error of the test of a box against a half-space, in roundings of a height: those of the box's centre and
+// size, of the plane, and of the distance between them.
 constexpr double kMarginRoundings = 4;
 
 }  // namespace

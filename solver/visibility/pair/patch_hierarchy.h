@@ -1,6 +1,6 @@
 // solver/visibility/pair/patch_hierarchy.h
 //
-// A bounding hierarchy over patches: which of them may matter to a point, without a look at all the others.
+// A bounding volume hierarchy over patches, to find the patches that may matter to a point.
 
 #pragma once
 
@@ -16,29 +16,29 @@ namespace penumbra {
 class PatchHierarchy {
  public:
   PatchHierarchy() = default;
-  // Over the given patches of the scene; their boxes are copied.
+  // A hierarchy over the given patches of the scene. Copies their bounding boxes.
   PatchHierarchy(const Scene& scene, std::vector<PatchId> patches);
 
   std::size_t size() const { return order_.size(); }
 
-  // Replaces `found` by the patches whose boxes reach into the region and do not lie in the shadow of one of
-  // the screens as a whole, ascending. Roundings count for the patches: some that just miss the region may be
-  // among them.
+  // Replaces `found` by the patches whose boxes reach into the region and lie in the shadow of no screen as a
+  // whole, ascending. No such patch is missing; because of rounding, some patches just outside the region may
+  // be included.
   void Find(const ConvexRegion& region, std::span<const Screen> screens, std::vector<PatchId>& found) const;
 
  private:
-  // In depth-first order; children follow their parent. A leaf has one patch.
+  // The nodes are in depth-first order, parents before children. A leaf has one patch.
   struct Node {
-    Vec3 centre, half;                  // of its box [m]
-    std::int32_t skip = 1;              // nodes in this subtree, this one counted
-    std::int32_t first = 0, count = 0;  // its patches, in order_
+    Vec3 centre, half;                  // of the bounding box [m]
+    std::int32_t skip = 1;              // number of nodes in this subtree, including this node
+    std::int32_t first = 0, count = 0;  // the subtree's patches, in order_
   };
   bool Hidden(const Node& node, std::span<const Screen> screens) const;
   void Build(const Scene& scene, std::size_t first, std::size_t last);
 
   std::vector<PatchId> order_;
   std::vector<Node> nodes_;
-  double margin_ = 0;  // what roundings may move [m]
+  double margin_ = 0;  // bound of the rounding of boxes and heights [m]
 };
 
 }  // namespace penumbra

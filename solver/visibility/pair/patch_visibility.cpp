@@ -16,12 +16,11 @@ struct Found {
   std::vector<PatchId> blockers;
 };
 
-// Of the patches that fill most of the view from a patch, so many serve as screens, if they are at least this
-// large [sr].
+// The largest number of screens for one patch, and their smallest solid angle [sr].
 constexpr std::size_t kMostScreens = 16;
 constexpr double kLeastScreen = 0.02;
 
-// Finds for one patch after the other what it sees.
+// Finds the patches that see a given patch.
 class PairFinder {
  public:
   explicit PairFinder(const Scene& scene) : scene_(scene), screens_(scene) {
@@ -30,7 +29,8 @@ class PairFinder {
     patches_ = PatchHierarchy(scene, std::move(all));
   }
 
-  // The patches above i that see it, ascending, with their blockers. Some of them, if it was cancelled.
+  // The patches with larger numbers than i that see patch i, ascending, with their blockers. Incomplete if
+  // cancelled.
   std::vector<Found> Find(PatchId i, const ExecutionContext& context) const {
     const Patch& patch = scene_.patches[i];
     std::vector<ReceiverPoint> corners;
@@ -63,7 +63,7 @@ class PairFinder {
 PatchVisibility::PatchVisibility(const Scene& scene, const ExecutionContext& context) {
   const std::size_t count = scene.patches.size();
   const PairFinder finder(scene);
-  std::vector<std::vector<Found>> found(count);  // pairs (i, j) with i < j, at i
+  std::vector<std::vector<Found>> found(count);  // found[i] holds the pairs (i, j) with i < j
   ParallelFor(count, 1, [&](std::size_t i) {
     if (!context.Cancelled()) found[i] = finder.Find(static_cast<PatchId>(i), context);
   });
@@ -80,7 +80,7 @@ PatchVisibility::PatchVisibility(const Scene& scene, const ExecutionContext& con
       entry.source = pair.other;
       by_receiver[i].push_back(entry);
     }
-    found[i] = {};  // memory for what comes
+    found[i] = {};  // frees memory early
   }
   rows_.first.assign(1, 0);
   for (std::vector<PatchPair>& pairs : by_receiver) {

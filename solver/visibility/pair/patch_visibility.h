@@ -1,8 +1,8 @@
 // solver/visibility/pair/patch_visibility.h
 //
-// Which patches see which, and what may stand between them: the initial links of the solver with the blockers
-// of their tubes (thesis 4.1; Teller and Hanrahan 1993). Everything below a pair of patches inherits its
-// blockers.
+// The pairs of patches that may see each other, with the blockers in the tube of each pair (thesis 4.1;
+// Teller and Hanrahan 1993). The solver makes its initial links from the pairs. All links between two patches
+// choose their blockers from those of the pair.
 
 #pragma once
 
@@ -16,40 +16,39 @@
 
 namespace penumbra {
 
-// The class of a tube. Pairs that one blocker hides wholly, or walls together, are not kept.
+// The class of a pair's tube. Pairs that one blocker, or walls together, hide completely are not stored.
 enum class Visibility : std::uint8_t { kVisible, kPartial };
 
-// One source that a receiver's front may see.
+// A source that the front of a receiver may see.
 struct PatchPair {
   PatchId source = kNoPatch;
-  Visibility visibility = Visibility::kVisible;  // kVisible just if there are no blockers
+  Visibility visibility = Visibility::kVisible;  // kVisible if and only if there are no blockers
   std::uint32_t first_blocker = 0, blocker_count = 0;
 };
 
 class PatchVisibility {
  public:
-  // The pairs of all receivers in compressed rows.
+  // The pairs of all receivers, in compressed rows.
   struct Rows {
-    std::vector<std::size_t> first;  // per receiver, into pairs; and the end
+    std::vector<std::size_t> first;  // index of the first pair of each receiver; last, pairs.size()
     std::vector<PatchPair> pairs;
     std::vector<PatchId> blockers;
   };
 
   PatchVisibility() = default;
-  // Without any pairs if it was cancelled.
+  // Finds the pairs of the scene. Has no pairs if the context is cancelled.
   explicit PatchVisibility(const Scene& scene, const ExecutionContext& context = ExecutionContext());
-  // What another one gave as rows().
+  // Restores an object from the rows() of another.
   explicit PatchVisibility(Rows rows) : rows_(std::move(rows)) {}
 
-  // The sources that receiver's front may see, ascending: their fronts and its front each have a part before
-  // the other's plane, and neither one blocker nor walls (HiddenByWalls) hide them wholly. Symmetric: s is a
-  // source of r just if r is one of s.
+  // The sources that the receiver's front may see, ascending. Each of the two fronts has a part before the
+  // other's plane, and neither one blocker nor walls (HiddenByWalls) hide the pair completely. Symmetric: s
+  // is a source of r if and only if r is a source of s.
   std::span<const PatchPair> SourcesOf(PatchId receiver) const {
     return {rows_.pairs.data() + rows_.first[receiver], rows_.pairs.data() + rows_.first[receiver + 1]};
   }
 
-  // The patches that meet the interior of the tube between the pair, ascending; never a true blocker left
-  // out.
+  // The patches that meet the interior of the pair's tube, ascending. No patch that blocks is missing.
   std::span<const PatchId> Blockers(const PatchPair& pair) const {
     return {rows_.blockers.data() + pair.first_blocker, pair.blocker_count};
   }

@@ -12,13 +12,13 @@
 namespace penumbra {
 namespace {
 
-// No more patches than this, the largest of all, are looked at as screens.
+// Only this many patches, the largest, are candidates for screens.
 constexpr std::size_t kMostDiscs = 1024;
 
-// This many times as many patches are looked at as are asked for: some lie in the shadows of others.
+// Number of patches tested for each requested screen; some lie in the shadows of others.
 constexpr std::size_t kLookedAtForEach = 4;
 
-// From one point. The first half-space is what lies beyond the patch's plane.
+// The shadow of the patch for one point. The first half-space is the one beyond the patch's plane.
 ConvexRegion PointShadow(const ReceiverPoint& at, const Patch& patch) {
   ConvexRegion shadow;
   const Side side = SideOf(at, patch.normal, patch.vertex[0], patch.extent);
@@ -77,7 +77,8 @@ void ScreenFinder::Find(std::span<const ReceiverPoint> from, double least, std::
   std::vector<double>& angle = *angles;
   const std::size_t size = patch_.size();
   angle.resize(size);
-  // Not the cosine: a wall close by, seen at a flat angle from its middle, hides half of the world.
+  // The estimate leaves out the cosine: a close wall hides half of the view, although its centre is seen at a
+  // grazing angle.
   for (std::size_t i = 0; i < size; ++i) {
     const double x = centre_[0][i] - eye.x(), y = centre_[1][i] - eye.y(), z = centre_[2][i] - eye.z();
     angle[i] = area_[i] / (x * x + y * y + z * z + area_[i] / (2 * std::numbers::pi));

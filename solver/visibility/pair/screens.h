@@ -1,6 +1,7 @@
 // solver/visibility/pair/screens.h
 //
-// Patches that hide much at once: what lies in their shadows need not be looked at one by one.
+// Screens: patches that hide a large part of the view. Patches in the shadow of a screen need no further
+// tests.
 
 #pragma once
 
@@ -13,34 +14,33 @@
 
 namespace penumbra {
 
-// All p with normal . p >= offset; the normal is unit.
+// All points p with normal . p >= offset; `normal` is a unit vector.
 struct HalfSpace {
   Vec3 normal = Vec3::Zero();
   double offset = 0;  // [m]
 };
 
-// A convex region: what lies in all of its half-spaces.
+// The intersection of half-spaces.
 using ConvexRegion = std::vector<HalfSpace>;
 
-// A patch that hides all that lies in its shadow.
+// A patch with the region that it hides.
 struct Screen {
   PatchId patch = kNoPatch;
   ConvexRegion shadow;
 };
 
-// Where nothing is seen from any of the points, nor from between them, because the patch stands before it:
-// what is hidden from several points is hidden from their convex hull. Empty if the patch's plane contains
-// one of them or separates them.
+// The region that the patch hides from every one of the points, and thus from their convex hull. Empty if the
+// patch's plane contains one of the points or separates them.
 ConvexRegion ShadowRegion(std::span<const ReceiverPoint> from, const Patch& patch);
 
-// Finds screens among the largest patches of a scene, which must outlive it.
+// Finds screens among the largest patches of a scene. The scene must outlive the finder.
 class ScreenFinder {
  public:
   ScreenFinder() = default;
   explicit ScreenFinder(const Scene& scene);
 
-  // Replaces `screens` by up to `count` patches that fill a large part of what is seen from the points, none
-  // of them in the shadow of another: by an estimate at least `least` [sr], the largest first.
+  // Replaces `screens` by at most `count` patches whose estimated solid angle as seen from the points is at
+  // least `least` [sr], the largest first. No screen lies in the shadow of another.
   void Find(std::span<const ReceiverPoint> from, double least, std::size_t count,
             std::vector<Screen>& screens) const;
 

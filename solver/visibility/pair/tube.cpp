@@ -78,8 +78,8 @@ bool Tube::Misses(std::span<const Vec3> polygon, const Vec3& normal) const {
 }
 
 bool Tube::HiddenBy(std::span<const Vec3> polygon, const Vec3& normal) const {
-  // The points where segments from a to b cross a plane between them are the hull of those between their
-  // vertices.
+  // The points where segments from a to b cross a plane between them are the convex hull of the crossings of
+  // segments between vertices.
   const double side = normal.dot(a_[0] - polygon[0]) > 0 ? 1 : -1;
   for (const Vec3& p : a_) {
     const double hp = side * normal.dot(p - polygon[0]);

@@ -1,7 +1,7 @@
 // solver/visibility/pair/tube.h
 //
-// The tube of two polygons: their convex hull, outside which nothing can block light between them (Teller and
-// Hanrahan 1993).
+// The tube of two polygons, their convex hull: nothing outside the tube can block light between them (Teller
+// and Hanrahan 1993).
 
 #pragma once
 
@@ -13,27 +13,28 @@
 
 namespace penumbra {
 
-// Of a height above a plane, relative to the coordinates: what rounding of vertices and normal can make of
-// zero. Polygons that see each other only by less than this lie in one plane.
+// Bound of the height above a plane that rounding of vertices and normal can give to a point in the plane,
+// relative to the coordinates. Polygons whose heights above each other's planes are below this bound count as
+// coplanar.
 inline constexpr double kCoplanar = 1e-12;
 
-// Two edges whose cross product is this small beside their lengths are parallel but for rounding: they span
-// no plane.
+// If |u x v| <= kParallel * |u| * |v|, the edges u and v count as parallel and span no plane.
 inline constexpr double kParallel = 1e-12;
 
 class Tube {
  public:
-  // REQUIRES: a and b are convex and planar, and each lies on or before the other's plane.
+  // REQUIRES: a and b are convex and planar, each lies on or before the other's plane, and both outlive the
+  // tube.
   Tube(std::span<const Vec3> a, std::span<const Vec3> b);
 
-  // The tube's planes and its bounding box: no point of the tube lies outside.
+  // A region that contains the tube, bounded by the tube's planes and its bounding box.
   ConvexRegion Region() const;
 
-  // True if the convex polygon, whose plane has the unit normal `normal`, does not meet the tube's interior:
-  // it then cannot block. Conservative: false may be returned for polygons just outside.
+  // True if the convex polygon, whose plane has the unit normal `normal`, does not meet the tube's interior
+  // and so cannot block. Conservative: may return false for a polygon just outside.
   bool Misses(std::span<const Vec3> polygon, const Vec3& normal) const;
 
-  // True if the convex polygon cuts every segment from a to b, so that it alone hides one from the other.
+  // True if the convex polygon cuts every segment from a to b: it alone hides a from b.
   bool HiddenBy(std::span<const Vec3> polygon, const Vec3& normal) const;
 
  private:
@@ -41,7 +42,7 @@ class Tube {
 
   std::span<const Vec3> a_, b_;
   Vec3 low_, high_;      // bounding box
-  double rounding_ = 0;  // how far a computed height above a plane may be off [m]
+  double rounding_ = 0;  // bound of the error of a computed height above a plane [m]
   ConvexRegion planes_;
 };
 

@@ -9,10 +9,10 @@
 namespace penumbra {
 namespace {
 
-// One blocker hides all or is no wall.
+// A wall has at least two parts: a single blocker either hides everything or is no wall.
 constexpr std::size_t kFewestOfWalls = 2;
 
-// The part of the polygon before the patch's plane; empty if that is nothing beyond rounding.
+// The part of the polygon before the patch's plane; empty if there is none up to rounding.
 Polygon3 PartBefore(std::span<const Vec3> polygon, const Patch& patch, bool* clipped) {
   double lowest = 0, highest = 0, scale = patch.extent;
   for (const Vec3& v : polygon) {
@@ -27,14 +27,15 @@ Polygon3 PartBefore(std::span<const Vec3> polygon, const Patch& patch, bool* cli
   return ClipToHalfSpace(polygon, patch.normal, patch.vertex[0], kCoplanar * scale);
 }
 
-// A search for what stands in one tube.
+// Finds the blockers in one tube.
 struct TubeSearch {
   const Scene& scene;
   const Tube& tube;
   const TubeEnds& ends;
   PatchId receiver, source;
 
-  // False, with nothing appended, if one candidate hides the ends from each other.
+  // Appends the candidates that meet the tube. False, with nothing appended, if one candidate hides the ends
+  // from each other.
   bool Filter(std::span<const PatchId> candidates, std::vector<PatchId>& blockers) const {
     const std::size_t before = blockers.size();
     for (const PatchId candidate : candidates) {
@@ -50,7 +51,7 @@ struct TubeSearch {
     return true;
   }
 
-  // The same, and false if walls hide them.
+  // Filter() that also returns false if walls hide the ends from each other.
   bool Find(std::span<const PatchId> candidates, std::vector<PatchId>& blockers) const {
     const std::size_t before = blockers.size();
     if (!Filter(candidates, blockers)) return false;

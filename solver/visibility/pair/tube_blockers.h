@@ -1,7 +1,7 @@
 // solver/visibility/pair/tube_blockers.h
 //
-// What may stand between two polygons, found once for patches and then filtered for every smaller pair below
-// them.
+// The blockers that may stand between two polygons. Each pair of patches gets a list of blockers once; each
+// pair of smaller polygons on the two patches filters the list of the pair above it.
 
 #pragma once
 
@@ -14,34 +14,35 @@
 
 namespace penumbra {
 
-// The parts of a receiver and a source before each other's planes: what light can pass between.
+// The parts of a receiver and of a source that lie before each other's planes: the ends of a tube.
 struct TubeEnds {
   Polygon3 receiver, source;
-  bool receiver_clipped = false;  // part of the receiver lies behind the source's plane
+  bool receiver_clipped = false;  // a part of the receiver lies behind the source's plane
 };
 
-// The ends of the tube from a convex polygon in the plane of `receiver_patch` to one in that of
-// `source_patch`; nothing if one of them lies behind the other's plane, or in it but for rounding.
+// The ends of the tube between a convex polygon in the plane of `receiver_patch` and one in the plane of
+// `source_patch`. Nothing if one polygon lies, up to rounding, in or behind the other's plane.
 std::optional<TubeEnds> ClipToEachOther(std::span<const Vec3> receiver, const Patch& receiver_patch,
                                         std::span<const Vec3> source, const Patch& source_patch);
 
-// Appends those candidates that meet the interior of the tube; the two patches themselves are left out. Never
-// leaves out a true blocker. False, with nothing appended, if the ends are found to be hidden from each other
-// wholly: by one candidate, or by walls (HiddenByWalls).
+// Appends the candidates that meet the interior of the tube, in their order; the two patches themselves do
+// not count. No candidate that blocks is missing. Returns false and appends nothing if one candidate or walls
+// (HiddenByWalls) hide the ends from each other completely.
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       std::span<const PatchId> candidates, std::vector<PatchId>& blockers);
-// The same with all patches of the hierarchy as candidates; blockers ascend.
+// FindTubeBlockers() with all patches of the hierarchy as candidates; the blockers ascend.
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       const PatchHierarchy& hierarchy, std::vector<PatchId>& blockers);
 
 struct TubeBlockers {
   std::vector<PatchId> all;
-  // As many of them as tell which segments between the ends are blocked: of what stands in a blocked
-  // segment's way one at least is there, walls first (KeepBlockersOfBeams).
+  // A subset that decides which segments between the ends are blocked: it contains at least one blocker of
+  // every blocked segment (KeepBlockersOfBeams).
   std::vector<PatchId> first;
 };
 
-// The same, with the blockers in place of what `found` held; none where the ends are hidden from each other.
+// FindTubeBlockers() for both lists; replaces the contents of `found`. Both lists are empty if the ends are
+// hidden from each other.
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       std::span<const PatchId> candidates, TubeBlockers& found);
 

@@ -1,7 +1,7 @@
 // solver/visibility/point/arc_tangent.h
 //
-// The arc tangent as straight code, for loops that the compiler turns into vector code. The results are the
-// same for every vector width.
+// A branch-free arc tangent, for loops that the compiler vectorises. The results are the same for every
+// vector width.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace penumbra::internal {
 
-// The arc tangent on [0, tan(pi/8)] as x times a polynomial in x^2 that interpolates atan(x)/x in twelve
+// atan(x) on [0, tan(pi/8)] as x times a polynomial in x^2. The polynomial interpolates atan(x)/x at twelve
 // Chebyshev nodes; its error there is 4e-18.
 inline constexpr std::array<double, 12> kArcTangent = {1.0,
                                                        -0.3333333333333312,

@@ -16,35 +16,35 @@
 namespace penumbra {
 namespace {
 
-// A vertex this near to a line, relative to the source's image, lies on it. Lines coincide all the time, and
-// slivers cut off by rounding would go on to be cut. Moves what is visible by as much of the source.
+// A vertex within this distance of a line, relative to the size of the source's image, lies on the line.
+// Without this tolerance, coincident lines would cut off slivers that later lines cut again. The border of
+// the visible part moves by at most this distance.
 constexpr double kSnap = 8 * std::numeric_limits<double>::epsilon();
 
-// A piece no larger than this, relative to the source's image, is where lines that should meet in a point
-// cross in three.
+// Pieces up to this size, relative to the source's image, are artefacts: lines that should meet in one point
+// meet in three.
 constexpr double kDust = 4e4 * kSnap;
 
-// In a smaller image the roundings of a line's distance count for more than kSnap, and are taken with more
-// digits.
+// In images smaller than this, the rounding of a line's distance exceeds kSnap, and the distance is computed
+// with more digits.
 constexpr double kFineImage = 0.25, kFinestImage = 1e-4;
 
-// With more occluders than this a piece is halved rather than cut along one of them: each half is left with
-// fewer.
+// With more occluders, a piece is halved instead of cut along an occluder: each half has fewer occluders.
 constexpr std::size_t kCrowd = 16;
 
-constexpr int kMostCuts = 12;  // lines of a cone, each of which may add a vertex to what it cuts
+constexpr int kMostCuts = 12;  // lines of a cone; each may add a vertex to the polygon that it cuts
 constexpr int kLanes = 4;
 
-// A group of lines or vertices, worked on at once.
+// A group of lines or vertices, processed at once.
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 using LaneBits = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))));
 
-// Not by value: that would depend on the processor.
+// By pointer: the convention for returning vectors by value depends on the processor.
 [[gnu::always_inline]] inline void Load(const double* from, Lanes* lanes) {
   std::memcpy(lanes, from, sizeof *lanes);
 }
 
-// All bits of all lanes together.
+// The bitwise or of all lanes.
 [[gnu::always_inline]] inline std::uint32_t AnyOf(const LaneBits& bits) {
   static_assert(kLanes == 4);
   return static_cast<std::uint32_t>((bits[0] | bits[1]) | (bits[2] | bits[3]));
@@ -52,16 +52,16 @@ using LaneBits = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::in
 
 // A part of a source in the image.
 struct Piece : ImagePolygon {
-  std::array<EdgeLabel, kCapacity> label;  // of the edge from vertex i to the next
+  std::array<EdgeLabel, kCapacity> label;  // of the edge from vertex i to the next vertex
 
-  Piece() {}  // NOLINT: the array stays as it is
+  Piece() {}  // NOLINT: the array stays uninitialised
   Piece(const Piece& other) : ImagePolygon() { *this = other; }
   Piece& operator=(const Piece& other) {
     ImagePolygon::operator=(other);
     std::copy_n(other.label.begin(), size, label.begin());
     return *this;
   }
-  // With these labels; those of the source's edges if none are given.
+  // A piece with these labels; by default those of the source's edges.
   Piece(const ImagePolygon& polygon, std::span<const EdgeLabel> labels) : ImagePolygon(polygon) {
     for (int i = 0; i < size; ++i) label[i] = labels.empty() ? EdgeLabel::OfSource(i) : labels[i];
   }
@@ -87,7 +87,7 @@ Bounds BoundsOf(const ImagePolygon& piece) {
   return b;
 }
 
-// Whether the piece is nowhere wider than `width`, or little more.
+// True if the width of the piece is at most about `width`.
 bool IsSliver(const Piece& piece, double width) {
   double twice_area = 0, longest = 0;
   for (int i = 1; i < piece.size; ++i) {
@@ -99,8 +99,8 @@ bool IsSliver(const Piece& piece, double width) {
   return twice_area <= width * longest;
 }
 
-// An occluder in the image. Lines and vertices stand in groups of kLanes, so that a group is worked on at
-// once; what fills up the last group changes nothing.
+// An occluder in the image. Lines and vertices are stored in groups of kLanes that are processed at once. The
+// padding of the last group has no effect.
 struct ImageCone {
   int padded = 0;  // a multiple of kLanes
   std::size_t occluder = 0;
@@ -109,23 +109,23 @@ struct ImageCone {
   std::array<double, kMostCuts> vx, vy, vw;  // its vertices, homogeneous
 };
 
-// A cone that may cover a part of a piece, and those of its lines that may cut it.
+// A cone that may cover a part of a piece, with the lines that may cut the piece.
 struct Candidate {
   std::int32_t cone;
   std::uint32_t lines;
-  std::int32_t count;  // of the lines
+  std::int32_t count;  // number of the lines
 };
 
 // A piece that some candidates cover in part: candidates[first] to candidates[last - 1].
 struct Work {
   Piece piece;
   std::size_t first, last;
-  int halvings;  // that may still be done because of a crowd
+  int halvings;  // that may still be made because of kCrowd
 };
 
 ImageCone MakeImageCone(const ImageFrame& frame, const Occluder& occluder, std::size_t index, Digits digits) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  // Nearer to the horizon of the image than this, coordinates are left alone.
+  // If the relative height of a vertex above the image's horizon is at most this, the bounds are infinite.
   constexpr double kLeastHeight = 1e-9;
   const Cone& cone = *occluder.cone;
   ImageCone image;
@@ -134,7 +134,7 @@ ImageCone MakeImageCone(const ImageFrame& frame, const Occluder& occluder, std::
   image.bounds = {kInfinity, -kInfinity, kInfinity, -kInfinity};
   bool behind = false;
   for (int k = 0; k < image.padded; ++k) {
-    // Everything lies within what fills up a group.
+    // The padding is a line with every point on its inner side.
     const bool is_line = k < cone.size;
     const ImageLine line = is_line ? frame.Line(cone, k, digits) : ImageLine{0, 0, kInfinity};
     image.a[k] = line.a;
@@ -162,10 +162,10 @@ struct Clipper::Impl {
   std::vector<ImageCone> cones;
   std::vector<Candidate> candidates;
   std::vector<Work> stack;
-  std::size_t depth = 0;  // of the stack; what lies above keeps its memory
+  std::size_t depth = 0;  // number of entries in use; the others keep their memory
   ImageEdges visible;
   std::span<const Occluder> occluders;
-  PieceOwner owner = PieceOwner::Part(0);  // of the pieces that are found
+  PieceOwner owner = PieceOwner::Part(0);  // of the pieces found
   double snap = 0, dust = 0;
 
   bool Beside(const ImageCone& cone, const ImagePolygon& piece) const;
@@ -181,13 +181,13 @@ struct Clipper::Impl {
 Clipper::Clipper() : impl_(std::make_unique<Impl>()) {}
 Clipper::~Clipper() = default;
 
-// Whether some edge of the piece has the whole cone on its outer side.
+// True if the whole cone lies on the outer side of an edge of the piece.
 [[gnu::always_inline]] inline bool Clipper::Impl::Beside(const ImageCone& cone,
                                                          const ImagePolygon& piece) const {
   for (int i = 0; i < piece.size; ++i) {
     const int j = i + 1 == piece.size ? 0 : i + 1;
     const double dx = piece.x[j] - piece.x[i], dy = piece.y[j] - piece.y[i];
-    // The edge of a piece of dust runs anywhere.
+    // The direction of an edge of this length is arbitrary.
     if (std::abs(dx) + std::abs(dy) <= dust) continue;
     const double h = dy * piece.x[i] - dx * piece.y[i];
     LaneBits before{};
@@ -203,7 +203,7 @@ Clipper::~Clipper() = default;
   return false;
 }
 
-// How the candidate covers the piece; for kPart its lines are those that cut the piece.
+// How the candidate covers the piece. For kPart, keeps those of its lines that cut the piece.
 [[gnu::always_inline]] inline Overlap Clipper::Impl::Classify(Candidate& candidate, const ImagePolygon& piece,
                                                               const Bounds& bounds) const {
   const ImageCone& cone = cones[candidate.cone];
@@ -225,19 +225,19 @@ Clipper::~Clipper() = default;
     constexpr std::uint32_t kCuts = (1 << kLanes) - 1;
     const std::uint32_t bits =
         AnyOf(((lowest < -snap) & LaneBits{1, 2, 4, 8}) | ((highest <= snap) & LaneBits{16, 32, 64, 128}));
-    if (bits > kCuts) return Overlap::kNone;  // beyond a line
+    if (bits > kCuts) return Overlap::kNone;  // outside a line
     cutting |= bits << group;
   }
   const int count = std::popcount(cutting);
   candidate.lines = cutting;
   candidate.count = count;
   if (cutting == 0) return Overlap::kAll;
-  // Across one line and inside of all others: there is no way to lie beside the cone.
+  // The piece crosses one line and lies inside all others, so the cone covers a part of the piece.
   if (count == 1) return Overlap::kPart;
   return Beside(cone, piece) ? Overlap::kNone : Overlap::kPart;
 }
 
-// `inside` and `outside` become the parts of the piece on either side of a line; the cut gets the label.
+// Splits the piece at a line into `inside` and `outside`. The new edges get the label.
 void Clipper::Impl::Split(const Piece& piece, const ImageLine& line, EdgeLabel label, Piece* inside,
                           Piece* outside) const {
   std::array<double, Piece::kCapacity> height;
@@ -249,7 +249,7 @@ void Clipper::Impl::Split(const Piece& piece, const ImageLine& line, EdgeLabel l
   for (int i = 0; i < piece.size; ++i) {
     const int j = i + 1 == piece.size ? 0 : i + 1;
     const double ha = height[i], hb = height[j], x = piece.x[i], y = piece.y[i];
-    // A vertex on the line starts the cut in the part that the next edge leaves.
+    // A vertex on the line is the start of the new edge in the part that the next edge leaves.
     if (ha >= 0) inside->Add(x, y, hb < 0 && ha == 0 ? label : piece.label[i]);
     if (ha <= 0) outside->Add(x, y, hb > 0 && ha == 0 ? label : piece.label[i]);
     if ((ha > 0 && hb < 0) || (ha < 0 && hb > 0)) {
@@ -261,7 +261,7 @@ void Clipper::Impl::Split(const Piece& piece, const ImageLine& line, EdgeLabel l
   }
 }
 
-// How the candidates [first, last) cover the piece; those that cover a part are pushed.
+// How the candidates [first, last) cover the piece. Pushes those that cover a part.
 PENUMBRA_VECTOR_CLONES
 Overlap Clipper::Impl::Narrow(const ImagePolygon& piece, std::size_t first, std::size_t last) {
   const Bounds bounds = BoundsOf(piece);
@@ -280,8 +280,8 @@ Overlap Clipper::Impl::Narrow(const ImagePolygon& piece, std::size_t first, std:
   return candidates.size() == top ? Overlap::kNone : Overlap::kPart;
 }
 
-// Forgets the piece if candidates [first, last) hide it, keeps it if they leave it alone, and else puts it on
-// the stack.
+// Drops the piece if the candidates [first, last) hide it, keeps it if none covers a part, and otherwise puts
+// it on the stack.
 void Clipper::Impl::Sort(const Piece& piece, std::size_t first, std::size_t last, int halvings) {
   const std::size_t top = candidates.size();
   switch (Narrow(piece, first, last)) {
@@ -310,14 +310,14 @@ void Clipper::Impl::Halve(const Work& work, int halvings) {
   Split(work.piece,
         along_x ? ImageLine{1, 0, -0.5 * (b.low_x + b.high_x)} : ImageLine{0, 1, -0.5 * (b.low_y + b.high_y)},
         EdgeLabel::Inner(), &high, &low);
-  const std::size_t first = work.first, last = work.last;  // the stack may move from here on
+  const std::size_t first = work.first, last = work.last;  // the stack may be reallocated from here on
   Sort(high, first, last, halvings);
   Sort(low, first, last, halvings);
 }
 
-// Cuts one of the candidates out of the piece, and sorts what remains by the others.
+// Cuts one candidate out of the piece, and tests the remaining pieces against the other candidates.
 void Clipper::Impl::CutOut(Work& work) {
-  // The fewer lines, the fewer pieces.
+  // Fewer lines give fewer pieces.
   const std::size_t first = work.first, last = work.last;
   std::size_t chosen = first;
   for (std::size_t c = first + 1; c < last; ++c)
@@ -325,7 +325,7 @@ void Clipper::Impl::CutOut(Work& work) {
   std::swap(candidates[first], candidates[chosen]);
   const Candidate cutter = candidates[first];
   const int halvings = work.halvings;
-  Piece start = work.piece, inside, outside;  // the stack may move from here on
+  Piece start = work.piece, inside, outside;  // the stack may be reallocated from here on
   Piece *rest = &start, *next = &inside;
   for (std::uint32_t lines = cutter.lines; lines != 0 && rest->size >= 3; lines &= lines - 1) {
     const int k = std::countr_zero(lines);
@@ -339,9 +339,9 @@ void Clipper::Impl::CutOut(Work& work) {
 void Clipper::Impl::Run() {
   while (depth > 0) {
     Work& work = stack[--depth];
-    candidates.resize(work.last);  // those above were of pieces that are done
+    candidates.resize(work.last);  // those above belong to finished pieces
     if (work.piece.size + kMostCuts > Piece::kCapacity) {
-      Halve(work, work.halvings);  // so that cuts can never overflow a piece
+      Halve(work, work.halvings);  // so that cuts cannot exceed the capacity of a piece
     } else if (work.halvings > 0 && work.last - work.first > kCrowd) {
       Halve(work, work.halvings - 1);
     } else {
@@ -402,7 +402,7 @@ void Clipper::CutOut(const ImagePolygon& polygon, const Candidates& candidates, 
   work.piece = Piece(polygon, label);
   work.first = candidates.first;
   work.last = candidates.last;
-  // As many halvings as leave some candidates a piece, were they spread evenly.
+  // If candidates were evenly distributed, this number of halvings would leave a few for each piece.
   work.halvings = static_cast<int>(std::bit_width((candidates.last - candidates.first) / 2));
   impl.depth = 1;
   impl.Run();
@@ -418,7 +418,7 @@ ImageEdges& Clipper::Visible() { return impl_->visible; }
 
 namespace {
 
-// What clipping one source needs.
+// The objects that clipping of one source needs.
 struct Workshop {
   Clipper clipper;
   std::vector<ImagePart> parts;
@@ -429,7 +429,7 @@ struct Workshop {
   }
 };
 
-// Calls use(frame, clipper) for each image of the source, with what is visible of it in the clipper.
+// Calls use(frame, clipper) for each image of the source; the clipper holds the visible pieces.
 template <class Use>
 void ForEachImage(const DirectionPolygon& source, std::span<const Occluder> occluders, const Vec3& normal,
                   const Use& use) {
@@ -465,7 +465,7 @@ void ForEachVisiblePiece(const DirectionPolygon& source, std::span<const Occlude
 
 namespace {
 
-// Adds the form factors of what is visible in the image to those of its owners.
+// Adds the form factors of the visible pieces of the image to the factors of their owners.
 void AddVisible(ImageEdges& visible, const ImageFrame& frame, const Vec3& normal, std::span<double> factors) {
   const ImageEdges::Sum sum = visible.FormFactorSum(frame, normal);
   const bool cancels = sum.angles > kFormFactorCancellation * std::abs(sum.value);

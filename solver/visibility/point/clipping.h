@@ -1,7 +1,7 @@
 // solver/visibility/point/clipping.h
 //
-// What blockers leave of a source, by clipping: the shadow of each blocker is cut out of the source, and the
-// rest remains as convex pieces. Exact, and the fastest of the methods.
+// Occlusion by clipping: cuts the shadow of each blocker out of the source and keeps the rest as convex
+// pieces. Exact, and the fastest of the methods.
 
 #pragma once
 
@@ -17,11 +17,11 @@
 
 namespace penumbra {
 
-// Cuts shadows out of the polygons of one image. Occluders and the lists of them keep their buffers from one
-// image to the next: lease one for many (Scratch).
+// Cuts shadows out of the polygons of one image at a time. A clipper keeps its buffers from image to image;
+// lease one clipper for many images (Scratch).
 class Clipper {
  public:
-  // Some of the occluders, on a stack.
+  // A range on the clipper's stack of occluders.
   struct Candidates {
     std::size_t first = 0, last = 0;
     bool empty() const { return first == last; }
@@ -32,25 +32,26 @@ class Clipper {
   Clipper(const Clipper&) = delete;
   Clipper& operator=(const Clipper&) = delete;
 
-  // Forgets the image.
+  // Forgets the image and its occluders.
   void Clear();
-  // Turns to the image `frame` of `whole`, which holds all polygons to come. Returns all occluders as
-  // candidates. The occluders must stay.
+  // Starts the image `frame` of the polygon `whole`, which contains all later polygons. Returns all occluders
+  // as candidates. The occluders must outlive their use by this object.
   Candidates Begin(const ImageFrame& frame, const ImagePolygon& whole, std::span<const Occluder> occluders);
 
-  // How the candidates, which are on top of the stack, cover the polygon. kAll: one of them does alone.
-  // kPart: those that may cover a part are pushed as `own`.
+  // Tests how the candidates cover the polygon. kAll: one candidate covers all of it. kPart: pushes the
+  // candidates that may cover a part and returns them in `own`. REQUIRES: the candidates are on top of the
+  // stack.
   Overlap Narrow(const ImagePolygon& polygon, const Candidates& candidates, Candidates* own);
-  // Drops everything above.
+  // Pops all that lies above the candidates.
   void Restore(const Candidates& candidates);
 
-  // Cuts the candidates, which Narrow() found for this very polygon, out of it. What remains goes to
-  // Visible(), with its owner and labels: `label` those of the polygon's edges, those of the source's if none
-  // are given.
+  // Cuts the candidates out of the polygon and adds the remaining pieces to Visible(), with their owner and
+  // the labels of their edges. `label` holds the labels of the polygon's edges; by default they are edges of
+  // the source. REQUIRES: Narrow() returned the candidates for this polygon.
   void CutOut(const ImagePolygon& polygon, const Candidates& candidates, PieceOwner owner,
               std::span<const EdgeLabel> label = {});
 
-  // The candidates as they came.
+  // Appends the candidates to `occluders`, in the order of Begin().
   void List(const Candidates& candidates, std::vector<Occluder>& occluders) const;
 
   ImageEdges& Visible();
@@ -60,15 +61,16 @@ class Clipper {
   std::unique_ptr<Impl> impl_;
 };
 
-// Calls visit(directions) for every convex piece of `source` that none of the occluders covers; the pieces do
-// not overlap. For a point with unit normal `normal`; the source lies above its horizon, the occluders before
-// the source.
+// Calls visit(directions) for every convex piece of `source` that no occluder covers, for a point with unit
+// normal `normal`. The pieces do not overlap. REQUIRES: the source lies above the point's horizon, and the
+// occluders lie before the source.
 void ForEachVisiblePiece(const DirectionPolygon& source, std::span<const Occluder> occluders,
                          const Vec3& normal, const std::function<void(std::span<const Vec3>)>& visit);
 
-// Writes the form factors of the point to what the occluders leave of each of the parts of a source, which
-// lie in `whole` and do not overlap; faster than one after the other. Each is within kOcclusionError of the
-// form factor of `whole`, which is more than Clipping loses of a part that is small beside it.
+// Computes the form factors of the point to the unoccluded part of each of the parts of a source; faster than
+// one call for each part. Each error is at most kOcclusionError times the form factor of `whole`; for parts
+// much smaller than `whole`, this exceeds the error of Clipping. REQUIRES: the parts lie in `whole` and do
+// not overlap.
 void VisibleFormFactors(const DirectionPolygon& whole, std::span<const DirectionPolygon> parts,
                         std::span<const Occluder> occluders, const Vec3& normal, std::span<double> factors);
 

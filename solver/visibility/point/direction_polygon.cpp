@@ -7,33 +7,33 @@
 namespace penumbra {
 namespace {
 
-// A height n . (x - p) is off by at most this, relative to the coordinates: roundings of the input, the
-// difference, the normal and the sum.
+// Bound of the error of a height n . (x - p), relative to the coordinates: rounding of input, difference,
+// normal and sum.
 constexpr double kHeightError = 16 * std::numeric_limits<double>::epsilon();
 
-// An approach that leaves a plane at less than this angle [rad] runs within it: coplanar polygons of tilted
-// planes differ by roundings only, while a triangle never approaches a contact edge this flatly.
+// An approach at less than this angle to a plane [rad] runs within the plane. Coplanar polygons of tilted
+// planes differ by rounding only, and a triangle never approaches a contact edge at so small an angle.
 constexpr double kParallelApproach = 1e-10;
 
-// An arc shorter than this [rad] is the rounding of a single vertex. A cone goes without it.
+// An arc shorter than this [rad] is one vertex with rounding errors. Cones leave it out.
 constexpr double kNoArc = 1e-13;
 
-// An arc shorter than this [rad] does not tell safely on which side of its great circle a cone lies:
-// roundings turn it by up to 1e-9.
+// For an arc shorter than this [rad], rounding may turn the great circle by up to 1e-9, so the side on which
+// the cone lies is uncertain.
 constexpr double kShortArc = 1e-6;
 
 bool IsArcShorter(const Vec3& a, const Vec3& b, const Vec3& normal, double angle) {
   return normal.squaredNorm() <= angle * angle * a.squaredNorm() * b.squaredNorm();
 }
 
-// Ends of an edge are nearly opposite to each other if the sine of the angle between them is below the root
-// of this.
+// The ends of an edge are nearly opposite if sin^2 of the angle between them is below this.
 constexpr double kOpposite = 0.01;
 
 using Heights = std::array<double, DirectionPolygon::kCapacity>;
 
-// The part of the polygon above a plane, from the heights of its vertices. `crossing` makes the direction
-// where an edge meets the plane, from its ends and their heights, of which one is above and one below.
+// The part of the polygon above a plane, from the heights of its vertices. `crossing` computes the direction
+// where an edge meets the plane, from the edge's ends and their heights, of which one is positive and one
+// negative.
 template <class Crossing>
 DirectionPolygon PartAbove(const DirectionPolygon& polygon, const Heights& height, const Crossing& crossing) {
   bool any_above = false, any_below = false;
@@ -57,19 +57,20 @@ const auto kBetween = [](const Vec3& a, const Vec3& b, double ha, double hb) -> 
   return (std::abs(hb) * a + std::abs(ha) * b) / (std::abs(ha) + std::abs(hb));
 };
 
-// How far the height of v above a plane of the cone may be off by rounding.
+// Bound of the rounding error of the height of v above a plane of the cone.
 double HeightRoundingOf(const Cone& cone, const Vec3& v) {
   return cone.rounding + kHeightError * v.cwiseAbs().sum();
 }
 
-// Where an edge passes the point so closely, or crosses a plane so flatly, that the triple product of plane
-// and ends is below this, relative to their lengths, roundings turn n x (a x b) by more than 1e-10.
+// If the triple product of a plane and an edge's ends, relative to their lengths, is below this, the edge
+// passes close to the point or crosses the plane at a small angle. Rounding then turns n x (a x b) by more
+// than 1e-10.
 constexpr double kFlat = 1e-6;
 
-// The direction in which the edge from a to b meets a plane through the point: n x m, m = a x b, which may
-// point to the wrong side of the point where the edge is flat. There it is a point of the edge by the heights
-// of its ends, with more digits, since few are left where the edge is near. Elsewhere the great circle of the
-// edge turns about m and sinks through the plane opposite to n x m, if a is above.
+// The direction in which the edge from a to b meets a plane through the point: n x m, with m = a x b. For
+// small angles (kFlat), n x m may have the wrong sign; the direction is then interpolated from the heights of
+// the ends, with more digits. Otherwise the sign follows from the heights: if a is above, the great circle of
+// the edge, which turns about m, descends through the plane opposite to n x m.
 struct CrossingOf {
   const Vec3& plane;
 
@@ -89,7 +90,7 @@ struct CrossingOf {
   }
 };
 
-// Whether x lies on the segment from a to b (seen from x), within `tolerance`.
+// True if the viewpoint lies on the segment from a to b (relative to it), within `tolerance`.
 bool OnEdge(const Vec3& a, const Vec3& b, double tolerance) {
   const Vec3 edge = b - a;
   return a.dot(b) < 0 && EdgeNormal(a, b).squaredNorm() <= tolerance * tolerance * edge.squaredNorm();
@@ -104,8 +105,8 @@ struct Levelled {
   Heights height;
 };
 
-// What lies in the receiver's plane but for rounding shall lie in it. Its height is exactly zero from here
-// on: the rounding that is left must not cut an edge in two, at a place that means nothing.
+// Sets the heights of vertices within rounding of the receiver's plane to exactly zero: a remaining rounding
+// error could cut an edge at an arbitrary place.
 Levelled Level(const DirectionPolygon& seen, const Vec3& normal, double rounding) {
   Levelled level;
   for (int i = 0; i < seen.size(); ++i) {
@@ -124,7 +125,8 @@ Vec3 EdgeNormal(const Vec3& a, const Vec3& b) {
   const bool a_first =
       aa < bb || (aa == bb && std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3));
   const Vec3 m = a_first ? Vec3(a.cross(b - a)) : Vec3(-b.cross(a - b));
-  // The point is close to the edge's middle: the plane turns by some roundings over the angle that is left.
+  // If the point is close to the middle of the edge, rounding turns the plane noticeably; long double avoids
+  // this.
   if (m.squaredNorm() >= kOpposite * aa * bb || a.dot(b) >= 0) return m;
   return a.cast<long double>().cross(b.cast<long double>()).cast<double>();
 }
@@ -221,7 +223,7 @@ Overlap Classify(const Cone& cone, const DirectionPolygon& polygon) {
     cutting += any_outside ? 1 : 0;
   }
   if (cutting == 0) return Overlap::kAll;
-  // Across one plane and inside of all others: there is no way to lie beside the cone.
+  // The polygon crosses one plane and lies inside all others, so the cone covers a part of the polygon.
   if (cutting == 1) return Overlap::kPart;
   for (int i = 0; i < polygon.size(); ++i) {
     const Vec3 m = EdgeNormal(polygon[i], polygon.Next(i));

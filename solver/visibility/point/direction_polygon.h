@@ -1,10 +1,10 @@
 // solver/visibility/point/direction_polygon.h
 //
-// What a point sees of a convex polygon, as directions: form factor and occlusion depend on nothing else.
-// Vertices are vectors from the point, of any length; edges are arcs of great circles shorter than pi.
+// A convex polygon as seen from a point, as directions: form factor and occlusion depend on nothing else.
+// Vertices are vectors from the point, of any length. Edges are arcs of great circles, shorter than pi.
 //
-// Notation: x the point, a -> b an edge as seen from x, m = a x b its normal. Vertices run so that every
-// direction inside has m . direction > 0 for all edges.
+// Notation: x is the point, a -> b an edge as seen from x, m = a x b the normal of the edge. The order of the
+// vertices is such that m . direction > 0 for all edges and every direction inside.
 
 #pragma once
 
@@ -24,7 +24,7 @@ class DirectionPolygon {
   static constexpr int kCapacity = 20;
 
   DirectionPolygon() = default;
-  // Copies what is in use.
+  // Copies only the vertices in use.
   DirectionPolygon(const DirectionPolygon& other) { *this = other; }
   DirectionPolygon& operator=(const DirectionPolygon& other) {
     size_ = other.size_;
@@ -47,58 +47,59 @@ class DirectionPolygon {
   int size_ = 0;
 };
 
-// On which side of a polygon's plane the viewpoint lies.
+// The side of a polygon's plane on which the viewpoint lies.
 enum class Side {
   kFront,
   kBack,
-  kInPlane,  // the plane contains the point and no approach tells the sides apart: the polygon has no effect
-  kFrontInLimit,  // the plane contains the point, which is approached from the front
+  kInPlane,  // the plane contains the point, which has no approach off the plane: the polygon has no effect
+  kFrontInLimit,  // the plane contains the point; the approach is from the front
   kBackInLimit,
 };
 
-// How far the height of a point above a plane may be off by rounding, for coordinates up to `extent` [m].
+// Bound of the rounding error of a point's height above a plane [m], for coordinates up to `extent` [m].
 double HeightRounding(double extent);
 
-// The side of the plane through `on` with unit normal `normal`; `extent` bounds the polygon's coordinates
-// [m].
+// The side of the plane through `on` with unit normal `normal` on which the point lies. `extent` bounds the
+// polygon's coordinates [m].
 Side SideOf(const ReceiverPoint& at, const Vec3& normal, const Vec3& on, double extent);
 
-// What the viewpoint sees of a convex polygon (counter-clockwise about `normal`) whose plane does not contain
-// it.
+// A convex polygon as seen from the viewpoint. The vertices run counter-clockwise about the polygon's normal;
+// `from_front`: the viewpoint lies on the side of the normal. REQUIRES: the plane does not contain the
+// viewpoint.
 DirectionPolygon Seen(const ReceiverPoint& at, std::span<const Vec3> polygon, bool from_front);
 
-// The same in the limit, for a polygon whose plane contains the viewpoint: empty unless the point touches it.
-// The part above the receiver's horizon only. A vertex at the point is seen in the direction opposite to the
-// approach, and so is the middle of an edge through the point.
+// The limit of Seen() for a polygon whose plane contains the viewpoint; only the part above the receiver's
+// horizon. Empty unless the polygon contains the point. A vertex at the point is seen in the direction
+// opposite to the approach; so is the midpoint of an edge through the point.
 DirectionPolygon SeenInContact(const ReceiverPoint& at, std::span<const Vec3> polygon, bool from_front);
 
-// The part above the receiver's horizon n . direction >= 0 of what is seen of a polygon with coordinates up
-// to `extent` [m]. Vertices on the horizon but for rounding lie on it. Crossings are taken as directions, n x
-// (a x b).
+// The part of a seen polygon above the receiver's horizon, n . direction >= 0. `extent` bounds the polygon's
+// coordinates [m]. Vertices within rounding of the horizon count as on it. Intersections with the horizon are
+// the directions n x (a x b).
 DirectionPolygon ClipToHorizon(const ReceiverPoint& at, const DirectionPolygon& polygon, double extent);
 
-// The cone that a blocker fills: all directions with normal[k] . direction >= 0.
+// The cone of directions that a blocker fills: all directions with normal[k] . direction >= 0.
 struct Cone {
   int size = 0;
   std::array<Vec3, 12> normal;     // unit
-  std::array<Vec3, 12> direction;  // the blocker's vertices as seen: plane k starts here
-  std::array<Vec3, 12> end;        // and ends here
-  // A vertex this near to one of the planes lies in it, but for rounding [m]. Planes coincide all the time,
-  // and a sliver that was cut off by rounding has edges that run anywhere.
+  std::array<Vec3, 12> direction;  // the blocker's vertices as seen; start of plane k
+  std::array<Vec3, 12> end;        // end of plane k
+  // A vertex whose distance from one of the planes is at most this lies in the plane [m]. Without this
+  // tolerance, planes that coincide would cut off slivers whose edges have arbitrary directions.
   double rounding = 0;
 };
 
-// The normal a x b of the edge from a to b. Both neighbours of an edge compute it from the same end, the
-// nearer one, with the same operations: the results are opposite to the bit.
+// The normal a x b of the edge from a to b. Both neighbours of an edge compute it from the nearer end with
+// the same operations, so that their results are opposite to the bit.
 Vec3 EdgeNormal(const Vec3& a, const Vec3& b);
 
-// The cone over what is seen of a blocker with coordinates up to `extent` [m]. Two blockers that share an
-// edge get opposite normals for it, to the bit, so that no light leaks between them.
+// The cone of a seen blocker. `extent` bounds the blocker's coordinates [m]. Two blockers that share an edge
+// get normals for it that are opposite to the bit, so that no light leaks between them.
 Cone MakeCone(const ReceiverPoint& at, const DirectionPolygon& blocker, double extent);
 
 enum class Overlap { kNone, kPart, kAll };
 
-// A cone that may hide a part of a source; it must stay where it is.
+// A cone that may hide a part of a source. The cone must stay at its address.
 struct Occluder {
   const Cone* cone = nullptr;
 
@@ -106,10 +107,11 @@ struct Occluder {
   Occluder(const Cone& whole) : cone(&whole) {}
 };
 
-// How the cone covers the polygon, but for rounding. kPart may be returned for a cone just beside it.
+// Tests how the cone covers the polygon, up to rounding. May return kPart for a cone just outside the
+// polygon.
 Overlap Classify(const Cone& cone, const DirectionPolygon& polygon);
 
-// The part of the polygon where plane . direction >= 0.
+// The part of the polygon with plane . direction >= 0.
 DirectionPolygon Above(const DirectionPolygon& polygon, const Vec3& plane);
 
 }  // namespace penumbra

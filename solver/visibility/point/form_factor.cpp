@@ -11,8 +11,8 @@
 namespace penumbra {
 namespace {
 
-// The sum over the edges, and the sum of their angles: roundings turn each edge's normal by some 1e-16, and
-// what that does to its term grows with the angle, however small the term is.
+// The sum over the edges, and the sum of their angles. Rounding turns the normal of each edge by about 1e-16;
+// the resulting error of the edge's term is proportional to the edge's angle, even if the term is small.
 struct EdgeSum {
   double value = 0, angles = 0;
 
@@ -27,7 +27,7 @@ struct EdgeSum {
   double FormFactor() const { return std::max(0.0, value * (0.5 * std::numbers::inv_pi)); }
 };
 
-// Gauss and Legendre's rules on [0, 1].
+// Gauss-Legendre rules on [0, 1].
 template <std::size_t N>
 struct GaussRule {
   std::array<double, N> node, weight;
@@ -45,13 +45,14 @@ constexpr GaussRule<8> kEight = {
     {0.050614268145188130, 0.11119051722668724, 0.15685332293894364, 0.18134189168918099, 0.18134189168918099,
      0.15685332293894364, 0.11119051722668724, 0.050614268145188130}};
 
-// On a part of diameter h at distance r, seen end-on, four nodes err by up to 3.7e-3 (h / r)^8 and eight by
-// 3.4e-7 (h / r)^16 at their nearest: Gauss's remainder for 1 / r^4. That is some 1e-15 here.
+// On a part of diameter h at distance r, seen along its line of sight, the error is at most 3.7e-3 (h / r)^8
+// with four nodes and 3.4e-7 (h / r)^16 with eight (the remainder of Gauss quadrature for 1 / r^4): about
+// 1e-15 with these limits.
 constexpr double kFarForFour = 0.03, kFarForSix = 0.15, kFarForEight = 0.4;
 constexpr int kMostHalvings = 120;
 
-// An edge is seen end-on where the sine of the angle between it and the line of sight is below this: some
-// hundred roundings, so that nothing is known of the plane through the point and the edge.
+// An edge is seen end-on if the sine of the angle between the edge and the line of sight is below this. About
+// a hundred roundings: the plane through the point and the edge is then undefined.
 constexpr double kEndOn = 1e-14;
 
 // A convex quadrilateral as the image of the unit square: p(s, t) = corner + s u + t v + s t w. Two vertices
@@ -66,7 +67,7 @@ struct Bilinear {
       : corner(base + o0), u(o1 - o0), v(o3 - o0), w((o2 - o1) - (o3 - o0)) {
     h0 = normal.dot(corner), hu = normal.dot(u), hv = normal.dot(v), hw = normal.dot(w);
     c0 = corner.dot(u.cross(v)), c1 = corner.dot(u.cross(w)), c2 = corner.dot(w.cross(v));
-    c3 = -u.dot(v.cross(w));  // zero but for rounding if the vertices lie in a plane
+    c3 = -u.dot(v.cross(w));  // zero up to rounding for planar quadrilaterals
   }
   Vec3 At(double s, double t) const { return corner + s * u + t * (v + s * w); }
 };
@@ -90,7 +91,8 @@ double Integrate(const Bilinear& q, const Box& box, const GaussRule<N>& rule) {
   return sum * box.width * box.height;
 }
 
-// The integral of (n . p) (p . dA) / |p|^4 over a part of the quadrilateral, halved where it is near.
+// The integral of (n . p) (p . dA) / |p|^4 over a part of the quadrilateral. Halves parts that are close to
+// the point.
 double Integrate(const Bilinear& q, const Box& box, int halvings) {
   const double s1 = box.s + box.width, t1 = box.t + box.height;
   const std::array<Vec3, 4> p = {q.At(box.s, box.t), q.At(s1, box.t), q.At(s1, t1), q.At(box.s, t1)};
@@ -116,7 +118,7 @@ double Integrate(const Bilinear& q, const Box& box, int halvings) {
 }  // namespace
 
 double FormFactorByQuadrature(const Vec3& base, std::span<const Vec3> offset, const Vec3& normal) {
-  // The distance of the plane has the most digits from the nearest vertex.
+  // The distance of the plane is most accurate from the nearest vertex.
   const std::size_t n = offset.size();
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < n; ++i)
@@ -144,7 +146,8 @@ double FormFactor(const DirectionPolygon& polygon, const Vec3& normal, double ca
   EdgeSum sum;
   for (int i = 0; i < polygon.size(); ++i)
     sum.Add(EdgeNormal(polygon[i], polygon.Next(i)), polygon[i].dot(polygon.Next(i)), normal);
-  // What is seen all round, in a limit at a contact, is no small part of the hemisphere.
+  // A polygon without an image axis is seen all around, in a limit at a contact; its form factor is not
+  // small.
   if (!sum.Cancels(cancellation) || ImageAxis(polygon).isZero(0)) return sum.FormFactor();
   std::array<Vec3, DirectionPolygon::kCapacity> offset;
   for (int i = 0; i < polygon.size(); ++i) offset[static_cast<std::size_t>(i)] = polygon[i] - polygon[0];
@@ -156,12 +159,13 @@ Vec3 EdgeGradient(const Vec3& a, const Vec3& b, const Vec3& from, const Vec3& to
   const Vec3 m = EdgeNormal(a, b);
   const double length = (b - a).norm(), area = m.norm();
   if (area <= kEndOn * length * std::max(a.norm(), b.norm())) return Vec3::Zero();
-  // The foot of the perpendicular lies at distance area / length; angles along the edge count from there.
+  // The foot of the perpendicular from the point to the line lies at distance area / length. Angles along the
+  // edge are measured from the foot.
   const Vec3 along = (b - a) / length, left = m / area, foot = along.cross(left);
   const double from_angle = std::atan2(along.dot(from), foot.dot(from)),
                to_angle = std::atan2(along.dot(to), foot.dot(to));
   const double turn = to_angle - from_angle, middle = to_angle + from_angle;
-  // The integral of (n . w) cos(angle) over the arc, w = cos(angle) foot + sin(angle) along.
+  // The integral of (n . w) cos(angle) over the arc, where w = cos(angle) foot + sin(angle) along.
   const double share = 0.5 * normal.dot(foot) * (turn + std::sin(turn) * std::cos(middle)) +
                        0.5 * normal.dot(along) * std::sin(turn) * std::sin(middle);
   return share * std::numbers::inv_pi * length / area * left;

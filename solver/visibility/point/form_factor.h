@@ -1,7 +1,7 @@
 // solver/visibility/point/form_factor.h
 //
-// The form factor of a point to a polygon that it sees: the fraction of what the point's surface would send
-// out that meets the polygon; times the polygon's radiosity, the irradiance that comes from it.
+// The form factor of a point to a polygon that it sees: the irradiance at the point divided by the polygon's
+// radiosity. Equal to the fraction of the diffuse light leaving the point's surface that reaches the polygon.
 
 #pragma once
 
@@ -12,37 +12,39 @@
 
 namespace penumbra {
 
-// The sum over the edges is used unless their angles add up to more than this many times its value. Beyond
-// that the integral is done by Gauss quadrature, which adds up positive terms only.
+// If the sum of the edges' angles exceeds this constant times the edge sum, Gauss quadrature, which adds
+// positive terms only, replaces the edge sum.
 inline constexpr double kFormFactorCancellation = 200;
 
-// Largest error of a form factor, relative to its value, for exactly the vertices, point and normal given: a
-// term of the sum is off by some 2 roundings of 1.1e-16 of its angle, and the angles are 200 times the sum; 8
-// x 8 Gauss nodes are off by less.
+// Bound of the relative error of a form factor, if the given vertices, point and normal are taken as exact. A
+// term of the edge sum has an error of about 2 roundings (1.1e-16) of its angle, and the angles are at most
+// 200 times the sum. The error of 8 x 8 Gauss nodes is smaller.
 inline constexpr double kFormFactorError = 1e-13;
 
-// (1 / 2 pi) sum gamma n . m / |m| over the edges a -> b of the polygon, m = a x b, gamma the angle between a
-// and b by atan2 (Baum, Rushmeier and Winget 1989; thesis eq. 6.1). The polygon must lie above the horizon
-// of `normal` (unit). Quadrature takes over where the angles are more than `cancellation` times the sum.
+// (1 / 2 pi) sum gamma n . m / |m| over the edges a -> b of the polygon, where m = a x b, and gamma is the
+// angle between a and b, computed by atan2 (Baum, Rushmeier and Winget 1989; thesis eq. 6.1). Uses quadrature
+// if the angles exceed `cancellation` times the sum. REQUIRES: the polygon lies above the horizon of
+// `normal`, a unit vector.
 double FormFactor(const DirectionPolygon& polygon, const Vec3& normal,
                   double cancellation = kFormFactorCancellation);
 
-// The same for the polygon with the vertices base + offset[i], which keeps the digits of a polygon that is
-// small or far: its edges are differences of the offsets.
+// The form factor to the polygon with the vertices base + offset[i]. Edges are differences of the offsets, so
+// that small or distant polygons lose no digits.
 double FormFactor(const Vec3& base, std::span<const Vec3> offset, const Vec3& normal);
 
-// The same by adaptive Gauss quadrature: slower, without cancellation.
+// The form factor to the polygon with the vertices base + offset[i] by adaptive Gauss quadrature: slower,
+// without cancellation.
 double FormFactorByQuadrature(const Vec3& base, std::span<const Vec3> offset, const Vec3& normal);
 
-// The share of one edge of what is visible in the gradient of the form factor by the position of the point,
-// normal fixed [1/m]. The edge runs between the directions `from` and `to`, with what is visible on its left;
-// it is the image of the line through `a` and `b` (as seen from the point), be it an edge of the source or of
-// a blocker: as the point moves by d, the image moves across by d . m / distance (the boundary form of Arvo,
-// The irradiance Jacobian for partially occluded polyhedral sources, 1994). Zero where the line passes
-// through the point: there is no gradient.
+// The contribution of one edge of the visible region to the gradient of the form factor by the position of
+// the point, with the normal fixed [1/m]. The edge runs from direction `from` to direction `to`; the visible
+// region lies on its left. The edge is the image of the line through `a` and `b`, relative to the point: an
+// edge of the source or of a blocker. If the point moves by d, the image moves sideways by d . m / distance
+// (the boundary form of Arvo, The irradiance Jacobian for partially occluded polyhedral sources, 1994). Zero
+// if the line passes through the point, where no gradient exists.
 Vec3 EdgeGradient(const Vec3& a, const Vec3& b, const Vec3& from, const Vec3& to, const Vec3& normal);
 
-// The gradient of the form factor to a polygon, all of whose edges are edges in space.
+// The gradient of the form factor to an unoccluded polygon by the position of the point [1/m].
 Vec3 FormFactorGradient(const DirectionPolygon& polygon, const Vec3& normal);
 
 }  // namespace penumbra

@@ -13,7 +13,7 @@
 namespace penumbra {
 namespace {
 
-// Plain numbers, which the compiler vectorises across polygons.
+// A vector of plain numbers. The compiler vectorises loops over polygons.
 struct Triple {
   double x, y, z;
 };
@@ -34,7 +34,7 @@ struct Triple {
   return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
 }
 
-// The k-th vertices of all polygons, a column an axis.
+// The coordinates of the k-th vertices of all polygons, one column for each axis.
 struct VertexColumns {
   const double* __restrict x;
   const double* __restrict y;
@@ -45,13 +45,13 @@ struct VertexColumns {
   [[gnu::always_inline]] inline Triple operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-// What the edge from a to b adds to 2 pi times the negated form factor of the point p with normal n; its
-// angle is added to `angles`.
+// The term of the edge from a to b in -2 pi times the form factor of the point p with normal n. Adds the
+// edge's angle to `angles`.
 [[gnu::always_inline]] inline double EdgeTerm(const Triple& a, const Triple& b, const Triple& p,
                                               const Triple& n, double& angles) {
-  // The edge from the original coordinates: what is close to it keeps its digits.
+  // The edge vector from the original coordinates, so that close edges keep their digits.
   const Triple e = b - a, r = a - p, q = b - p;
-  // a x b = a x e = b x e, with the most digits from the end that is nearer.
+  // a x b = a x e = b x e; the nearer end gives the most digits.
   const Triple m = Cross(Choose(Dot(r, r) < Dot(q, q), r, q), e);
   const double length = std::sqrt(Dot(m, m));
   const double angle = internal::AngleOf(length, Dot(r, q));
@@ -59,33 +59,33 @@ struct VertexColumns {
   return Dot(n, m) / (length > 0 ? length : 1.0) * angle;
 }
 
-// Polygons of which no edge has a larger squared sine as seen are small.
+// Polygons are small if no edge has a larger squared sine as seen from the point.
 constexpr double kSmallSine2 = 0.04;
 
-// asin(s) / s = 1 + s^2 (c[0] + c[1] s^2 + ...); what is left out is below 2e-14 of s^2 / 6 where s^2 is
-// kSmallSine2.
+// asin(s) / s = 1 + s^2 (c[0] + c[1] s^2 + ...). For s^2 = kSmallSine2, the truncated terms are less than
+// 2e-14 of s^2 / 6.
 constexpr std::array<double, 9> kArcSine = {1.0 / 6,       3.0 / 40,        5.0 / 112,
                                             35.0 / 1152,   63.0 / 2816,     231.0 / 13312,
                                             143.0 / 10240, 6435.0 / 557056, 12155.0 / 1245184};
 
-// A term of a small polygon is off by some ten roundings of its size, one of other polygons by two of its
-// angle.
+// The error of a term of a small polygon is about ten roundings of the term's size; that of other polygons is
+// two roundings of the angle.
 constexpr double kRoundingsOfSmall = 5;
 
-// A vertex of a small polygon from the point, and its squared distance less that of the first vertex.
+// A vertex of a small polygon relative to the point, and its squared distance minus that of the first vertex.
 struct SmallVertex {
   Triple at;
   double farther;
 };
 
-// What the edges of a small polygon add up to, but for their terms.
+// Sums over the edges of a small polygon, besides the terms.
 struct SmallSums {
-  double sizes = 0;  // of the terms, as if without n
-  double sine2 = 0;  // the largest squared sine of an edge; 1 if an angle is not acute
+  double sizes = 0;  // sizes of the terms, without the factor n
+  double sine2 = 0;  // largest squared sine of an edge; 1 if an angle is not acute
 };
 
-// What an edge a -> b = a + e of a small polygon, of which the first vertex is at squared distance `square`,
-// adds to the sum about that vertex: n . (a x b) (angle / |a x b| - 1 / square).
+// The term of an edge a -> b = a + e of a small polygon in the sum about the first vertex: n . (a x b) (angle
+// / |a x b| - 1 / square). `square` is the squared distance of the first vertex.
 [[gnu::always_inline]] inline double SmallEdgeTerm(const SmallVertex& a, const SmallVertex& b,
                                                    const Triple& e, double square, const Triple& n,
                                                    SmallSums& sums) {
@@ -106,8 +106,8 @@ struct SmallSums {
   return Dot(n, m) * weight;
 }
 
-// Where polygon i is small: out[i] is its sum, added[i] the size of what was added. Elsewhere added[i] is
-// negative. columns[3 k + axis] points to the coordinates of the k-th vertices.
+// If polygon i is small, sets out[i] to its form factor and added[i] to the size of the terms; otherwise sets
+// added[i] to a negative number. columns[3 k + axis] points to the coordinates of the k-th vertices.
 PENUMBRA_VECTOR_CLONES
 void SmallKernel(const std::array<const double*, 12>& columns, std::size_t count, Triple p, Triple n,
                  double* __restrict out, double* __restrict added) {
@@ -132,7 +132,8 @@ void SmallKernel(const std::array<const double*, 12>& columns, std::size_t count
   }
 }
 
-// out[i] is the sum over the edges of polygon i, added[i] that of their angles.
+// Sets out[i] to the form factor of polygon i by the sum over its edges, and added[i] to the sum of the
+// angles.
 PENUMBRA_VECTOR_CLONES
 void LargeKernel(const std::array<const double*, 12>& columns, std::size_t count, Triple p, Triple n,
                  double* __restrict out, double* __restrict added) {
@@ -143,7 +144,7 @@ void LargeKernel(const std::array<const double*, 12>& columns, std::size_t count
     const double second = EdgeTerm(v1[i], v2[i], p, n, angles);
     const double third = EdgeTerm(v2[i], v3[i], p, n, angles);
     const double fourth = EdgeTerm(v3[i], v0[i], p, n, angles);
-    // Counter-clockwise about a normal that points to the point: the sum is negative.
+    // Vertices are counter-clockwise about a normal that points to the point, so the sum is negative.
     const double sum = -((first + second) + (third + fourth));
     out[i] = (sum > 0 ? sum : 0) * (0.5 / std::numbers::pi);
     added[i] = angles;
@@ -159,7 +160,7 @@ double FormFactorByQuadrature(const PolygonBatch& batch, std::size_t i, const Ve
   const auto vertex = [&](std::size_t k) {
     return Vec3(batch.Coordinates(k, 0)[i], batch.Coordinates(k, 1)[i], batch.Coordinates(k, 2)[i]);
   };
-  // Clockwise as seen is counter-clockwise about the direction of sight.
+  // Reverses the order: clockwise as seen is counter-clockwise about the direction of sight.
   const Vec3 first = vertex(0);
   const std::array<Vec3, 4> offset = {Vec3::Zero(), vertex(3) - first, vertex(2) - first, vertex(1) - first};
   return FormFactorByQuadrature(first - position, offset, normal);

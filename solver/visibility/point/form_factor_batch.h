@@ -13,7 +13,7 @@
 
 namespace penumbra {
 
-// Convex polygons of three or four vertices as a structure of arrays; a triangle repeats its last vertex.
+// Convex polygons of three or four vertices as a structure of arrays. A triangle repeats its last vertex.
 class PolygonBatch {
  public:
   std::size_t size() const { return coordinate_[0].size(); }
@@ -21,50 +21,50 @@ class PolygonBatch {
   // Adds polygon i of another batch.
   void AddFrom(const PolygonBatch& other, std::size_t i);
   void Clear();
-  // The coordinates of all k-th vertices along an axis.
+  // The coordinates along `axis` of the k-th vertices of all polygons.
   const double* Coordinates(std::size_t k, std::size_t axis) const {
     return coordinate_[3 * k + axis].data();
   }
-  // All of them from polygon `first` on: entry 3 k + axis.
+  // Pointers to the coordinates from polygon `first` on; entry 3 k + axis is for vertex k.
   std::array<const double*, 12> Columns(std::size_t first) const;
 
  private:
   std::array<std::vector<double>, 12> coordinate_;
 };
 
-// Writes out[i - begin], the form factor of the point at `position` with unit normal `normal` to polygon i of
-// the batch, for begin <= i < end, within kFormFactorError of the value. REQUIRES: the polygons lie above the
-// point's horizon and turn their fronts to it.
+// Sets out[i - begin] to the form factor of the point at `position` with unit normal `normal` to polygon i of
+// the batch, for begin <= i < end. The relative error is at most kFormFactorError. REQUIRES: the polygons lie
+// above the point's horizon, and their fronts face the point.
 //
-// Vectorised, with the width chosen when the program starts; the results are the same for every width.
+// Vectorised; the program chooses the vector width when it starts. The results are the same for every width.
 void FormFactors(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
                  const Vec3& normal, double* out);
 
-// The sums over edges alone, which cancel in part where a polygon is seen flatly or lies near the horizon. A
-// polygon that is small as seen is summed about its first vertex, which keeps its digits however small it is
+// Computes edge sums without quadrature. The sums lose digits for polygons seen at a grazing angle or near
+// the horizon. Polygons with a small apparent size are summed about their first vertex, without cancellation
 // (thesis_notes/derivations.md, "Small polygons").
 class FormFactorSums {
  public:
-  // The same polygons, point and requirements as of FormFactors().
+  // Computes the sums; parameters and requirements are those of FormFactors().
   void Find(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
             const Vec3& normal);
 
-  // The form factor to the i-th of these polygons.
+  // The form factor to polygon begin + i.
   double Factor(std::size_t i) const { return factor_[i]; }
-  // The sum of the sizes of what was added to make it: the factor is within kFormFactorError of
-  // SizeAdded(i) / (2 pi kFormFactorCancellation), or of its value where that is more.
+  // The sum of the sizes of the terms that make up the factor. The error of the factor is at most
+  // kFormFactorError * max(Factor(i), SizeAdded(i) / (2 pi kFormFactorCancellation)).
   double SizeAdded(std::size_t i) const { return size_added_[i]; }
 
   void Clear();
 
  private:
   std::vector<double> factor_, size_added_;
-  // Polygons that are not small, copied side by side.
+  // Compact copies of the polygons that are not small.
   std::vector<std::size_t> large_;
   PolygonBatch large_polygons_;
   std::vector<double> large_factor_, large_size_added_;
 };
-// One of the factors, by quadrature, which does not cancel.
+// The form factor to polygon i of the batch, by quadrature, without cancellation.
 double FormFactorByQuadrature(const PolygonBatch& batch, std::size_t i, const Vec3& position,
                               const Vec3& normal);
 

@@ -9,14 +9,14 @@
 namespace penumbra {
 namespace {
 
-// In the frame's coordinates an edge starts at a = (x + p, y + q, 1) and runs along e = (dx, dy, 0), and n is
-// the normal of the point.
+// In the frame's coordinates, an edge starts at a = (x + p, y + q, 1) and has the direction e = (dx, dy, 0).
+// n is the point's normal.
 struct FrameNumbers {
   double p, q;
   double n1, n2, n3;
 };
 
-// `edge` points to x, y, dx and dy of all edges.
+// Computes the terms and angles of all edges. `edge` points to their x, y, dx and dy.
 PENUMBRA_VECTOR_CLONES
 void Terms(const std::array<const double*, 4>& edge, std::size_t count, FrameNumbers frame,
            double* __restrict term, double* __restrict angle) {
@@ -65,7 +65,7 @@ Vec2 ImageEdges::Centroid(std::size_t piece) const {
   const std::size_t first = Begin(piece), last = Begin(piece + 1);
   double area = 0;
   Vec2 sum = Vec2::Zero();
-  Vec2 a = Difference(first);  // from the first vertex
+  Vec2 a = Difference(first);  // relative to the first vertex
   for (std::size_t i = first + 1; i + 1 < last; ++i) {
     const Vec2 b = a + Difference(i);
     const double twice = a.x() * b.y() - a.y() * b.x();

@@ -12,8 +12,8 @@
 
 namespace penumbra {
 
-// What a piece is left of: a part of the source, or a group of its parts that counts as one. Both have
-// numbers, which the user of the pieces chooses. Not set at first.
+// The origin of a piece: a part of the source, or a group of parts that counts as one. The caller chooses the
+// numbers of parts and groups. Uninitialised by default.
 class PieceOwner {
  public:
   PieceOwner() = default;
@@ -37,34 +37,36 @@ class ImageEdges {
  public:
   struct Sum {
     double value = 0;   // 2 pi times the form factor
-    double angles = 0;  // of all edges
+    double angles = 0;  // sum of the angles of all edges [rad]
   };
 
   void Clear();
-  // Appends the edges of a convex polygon with the given image coordinates and the labels of its edges.
+  // Appends the edges of a convex polygon, from the image coordinates of its vertices and the labels of its
+  // edges.
   void AddPiece(const double* x, const double* y, const EdgeLabel* label, int size, PieceOwner owner);
 
   std::size_t Pieces() const { return start_.size(); }
   PieceOwner Owner(std::size_t piece) const { return owner_[piece]; }
-  // The edges of a piece: [Begin(p), Begin(p + 1)).
+  // The edges of piece p are [Begin(p), Begin(p + 1)).
   std::size_t Begin(std::size_t piece) const { return piece < start_.size() ? start_[piece] : label_.size(); }
   Vec2 Start(std::size_t edge) const { return {edge_[0][edge], edge_[1][edge]}; }
   Vec2 Difference(std::size_t edge) const { return {edge_[2][edge], edge_[3][edge]}; }
-  // The centroid of a piece's image; the first vertex of one without area.
+  // The centroid of the piece's image; the first vertex if the area is zero.
   Vec2 Centroid(std::size_t piece) const;
   EdgeLabel Label(std::size_t edge) const { return label_[edge]; }
 
-  // Over all edges, for a point with unit normal `normal`. The same for any vector width.
+  // The sum over all edges for a point with unit normal `normal`. The result is the same for every vector
+  // width.
   Sum FormFactorSum(const ImageFrame& frame, const Vec3& normal);
-  // 2 pi times the form factor of a piece, as it went into the last FormFactorSum().
+  // 2 pi times the form factor of a piece, as in the last call of FormFactorSum().
   double PieceSum(std::size_t piece) const;
-  // The form factor of a piece, without cancellation.
+  // The form factor of a piece by quadrature, without cancellation.
   double PieceByQuadrature(const ImageFrame& frame, const Vec3& normal, std::size_t piece) const;
 
  private:
-  std::array<std::vector<double>, 4> edge_;  // start x, y; difference x, y
+  std::array<std::vector<double>, 4> edge_;  // start x and y, difference x and y
   std::vector<EdgeLabel> label_;
-  std::vector<std::size_t> start_;  // of each piece
+  std::vector<std::size_t> start_;  // first edge of each piece
   std::vector<PieceOwner> owner_;
   std::vector<double> term_, angle_;
 };

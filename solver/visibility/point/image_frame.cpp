@@ -10,9 +10,9 @@ namespace {
 // A polygon fits into an image if all its vertices are within acos(0.25) of the axis.
 constexpr double kLeastCosine = 0.25;
 
-// The edge of the polygon that the edge from a to b of a part of it runs along.
+// The label of the edge of the polygon that contains the edge from a to b of a part of the polygon.
 EdgeLabel EdgeAlong(const DirectionPolygon& polygon, const Vec3& a, const Vec3& b) {
-  constexpr double kAlong = 1e-12;  // sine of an angle: cutting moves what lies on an edge by some 1e-16
+  constexpr double kAlong = 1e-12;  // sine of an angle; cutting moves points on an edge by about 1e-16
   for (int k = 0; k < polygon.size(); ++k) {
     const Vec3 m = EdgeNormal(polygon[k], polygon.Next(k)).normalized();
     if (std::abs(m.dot(a)) <= kAlong * a.norm() && std::abs(m.dot(b)) <= kAlong * b.norm())
@@ -21,12 +21,12 @@ EdgeLabel EdgeAlong(const DirectionPolygon& polygon, const Vec3& a, const Vec3& 
   return EdgeLabel::Inner();
 }
 
-// Of what is shorter the square is no normal number.
+// The square of a shorter length is not a normal number.
 constexpr double kLeastLength = 1e-150;
 
 __extension__ typedef __float128 Quadruple;
 
-// (a x b) . c, with a x b from a x (b - a).
+// (a x b) . c, where a x b is computed as a x (b - a).
 template <class Real>
 double TripleProduct(const Vec3& a, const Vec3& b, const Vec3& c) {
   const std::array<Real, 3> p = {a.x(), a.y(), a.z()}, q = {b.x() - p[0], b.y() - p[1], b.z() - p[2]};
@@ -54,7 +54,7 @@ ImageLine ImageFrame::Line(const Cone& cone, int k, Digits digits) const {
     line.h = product / EdgeNormal(a, b).norm() / axis_.dot(first_);
   }
   const double length = std::sqrt(line.a * line.a + line.b * line.b);
-  // The plane of directions beside the axis has no line in the image.
+  // A plane perpendicular to the axis has no line in the image.
   if (length < kLeastLength) return {0, 0, line.h};
   const double scale = 1 / length;
   return {scale * line.a, scale * line.b, scale * line.h};

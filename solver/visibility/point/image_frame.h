@@ -1,6 +1,7 @@
 // solver/visibility/point/image_frame.h
 //
-// Directions as points of a plane: great circles become lines, and cutting becomes plane geometry.
+// Central projection of directions onto a plane: great circles become lines, and polygons of directions
+// become plane polygons.
 
 #pragma once
 
@@ -15,7 +16,7 @@
 
 namespace penumbra {
 
-// A line of the image as the zero of a x + b y + h, with (a, b) of unit length.
+// A line of the image: the zeros of a x + b y + h, with a^2 + b^2 = 1.
 struct ImageLine {
   double a = 0, b = 0, h = 0;
 };
@@ -29,9 +30,9 @@ struct ImagePolygon {
   int size = 0;
   std::array<double, kCapacity> x, y;
 
-  ImagePolygon() {}  // NOLINT: the arrays stay as they are
+  ImagePolygon() {}  // NOLINT: the arrays stay uninitialised
   ImagePolygon(const ImagePolygon& other) { *this = other; }
-  // Copies what is in use.
+  // Copies only the vertices in use.
   ImagePolygon& operator=(const ImagePolygon& other) {
     size = other.size;
     std::copy_n(other.x.begin(), size, x.begin());
@@ -46,19 +47,20 @@ struct ImagePolygon {
   }
 };
 
-// The central projection of directions onto a plane one unit from the point, with its origin at the first
-// vertex of a polygon: what is small and far keeps its digits, since coordinates are differences.
+// The central projection of directions onto a plane at unit distance from the point. The image of a polygon's
+// first vertex is the origin: image coordinates are differences, so that small and distant polygons lose no
+// digits.
 class ImageFrame {
  public:
-  // REQUIRES: all of the polygon within 80 degrees of the axis, as the parts of SplitForImages() are.
+  // REQUIRES: the polygon lies within 80 degrees of the axis, as the parts of SplitForImages() do.
   ImageFrame(const DirectionPolygon& polygon, const Vec3& axis);
 
-  // REQUIRES: the direction lies before the plane, as what the frame was made for does.
+  // The image of a direction. REQUIRES: the direction lies before the plane, axis . direction > 0.
   Vec2 Image(const Vec3& direction) const {
     const double w = axis_.dot(direction);
     const Vec3 offset = direction - first_;
-    // A difference keeps the digits of what is close to the first vertex, and loses those of a vertex that is
-    // close to the point.
+    // Near the first vertex the difference keeps the digits. For a vertex near the point the difference would
+    // lose digits.
     if (offset.squaredNorm() > kNearFirstSquared * direction.squaredNorm())
       return Vec2(e1_.dot(direction), e2_.dot(direction)) / w - shift_;
     return (Vec2(e1_.dot(offset), e2_.dot(offset)) - axis_.dot(offset) * shift_) / w;
@@ -71,46 +73,47 @@ class ImageFrame {
     }
     return image;
   }
-  // The direction of an image point.
+  // The direction of an image point, from the viewpoint to the image plane.
   Vec3 Direction(const Vec2& p) const { return origin_ + p.x() * e1_ + p.y() * e2_; }
-  // The direction of the image's origin, and its coordinates along E1 and E2.
+  // The direction of the image's origin, and the coordinates of that direction along E1 and E2.
   const Vec3& Origin() const { return origin_; }
   const Vec2& Shift() const { return shift_; }
   const Vec3& E1() const { return e1_; }
   const Vec3& E2() const { return e2_; }
   const Vec3& Axis() const { return axis_; }
 
-  // (x, y, w): the image point is (x/w, y/w) where w > 0; behind the point w < 0.
+  // (x, y, w): the image point is (x/w, y/w) if w > 0. Directions behind the point have w < 0.
   Vec3 Homogeneous(const Vec3& direction) const {
     const double w = axis_.dot(direction);
     return {e1_.dot(direction) - w * shift_.x(), e2_.dot(direction) - w * shift_.y(), w};
   }
 
-  // Plane k of a cone. The line's distance from the origin, small against the terms that it is the sum of
-  // where the image is small, is worked out in so many digits.
+  // The image of plane k of a cone. In small images the line's distance from the origin is a small sum of
+  // large terms; `digits` is the precision of that sum.
   ImageLine Line(const Cone& cone, int k, Digits digits) const;
 
  private:
-  // The square of a distance from the first vertex, relative to that from the point: a tenth. What lies
-  // farther off loses less than a digit by not being a difference.
+  // The square of 1/10, a bound of |direction - first vertex| / |direction|. Above the bound, coordinates
+  // that are not differences lose less than one digit.
   static constexpr double kNearFirstSquared = 0.01;
 
   Vec3 axis_, e1_, e2_;
   Vec3 first_;   // the polygon's first vertex as seen
-  Vec3 origin_;  // the same direction, one unit along the axis
-  Vec2 shift_;   // its coordinates along e1 and e2
+  Vec3 origin_;  // the same direction, with axis . origin_ = 1
+  Vec2 shift_;   // coordinates of origin_ along e1 and e2
 };
 
-// What an edge of a piece of a source runs along. Not set at first, so that arrays of them cost nothing.
+// The origin of an edge of a piece of a source. Uninitialised by default, so that arrays of labels cost
+// nothing.
 class EdgeLabel {
  public:
   EdgeLabel() = default;
 
-  // Along nothing: two pieces of the same source meet there.
+  // A border between two pieces of the same source.
   static constexpr EdgeLabel Inner() { return EdgeLabel(kInner, 0); }
-  // Along an edge of the source, from vertex `edge` to the next.
+  // The edge of the source from vertex `edge` to the next vertex.
   static constexpr EdgeLabel OfSource(int edge) { return EdgeLabel(kSource, edge); }
-  // Along a plane of the cone of an occluder, by its place in the list of occluders.
+  // A plane of the cone of an occluder; `occluder` is the index in the list of occluders.
   static constexpr EdgeLabel OfOccluder(std::size_t occluder, int plane) {
     return EdgeLabel(static_cast<std::int32_t>(occluder), plane);
   }
@@ -130,18 +133,19 @@ class EdgeLabel {
   std::int32_t occluder_, edge_;
 };
 
-// A part of a polygon of directions that fits into an image.
+// A part of a direction polygon that fits into one image.
 struct ImagePart {
   DirectionPolygon polygon;
   Vec3 axis;
-  std::array<EdgeLabel, DirectionPolygon::kCapacity> label;  // of its edges
+  std::array<EdgeLabel, DirectionPolygon::kCapacity> label;  // labels of the edges
 };
 
-// The axis of an image that holds the polygon; zero if none can.
+// The axis of an image that contains the polygon; zero if no axis has such an image.
 Vec3 ImageAxis(const DirectionPolygon& polygon);
 
-// Appends the polygon, which lies above the horizon of `normal`, as one part where it fits into an image as a
-// whole; else cut by two planes through the normal. What sits on the horizon all round takes four.
+// Appends the polygon as parts that each fit into an image: one part if the whole polygon fits, and otherwise
+// the parts that two planes through `normal` cut. A polygon that contains the whole horizon gives four parts.
+// REQUIRES: the polygon lies above the horizon of `normal`.
 void SplitForImages(const DirectionPolygon& polygon, const Vec3& normal, std::vector<ImagePart>& parts);
 
 }  // namespace penumbra

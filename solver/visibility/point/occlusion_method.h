@@ -1,7 +1,7 @@
 // solver/visibility/point/occlusion_method.h
 //
-// What blockers leave of a source, as seen from a point: several methods behind one interface, to choose from
-// and to check against each other.
+// An interface to compute the part of a source that blockers leave visible from a point. The several methods
+// are alternatives, and checks of each other.
 
 #pragma once
 
@@ -12,29 +12,30 @@
 
 namespace penumbra {
 
-// Largest error of the exact methods, relative to the unoccluded source, for exactly the directions and the
-// normal given: clipping moves borders by 8 roundings of the source's image, some ten times over; all sum
-// form factors to kFormFactorError; a source seen as flatly as 1e-5 loses a digit.
+// Bound of the error of the exact methods, relative to the form factor of the unoccluded source, if the given
+// directions and normal are taken as exact. Clipping moves a border by 8 roundings of the source's image,
+// about ten times. All methods sum form factors to kFormFactorError. A source seen at a grazing angle of 1e-5
+// loses one digit.
 inline constexpr double kOcclusionError = 1e-12;
 
 class OcclusionMethod {
  public:
   virtual ~OcclusionMethod() = default;
 
-  // The form factor of a point with unit normal `normal` to what none of the occluders covers of `source`, a
-  // convex polygon of directions above the horizon. All occluders lie before the source. Safe from any
-  // thread.
+  // The form factor of a point with unit normal `normal` to the part of `source` that no occluder covers. May
+  // be called from any thread. REQUIRES: `source` is convex and lies above the point's horizon; all occluders
+  // lie before the source.
   virtual double VisibleFormFactor(const DirectionPolygon& source, std::span<const Occluder> occluders,
                                    const Vec3& normal) const = 0;
 };
 
 struct OcclusionOptions {
-  // Backprojection: edges of blockers' outlines shorter than this, relative to the source's diameter, are
-  // left out (thesis, Appendix A, 6). 0: none.
+  // Backprojection only: edges of blockers' outlines shorter than this times the source's diameter are left
+  // out (thesis, Appendix A, item 6). 0: none are left out.
   double min_backprojection_segment = 0;
 };
 
-// OcclusionMethods() holds all methods.
+// OcclusionMethods() lists all methods.
 using OcclusionRegistry = Registry<const OcclusionMethod, OcclusionOptions>;
 
 // Clipping.

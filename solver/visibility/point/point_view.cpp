@@ -10,9 +10,9 @@
 namespace penumbra {
 
 struct PointView::Buffers {
-  LazyTable<BlockerView> patches, solids;  // as the point sees them, whole
-  LazyTable<char> as_one;       // by solid, in one search for blockers: whether it stands for its patches
-  std::deque<BlockerView> cut;  // blockers cut at the plane of the source at hand; addresses stay
+  LazyTable<BlockerView> patches, solids;  // whole patches and solids as seen from the point
+  LazyTable<char> as_one;  // for each solid, in one search for blockers: its outline replaces its patches
+  std::deque<BlockerView> cut;  // blockers cut at the plane of the current source; addresses stay valid
   std::vector<Occluder> occluders;
 
   void Clear() {
@@ -75,7 +75,7 @@ PointView::BlockerView PointView::ViewBlocker(std::span<const Vec3> polygon, con
 
 namespace {
 
-// The least and the greatest height of the vertices above the source's plane, and zero.
+// The smallest and the largest of 0 and the heights of the vertices above the source's plane.
 std::pair<double, double> HeightsBefore(const Patch& source, std::span<const Vec3> vertices) {
   double lowest = 0, highest = 0;
   for (const Vec3& v : vertices) {
@@ -88,7 +88,7 @@ std::pair<double, double> HeightsBefore(const Patch& source, std::span<const Vec
 
 }  // namespace
 
-// The blocker's part strictly between the point and the source's plane, as seen; null if it has none.
+// The view of the blocker's part strictly between the point and the source's plane; null if there is none.
 const PointView::BlockerView* PointView::FindBlocker(PatchId blocker, const DirectionPolygon& seen) {
   const Patch& patch = scene_.patches[blocker];
   const double rounding = HeightRounding(std::max(patch.extent, source_->extent));
@@ -97,7 +97,7 @@ const PointView::BlockerView* PointView::FindBlocker(PatchId blocker, const Dire
   const auto [whole, is_new] = buffers_->patches[blocker];
   if (is_new) whole = ViewBlocker(patch.Vertices(), patch);
   if (lowest < -rounding) {
-    // What misses the source as a whole misses it as a part.
+    // If the whole blocker misses the source, so does its part.
     if (!whole.in_limit && whole.cone.size > 0 && Classify(whole.cone, seen) == Overlap::kNone)
       return nullptr;
     const Polygon3 before = ClipToHalfSpace(patch.Vertices(), source_->normal, source_->vertex[0], rounding);
@@ -116,8 +116,8 @@ PointView::BlockerView PointView::ViewSolid(const ConvexSolid& solid, const Patc
   return view;
 }
 
-// Whether the outline of the solid tells what its patches hide; if so, `view` is what is seen of its part
-// between the point and the source's plane, null if it has none.
+// True if the outline of the solid gives what its patches hide. `view` is then the view of the solid's part
+// between the point and the source's plane; null if there is none.
 bool PointView::FindSolid(SolidId id, const DirectionPolygon& seen, const BlockerView** view) {
   const ConvexSolid& solid = scene_.solids[static_cast<std::size_t>(id)];
   const double rounding = HeightRounding(std::max(solid.extent, source_->extent));
@@ -130,7 +130,7 @@ bool PointView::FindSolid(SolidId id, const DirectionPolygon& seen, const Blocke
   if (whole.entered && lowest <= rounding) return false;
   *view = &whole;
   if (lowest >= -rounding) return true;
-  // What misses the source as a whole misses it as a part.
+  // If the whole solid misses the source, so does its part.
   if (Classify(whole.cone, seen) == Overlap::kNone) {
     *view = nullptr;
     return true;

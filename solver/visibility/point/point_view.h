@@ -1,7 +1,7 @@
 // solver/visibility/point/point_view.h
 //
-// The scene as one receiver point sees it: sources one after the other, and the blockers before them. What is
-// seen of a blocker is computed once a point, whatever the number of sources behind it.
+// The scene as seen from one receiver point: one source after another, and the blockers before each source.
+// The view of a blocker is computed once for each point, whatever the number of sources behind the blocker.
 
 #pragma once
 
@@ -16,8 +16,8 @@
 
 namespace penumbra {
 
-// A local variable: its buffers are a lease of the thread that makes it (Scratch). All arguments must outlive
-// it.
+// Use it as a local variable: its buffers are a lease of the thread that makes it (Scratch). All arguments
+// must outlive the object.
 class PointView {
  public:
   // Sources are seen as if lifted by `source_push_off` along the receiver's normal [m] (thesis 6.4).
@@ -28,37 +28,37 @@ class PointView {
   PointView& operator=(const PointView&) = delete;
 
   const ReceiverPoint& at() const { return at_; }
-  // The source that the view is turned to.
+  // The current source, which the last FaceSource() set.
   const Patch& Source() const { return *source_; }
 
-  // From where sources are seen: the point, unless they are lifted.
+  // The viewpoint of sources: the receiver point, shifted by the push-off.
   const Vec3& SourceEye() const { return source_at_.position; }
 
-  // Turns to a source. False if none of its front is above the receiver's horizon and to be seen from the
-  // point.
+  // Makes `source` the current source. False if no part of the source's front is above the receiver's horizon
+  // and faces the point.
   bool FaceSource(PatchId source);
 
-  // What is seen, above the horizon, of a convex part of the source that the view is turned to.
+  // A convex part of the current source as seen, above the horizon.
   DirectionPolygon SeeSource(std::span<const Vec3> part) const;
 
-  // Whether the source at hand lies above the horizon as a whole and does not touch the point, so that its
-  // parts are seen as they are.
+  // True if the current source lies above the horizon as a whole and its plane does not contain the point.
+  // The source's parts then need neither clipping nor limits.
   bool SourceIsPlain() const { return !source_in_contact_ && !source_crosses_horizon_; }
 
-  // Whether the point lies in the source's plane: what is seen of it is a limit.
+  // True if the plane of the current source contains the point. The view of the source is then a limit.
   bool SourceInContact() const { return source_in_contact_; }
 
-  // Appends those candidates that may hide parts of `seen`, before the plane of the source at hand; `own`,
-  // the receiver's patch, is left out. Where the outline of a solid tells what it hides, it is appended once
-  // for all its sides. False if one occluder hides all of `seen`: then nothing is appended. Their cones live
-  // until the view turns to another source.
+  // Appends the candidates that may hide parts of `seen`, clipped to the front of the current source's plane.
+  // `own`, the receiver's patch, does not block. Where the outline of a solid gives what the solid hides, one
+  // occluder stands for all sides of the solid. Returns false and appends nothing if one occluder hides all
+  // of `seen`. The occluders' cones are valid until the next FaceSource().
   bool FindBlockers(std::span<const PatchId> candidates, PatchId own, const DirectionPolygon& seen,
                     std::vector<Occluder>& occluders);
 
-  // The form factor of the point to what the occluders leave of `seen`, by the method of the view.
+  // The form factor of the point to the part of `seen` that no occluder covers, by the method of the view.
   double VisibleFormFactor(const DirectionPolygon& seen, std::span<const Occluder> occluders) const;
 
-  // Whether the approach direction of the point has decided anything so far.
+  // True if the point's approach direction has affected a result.
   bool one_sided() const { return one_sided_; }
 
   // A buffer for occluders, empty at construction.
@@ -68,7 +68,7 @@ class PointView {
   struct BlockerView {
     bool in_limit = false;
     bool entered = false;  // of a solid: SolidOutline::entered
-    Cone cone;             // size 0: it blocks nothing
+    Cone cone;             // size 0: blocks nothing
   };
   struct Buffers;
 

@@ -13,15 +13,15 @@
 namespace penumbra {
 namespace {
 
-// Two faces that lie on each other, one looking either way, are one sheet: a ray meets the front. Hits nearer
-// to each other than this, relative to the scene's diagonal, are at the same place (floats keep 7 digits).
+// Two coincident faces with opposite fronts are one sheet: a ray hits the front. Hits whose distance is below
+// this times the scene's diagonal coincide (floats have 7 digits).
 constexpr double kSamePlace = 1e-6;
 
-// The ray's own patch travels with the intersection context, since Embree hands that to the filter.
+// Embree passes the intersection context to the filter, so the context carries the ray's own patch.
 struct FilterContext {
   RTCIntersectContext base;
   unsigned int ignore;
-  const std::vector<Vec3>* backs;  // the patches' normals, if hits on backs are to be passed over; else null
+  const std::vector<Vec3>* backs;  // the patches' normals, if rays pass through backs; otherwise null
   Vec3 direction;
 };
 
@@ -35,9 +35,9 @@ void FilterHits(const RTCFilterFunctionNArguments* args) {
   }
 }
 
-// Throws unless it is so and the library has no error to tell of; std::bad_alloc where memory ended, which it
-// tells as an unknown error where its tasks or threads found out. What the library holds is then left to the
-// end of the program, since it aborts over taking down what is half made.
+// Throws if the condition `is_so` is false or Embree reports an error. Throws std::bad_alloc if memory is
+// exhausted; Embree reports this as an unknown error if it happens in its tasks or threads. Embree's objects
+// then remain until the program ends, because Embree aborts when half-built objects are destroyed.
 void Demand(RTCDevice device, bool is_so) {
   const RTCError error = rtcGetDeviceError(device);
   if (is_so && error == RTC_ERROR_NONE) return;
@@ -51,14 +51,14 @@ void Demand(RTCDevice device, bool is_so) {
 struct RayCaster::Impl {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
-  std::vector<Vec3> normals;   // unit, a patch
+  std::vector<Vec3> normals;   // unit, one for each patch
   double diagonal = 0;         // of the scene [m]
-  Vec3 origin = Vec3::Zero();  // Embree's: the middle of the scene, since its floats keep 7 digits only
+  Vec3 origin = Vec3::Zero();  // of Embree's coordinates, at the middle of the scene: floats have 7 digits
 
   RTCRayHit Intersect(const Vec3& from, const Vec3& direction, double near, double far,
                       FilterContext& context) const;
-  // Where the ray from `origin` is traced from, as Embree counts, in `from`; returns what was skipped on the
-  // way there, in lengths of the direction, or nothing if the ray misses the scene.
+  // Sets `from` to the start of the ray from `origin`, in Embree's coordinates. Returns the distance skipped
+  // before the start, in lengths of `direction`; nothing if the ray misses the scene.
   std::optional<double> Approach(const Vec3& origin, const Vec3& direction, Vec3* from) const;
 };
 
@@ -72,7 +72,7 @@ RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   impl_->origin = 0.5 * (low + high);
   impl_->diagonal = (high - low).norm();
   if (!scene.patches.empty()) {
-    // Triangles are quads whose last two vertices coincide, as Embree documents.
+    // Embree represents a triangle as a quad whose last two vertices coincide.
     const RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_QUAD);
     Demand(impl_->device, geometry != nullptr);
     const std::size_t count = scene.patches.size();
@@ -122,7 +122,7 @@ RTCRayHit RayCaster::Impl::Intersect(const Vec3& from, const Vec3& direction, do
 }
 
 std::optional<double> RayCaster::Impl::Approach(const Vec3& start, const Vec3& direction, Vec3* from) const {
-  // From far away the ray starts where it nears the ball around the scene: floats overflow, and lose digits.
+  // A ray from far away starts near the sphere around the scene: floats would overflow or lose digits.
   *from = start - origin;
   const double distance = from->stableNorm(), reach = diagonal;
   if (distance <= 2 * reach) return 0;

@@ -1,7 +1,7 @@
 // solver/visibility/point/ray_caster.h
 //
-// Nearest-hit rays through a scene (Embree, robust and watertight). Embree computes in float: use it where a
-// measure-zero set of misses does not matter (escaped light, picking), never for exact visibility.
+// Nearest-hit rays through a scene (Embree, robust and watertight). Embree computes in float: use these rays
+// where a set of misses of measure zero does not matter (escaped light, picking), never for exact visibility.
 
 #pragma once
 
@@ -15,20 +15,20 @@ class RayCaster {
  public:
   struct Hit {
     PatchId patch = kNoPatch;  // kNoPatch: the ray leaves the scene
-    double distance = 0;       // along the direction as given, in its lengths
-    bool front = false;        // whether the patch was hit on its front
+    double distance = 0;       // in units of the length of the given direction
+    bool front = false;        // the ray hit the front of the patch
   };
 
   explicit RayCaster(const Scene& scene);
   ~RayCaster();
 
-  // Of two patches that lie on each other and look either way, the front is met.
-  // The first patch that the ray from `origin` along `direction` meets, `ignore` left out. Safe from any
+  // The first patch other than `ignore` that the ray from `origin` along `direction` hits. If two patches
+  // with opposite fronts coincide, the hit is the one whose front faces the ray. May be called from any
   // thread.
   Hit Cast(const Vec3& origin, const Vec3& direction, PatchId ignore = kNoPatch) const;
 
-  // The first patch whose front the ray meets; backs are passed through, as if they were not there. So the
-  // display sees (thesis 3.6, footnote 1). Safe from any thread.
+  // The first patch whose front the ray hits; rays pass through backs, as in the display (thesis 3.6,
+  // footnote 1). May be called from any thread.
   Hit CastToFront(const Vec3& origin, const Vec3& direction) const;
 
  private:

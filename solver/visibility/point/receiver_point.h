@@ -6,16 +6,15 @@
 
 namespace penumbra {
 
-// Where irradiance is asked for, exactly or as a limit from one side.
+// A point at which irradiance is computed, exactly or as a one-sided limit.
 struct ReceiverPoint {
   Vec3 position = Vec3::Zero();  // [m]
   Vec3 normal = Vec3::UnitZ();   // unit
-  // The direction from the point towards the region that asks, for a one-sided limit; need not be unit. Zero:
-  // the integral itself, to which a polygon whose plane contains the point adds nothing and from which it
-  // takes nothing.
+  // For a one-sided limit, the direction from the point towards the region for which the limit is taken, of
+  // any length. Zero: no limit; a polygon whose plane contains the point then neither lights nor blocks.
   Vec3 approach = Vec3::Zero();
-  // How far the position may be from where it is meant to be [m], beside the rounding of its coordinates.
-  // Planes within this distance are taken to contain the point. 0 for points that users give.
+  // The largest distance of `position` from the intended position [m], in addition to the rounding of the
+  // coordinates. Planes within this distance count as containing the point. 0 for points that users give.
   double uncertainty = 0;
 };
 

@@ -17,7 +17,8 @@ bool Holds(const Cone& cone, const Vec3& direction) {
 double SampledVisibility::VisibleFormFactor(const DirectionPolygon& source,
                                             std::span<const Occluder> occluders, const Vec3& normal) const {
   double sum = 0;
-  // Quadrilaterals about the first vertex; the last may be a triangle, of which two corners coincide.
+  // Cuts the source into quadrilaterals about its first vertex. The last may be a triangle, in which two
+  // corners coincide.
   for (int i = 2; i < source.size(); i += 2) {
     const Vec3 &p00 = source[0], &p10 = source[i - 1], &p11 = source[i],
                &p01 = source[std::min(i + 1, source.size() - 1)];

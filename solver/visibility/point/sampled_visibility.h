@@ -6,12 +6,12 @@
 
 namespace penumbra {
 
-// What the thesis tried first and gave up (chapter 6): the source is divided into a regular grid, and a part
-// counts if its middle is visible. Not exact: off by about the part of the source that the parts along
-// shadows' edges make up, and jumping from point to point.
+// The first method of the thesis, which the thesis rejects (chapter 6). The source is divided into a regular
+// grid, and a cell counts if its centre is visible. Not exact: the error is about the fraction of the source
+// in cells on the borders of shadows, and the result jumps from point to point.
 class SampledVisibility final : public OcclusionMethod {
  public:
-  // Each quadrilateral or triangle of the source is divided into `divisions` squared parts.
+  // Each quadrilateral or triangle of the source is divided into divisions^2 cells.
   explicit SampledVisibility(int divisions = 16) : divisions_(divisions) {}
 
   double VisibleFormFactor(const DirectionPolygon& source, std::span<const Occluder> occluders,

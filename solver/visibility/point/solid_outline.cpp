@@ -10,15 +10,16 @@
 namespace penumbra {
 namespace {
 
-// A place on the solid's surface: a corner, or, from kMostCorners on, where an edge crosses the plane.
+// A point on the solid's surface: the index of a corner, or kMostCorners + the index of an edge that crosses
+// the plane.
 using Place = std::int32_t;
 
-// By Euler's formula no solid has more edges. Each borders two sides, and each side may have one more in the
-// plane.
+// Euler's formula bounds the number of edges. Each edge borders two sides, and each side may have one more
+// edge in the plane.
 constexpr std::size_t kMostEdges = kMostSides + kMostCorners - 2;
 constexpr std::size_t kMostSegments = 2 * kMostEdges + kMostSides;
 
-// The heights of corners above the plane that the solid is seen before; zero for those in it.
+// The heights of the corners above the plane of `before`; zero for corners in the plane.
 struct CornerHeights {
   std::array<double, kMostCorners> of_corner;
 
@@ -34,7 +35,7 @@ struct CornerHeights {
   double operator[](std::int32_t corner) const { return of_corner[static_cast<std::size_t>(corner)]; }
 };
 
-// Which sides are seen from the front; false if that does not tell what the solid hides.
+// Finds the sides that are seen from the front. False if they do not define what the solid hides.
 bool FindFronts(const ReceiverPoint& at, const ConvexSolid& solid, std::array<bool, kMostSides>& front,
                 bool& entered) {
   bool any = false, left = false;
@@ -52,7 +53,7 @@ bool FindFronts(const ReceiverPoint& at, const ConvexSolid& solid, std::array<bo
   return any && !(entered && left);
 }
 
-// The borders of the fronts before the plane; where two of them meet there is none.
+// The outline of the front-facing sides before the plane: edges that belong to only one such side.
 class Outline {
  public:
   Outline(const ConvexSolid& solid, const CornerHeights& height) : solid_(solid), height_(height) {}
@@ -72,7 +73,7 @@ class Outline {
     for (std::size_t i = 0; i < count; ++i) AddSegment({places[i], places[i + 1 == count ? 0 : i + 1]});
   }
 
-  // Clockwise, as fronts are seen. Empty if the segments are not one loop.
+  // The outline, clockwise as fronts are seen. Empty if the segments do not form one loop.
   DirectionPolygon SeenFrom(const Vec3& eye) const {
     DirectionPolygon seen;
     if (count_ < 3 || count_ > static_cast<std::size_t>(DirectionPolygon::kCapacity)) return seen;
@@ -94,7 +95,7 @@ class Outline {
     Place from, to;
   };
 
-  // Two sides that meet take away each other's border.
+  // Adds a border; two opposite borders cancel.
   void AddSegment(const Segment& segment) {
     for (std::size_t i = 0; i < count_; ++i)
       if (segments_[i].from == segment.to && segments_[i].to == segment.from) {

@@ -1,6 +1,7 @@
 // solver/visibility/point/solid_outline.h
 //
-// What a point sees of a convex solid, as one polygon instead of several that overlap or meet.
+// A convex solid as seen from a point: one polygon instead of the overlapping or adjacent polygons of its
+// sides.
 
 #pragma once
 
@@ -10,17 +11,17 @@
 namespace penumbra {
 
 struct SolidOutline {
-  // Empty where sides tell no single outline: the point lies inside, or in the plane of a side that is
-  // approached from one side, or light passes through two missing sides. There the patches must be looked at
-  // one by one.
+  // Empty if the sides define no single outline: the point lies inside the solid, the point lies in the plane
+  // of a side and has an approach, or light can pass through two missing sides. The patches then block one by
+  // one.
   DirectionPolygon seen;
-  // Some light enters through a missing side: nothing stops it before it leaves through another, which must
-  // not lie in the plane of what is looked at or beyond.
+  // A missing side faces the point, so that light enters the solid. The outline then tells what the solid
+  // hides only if the whole solid lies before the plane of the observed patch.
   bool entered = false;
 };
 
-// The outline of the solid as seen from the point, or of its part before a plane (`before`; may be null). Its
-// borders are those of patches, to the bit.
+// The outline of the solid as seen from the point; only of the part before the plane of `before`, unless
+// `before` is null. Edges of the outline equal edges of patches to the bit.
 SolidOutline SeenOutline(const ReceiverPoint& at, const ConvexSolid& solid, const Patch* before);
 
 }  // namespace penumbra
