@@ -200,8 +200,8 @@ class Pipeline {
   void RefineLight(const ExecutionContext& context);
 
   // The stages discontinuities, triangulate and interpolate, as far as the kind of mesh needs them. The
-  // stages do not change the solution. For kInterpolant, unless the option `refine` is kTransport, they
-  // refine the mesh (RefineMesh) until the mesh meets the requested error; `as_it_is` prevents this
+  // stages do not change the solution. For kInterpolant, unless the option `refine` is kTransport, the stages
+  // also refine the mesh (RefineMesh) until the mesh meets the requested error; `as_it_is` prevents this
   // refinement, for inspection of a single step. No effect if the mesh exists already. REQUIRES: Link() or a
   // step that calls it.
   void BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is = false);
