@@ -211,8 +211,7 @@ IrradianceJump TripleEdge(const Scene& scene, const Silhouettes& silhouettes, co
     end[i] = {patch.vertex[edge[i].k], patch.vertex[(edge[i].k + 1) % patch.size]};
     plane[i] = (end[i][0] - view.x).cross(end[i][1] - view.x);
   }
-  // The point of the source's plane where the three edges meet: on the source's edge, or behind the crossing
-  // of two edges.
+  // Where the edges meet in the source's plane: on the source's edge, or behind the crossing of two edges.
   const Vec3 from = of_source ? end[2][0] : view.x;
   const Vec3 way = of_source ? Vec3(end[2][1] - end[2][0]) : plane[0].cross(plane[1]);
   const Vec3& across = of_source ? plane[0] : view.source.normal;
@@ -290,9 +289,9 @@ IrradianceJump Horizon(const View& view) {
 }
 
 // The jump at a line along an edge that hangs at height h above the receiver, at distance q h from the edge.
-// Near a long edge the irradiance is (1 - q / sqrt(1 + q^2)) / 2 times the source's radiosity. In place of
-// its jump, the function uses the second derivative; at q = 0, where the second derivative changes its sign,
-// its value at the next line.
+// Near a long edge the irradiance is (1 - q / sqrt(1 + q^2)) / 2 times the source's radiosity. In place of a
+// jump of the second derivative, the function uses the second derivative itself; at q = 0, where the second
+// derivative changes its sign, its value at the next line.
 IrradianceJump NearEdge(const View& view, std::int32_t edge) {
   constexpr double kInflection = 0.5;
   const Vec3 &a = view.source.vertex[static_cast<std::size_t>(edge)],

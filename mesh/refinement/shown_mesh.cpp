@@ -26,8 +26,8 @@ constexpr double kNearShare = 0.2;
 constexpr double kWeightToBegin = 2, kFirstWeight = 2;
 // Sources are refined again while the means would still change by more than kSettledShare of the error, at
 // most kMostSourcePasses times. Most rooms need two to four passes; a narrow slot between white walls, where
-// light bounces many times, needs twenty. The passes end earlier if two passes reduce the change to no less
-// than kStill of it. The first kCutChoices passes choose the resolution of the sources.
+// light bounces many times, needs twenty. The passes end earlier if two passes leave more than kStill of a
+// change. The first kCutChoices passes choose the resolution of the sources.
 constexpr double kSettledShare = 0.6, kStill = 0.95;
 constexpr int kMostSourcePasses = 40, kCutChoices = 2;
 // Measurements at centroids can overlook errors that random points show. Random points therefore test the

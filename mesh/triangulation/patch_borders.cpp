@@ -141,7 +141,8 @@ std::vector<Vec3> PatchBorders::OutlineVertices() const {
   std::vector<Vec3> vertices;
   for (const Stretch& stretch : stretches_) {
     if (stretch.uses != 1) continue;
-    // Each corner of the outline is an end of two stretches. The list contains it twice, without harm.
+    // Each corner of the outline is an end of two stretches. The list contains such a corner twice, without
+    // harm.
     vertices.push_back(positions[stretch.a]);
     vertices.push_back(positions[stretch.b]);
     for (const VertexId v : stretch.inner) vertices.push_back(positions[v]);
