@@ -1,6 +1,6 @@
 // apps/export_file.h
 //
-// Meshes and scenes in the formats of other programs, chosen by the ending of the file's name.
+// Writes meshes and scenes in formats of other programs. The ending of the file's name determines the format.
 
 #pragma once
 
@@ -13,23 +13,24 @@
 
 namespace penumbra {
 
-// What is wrong with the ending; nothing if it is one that we write.
+// A description of the fault in the path's ending; nothing if Penumbra writes this format.
 std::optional<std::string> ExportFormatError(const std::string& path);
-// The files that are written beside the one of a scene: an .obj has a library.
+// The files that are written in addition to a scene's file: the material library of an .obj file.
 std::vector<std::string> FilesBeside(const std::string& path);
-// Whether the format holds the mesh, and not the scene alone.
+// True if the format stores the mesh, not only the scene.
 bool ExportsMesh(const std::string& path);
-// Whether the format holds colours for a screen, or a camera.
+// True if the format stores colours for a screen, or a camera.
 bool ExportsColours(const std::string& path);
 bool ExportsCamera(const std::string& path);
 // The endings of the formats that do, with their dots: ".ply and .glb".
 std::string EndingsWithColours();
 std::string EndingsWithCamera();
-// A line for each format.
+// A description of all formats, one line each.
 std::string ExportFormats();
 
-// Both throw InputError if a file cannot be written. REQUIRES: no ExportFormatError(path). `exposure` [m^2/W]
-// makes the colours; metered from the mesh if not given.
+// Write the mesh, or the scene, to a file. Throw InputError if the file cannot be written. `exposure` [m^2/W]
+// converts radiosity to colours; without a value, the exposure is metered from the mesh. REQUIRES:
+// ExportFormatError(path) returns nothing.
 void ExportMesh(const std::string& path, const Scene& scene, const IrradianceMesh& mesh,
                 std::optional<double> exposure);
 void ExportScene(const std::string& path, const Scene& scene, const Camera& camera);

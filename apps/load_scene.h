@@ -1,6 +1,6 @@
 // apps/load_scene.h
 //
-// The scene, or the solution with its scene, that a command was given.
+// Reads the scene of a command, or the solution with its scene.
 
 #pragma once
 
@@ -15,30 +15,32 @@
 
 namespace penumbra {
 
-// A solution file's share in a run.
+// The contents of a solution file.
 struct StoredSolve {
-  PipelineState state;             // what is left of it once a SolveRun took it is unspecified
-  PipelineOptions solving;         // how it was solved,
-  nlohmann::ordered_json options;  // in the words of OptionsUsed(), without `threads`
-  std::string version;             // of the program that solved it
+  PipelineState state;             // unspecified after a SolveRun took it
+  PipelineOptions solving;         // the options of the solve
+  nlohmann::ordered_json options;  // the same in the format of OptionsUsed(), without `threads`
+  std::string version;             // of the program that wrote the file
 };
 
 struct LoadedScene {
   std::unique_ptr<const Scene> owner;
   const Scene& scene = *owner;
-  double seconds = 0;                                // that reading it took
-  std::optional<StoredSolve> stored = std::nullopt;  // of a solution file
-  // Of a solution of the same geometry, whose links another solve begins with: LoadToSolve().
+  double seconds = 0;                                // duration of reading
+  std::optional<StoredSolve> stored = std::nullopt;  // from a solution file
+  // A solution of the same geometry whose links another solve uses: LoadToSolve().
   std::optional<StoredSolve> restart = std::nullopt;
 };
 
-// Sets the number of threads and reads the scene, or the solution with its scene; warnings of scenes go to
-// standard error. Throws InputError, and UsageError if options of reading or solving come with a solution.
+// Sets the number of threads and reads the scene, or the solution with its scene. Prints the warnings of
+// scenes to standard error. Throws InputError; throws UsageError if options of reading or solving are given
+// together with a solution.
 LoadedScene LoadScene(const SceneArguments& arguments);
-// The same without the warnings, and these: for who may yet refuse what was read, which is told alone.
+// LoadScene() without its warnings, and the warnings. For callers that may still reject the scene, and then
+// print only the error.
 LoadedScene LoadWithoutWarnings(const SceneArguments& arguments);
 void TellWarnings(const LoadedScene& loaded);
-// Reads a solution file. Throws InputError if it is none.
+// Reads a solution file. Throws InputError if the file is not a solution.
 LoadedScene LoadSolution(const std::string& path);
 
 }  // namespace penumbra

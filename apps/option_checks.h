@@ -1,6 +1,6 @@
 // apps/option_checks.h
 //
-// Refuses options of a solve that contradict each other or do not fit the scene, before the work begins.
+// Rejects options of a solve that contradict each other or do not fit the scene, before the work begins.
 
 #pragma once
 
@@ -8,13 +8,13 @@
 
 namespace penumbra {
 
-// Throws UsageError for options that contradict each other.
+// Throws UsageError if options contradict each other.
 void CheckOptions(const SceneArguments& arguments);
 
-// Throws UsageError for distances that are too large for the scene.
+// Throws UsageError if distances are too large for the scene.
 void CheckDistances(const SceneArguments& arguments, const Scene& scene);
 
-// What a solve with these options may cost beyond measure, in a sentence; empty where nothing is to be said.
+// A sentence of warning if a solve with these options may take extremely long; otherwise empty.
 std::string CostNote(const SceneArguments& arguments, const ResolvedOptions& resolved);
 
 }  // namespace penumbra

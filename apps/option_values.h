@@ -1,7 +1,7 @@
 // apps/option_values.h
 //
-// Values on the command line: read whole and correctly rounded, checked against what they may be. A value
-// that may not be ends the parse with one line that says what may.
+// Values on the command line. Each value is read completely, rounded correctly and checked against its range.
+// A value outside its range ends the parse with one line that describes the range.
 
 #pragma once
 
@@ -22,13 +22,13 @@
 
 namespace penumbra {
 
-// The number that the whole text is; nothing if it is none, or not finite.
+// The number that the complete text represents; nothing if the text is no finite number.
 std::optional<double> ParseNumber(std::string_view text);
 
-// The three numbers of `x,y,z`; nothing if the text is anything else.
+// The three numbers of `x,y,z`; nothing for other text.
 std::optional<Vec3> ParseVector(std::string_view text);
 
-// What a number may be, with the words for it.
+// The range of a number, and its description.
 struct NumberRule {
   bool (*holds)(double);
   const char* words;
@@ -38,22 +38,22 @@ inline constexpr NumberRule kPositive{[](double x) { return x >= kTiniestOption 
 inline constexpr NumberRule kEmittance{[](double x) { return x >= 0 && x <= kLargestEmittance; },
                                        "a number, 0 or more, up to 1e100"};
 
-// "a, b and c"; of many, the first and how many more.
+// "a, b and c"; for long lists, the first names and the number of the others.
 std::string NameList(const std::vector<std::string>& names);
 
-// `NAME X`, a number; the default in the help is the target's value. A target that is optional has its
-// default in the help text.
+// `NAME X`, a number. The help shows the target's value as the default; for an optional target, the help text
+// must describe the default.
 CLI::Option* AddNumber(CLI::App& app, const std::string& name, double* target, const NumberRule& rule,
                        const std::string& help);
 CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<double>* target,
                        const NumberRule& rule, const std::string& help);
 
-// `NAME N`, an integer in [low, high]. For int and std::uint64_t.
+// `NAME N`, an integer in [low, high]. Instances exist for int and std::uint64_t.
 template <class Integer>
 CLI::Option* AddInteger(CLI::App& app, const std::string& name, Integer* target, Integer low, Integer high,
                         const std::string& help);
 
-// A name and what it stands for.
+// A name and its value.
 template <class Value>
 struct Choice {
   const char* name;
@@ -66,7 +66,7 @@ const char* ChoiceName(const Choice<Value> (&choices)[kCount], Value value) {
   return "";
 }
 
-// `NAME A|B|...`, one of the choices; the default in the help is the target's value.
+// `NAME A|B|...`, one of the choices. The help shows the target's value as the default.
 template <class Value, std::size_t kCount>
 CLI::Option* AddChoice(CLI::App& app, const std::string& name, Value* target,
                        const Choice<Value> (&choices)[kCount], const std::string& help) {
@@ -86,7 +86,7 @@ struct VectorRule {
   bool (*holds)(const Vec3&);
   const char* words;
 };
-// As the coordinates of scenes: squares must not overflow in floats, nor cubes in doubles.
+// The range of coordinates in scenes: squares must not overflow in floats, nor cubes in doubles.
 inline constexpr VectorRule kPoint{[](const Vec3& v) { return MaxAbs(v) <= 1e36; },
                                    "three numbers, x,y,z, each up to 1e36"};
 inline constexpr VectorRule kDirection{[](const Vec3& v) { return MaxAbs(v) <= 1e36 && !v.isZero(0); },

@@ -1,6 +1,6 @@
 // apps/options_used.h
 //
-// The options that a command works with: told in reports and with -v, kept in solution files, read back.
+// The options of a command: printed in reports and with -v, stored in solution files, and read back.
 
 #pragma once
 
@@ -11,13 +11,13 @@
 
 namespace penumbra {
 
-// What a user could set and what it came to, by option name with '_' for '-'. Without `resolved` nothing is
-// solved, and only what concerns the scene is listed.
+// All options that a user can set, with the values in use. The key of an option is its name with '_' instead
+// of '-'. Without `resolved`, the result lists only options of the scene, because nothing is solved.
 nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const ResolvedOptions* resolved);
-// The same read back: OptionsUsed() of these, resolved, gives `options` again. Throws
-// nlohmann::json::exception, and InputError if an option is missing or names a choice that there is not.
+// The inverse of OptionsUsed(): OptionsUsed() of the result, resolved, equals `options`. Throws
+// nlohmann::json::exception; throws InputError if an option is missing or names a choice that does not exist.
 PipelineOptions SolvingFrom(const nlohmann::ordered_json& options);
-// The "Options used:" block, to standard error: what, given again, does the same.
+// Prints the block "Options used:" to standard error. The same options, given again, have the same effect.
 void PrintOptionsUsed(const nlohmann::ordered_json& options);
 
 }  // namespace penumbra

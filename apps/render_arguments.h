@@ -1,6 +1,6 @@
 // apps/render_arguments.h
 //
-// What `render` is told about the picture.
+// The arguments of `render` that concern the picture.
 
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace penumbra {
 
-// How a mode finds what a pixel shows.
+// The methods that compute the content of a pixel.
 enum class RenderMethod {
   kTwoPass,
   kRayShade,   // rays, exact irradiance
@@ -41,7 +41,7 @@ inline constexpr std::array<RenderMode, 7> kRenderModes = {
      {"lerp", RenderMethod::kLerpShade, MeshKind::kInterpolant, ShadingMode::kRadiosity},
      {"rho", RenderMethod::kTwoPass, MeshKind::kFlat, ShadingMode::kReflectance}}};
 
-// What draws the two passes.
+// The back ends that draw the two passes.
 enum class Backend { kSoftware, kOpenGl };
 
 struct RenderArguments {
@@ -52,28 +52,30 @@ struct RenderArguments {
   Backend backend = Backend::kSoftware;
   OpenGlCoordinates coordinates = OpenGlCoordinates::kFloat;
   int width = 1280, height = 960;
-  std::optional<double> exposure;   // [m^2/W]; metered if not given
-  bool false_colour = false;        // a PNG shows values in false colours
-  std::optional<double> scale_max;  // the end of their scale [W/m^2]; what the exposure makes white if not
-  bool split = false;               // a PNG shows the scratch images, too
+  std::optional<double> exposure;   // [m^2/W]; metered without a value
+  bool false_colour = false;        // a PNG shows false colours
+  std::optional<double> scale_max;  // end of the scale [W/m^2]; default: what the exposure makes white
+  bool split = false;               // a PNG also shows the scratch images
   int benchmark_frames = 0;         // 0: no benchmark
-  int supersampling = 2;            // of PNG pictures: samples a side of a pixel
-  int samples = 1;                  // rays a pixel, where a mode casts rays
+  int supersampling = 2;            // of PNG pictures: samples per side of a pixel
+  int samples = 1;                  // rays per pixel, in modes that cast rays
 
   bool ByRays() const { return mode.method != RenderMethod::kTwoPass; }
 };
 
-// Whether a picture has a sample a pixel, or rays.
+// True if the picture has no supersampling: one sample per pixel, or rays.
 bool HasOneSample(const RenderArguments& arguments);
 
 void AddPictureOptions(CLI::App& app, RenderArguments* arguments);
-// Those of a picture that only studies compare. REQUIRES: AddSolveOptions(), whose last group they join.
+// Adds the options of a picture that only studies compare, to the last group of AddSolveOptions(). REQUIRES:
+// AddSolveOptions() was called.
 void AddPictureStudies(CLI::App& app, RenderArguments* arguments);
 
-// What can be told before the work starts. Throws UsageError, and InputError where a file cannot be written.
+// Checks everything that can be checked before the work starts. Throws UsageError; throws InputError if a
+// file cannot be written.
 void CheckRenderArguments(const RenderArguments& arguments);
 
-// What a user could set of the picture, in the words of OptionsUsed().
+// The options of the picture, in the format of OptionsUsed().
 nlohmann::ordered_json RenderOptionsUsed(const RenderArguments& arguments);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // apps/restart.h
 //
-// The light of a scene over the links of a solution of the same geometry, after emittances or reflectances
-// have changed: `--restart`.
+// `--restart`: the light of a scene with changed emittances or reflectances, over the links of a solution of
+// the same geometry.
 
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace penumbra {
 
-// LoadScene(), for who is going to solve. With --restart it reads that solution, too, whose links become
-// those of the scene: LoadedScene::restart. The options that say how links are made become those of the file.
-// Throws InputError if the file is no solution, has no links, or is of another geometry, and UsageError if
-// the arguments name a solution for a scene or say how to make links (SolveOption::links_depend), for that is
-// done.
+// LoadScene() for commands that solve. With --restart, the function also reads that solution into
+// LoadedScene::restart, and its links become the links of the scene. The options that determine the links
+// (SolveOption::links_depend) get the solution's values. Throws InputError if the file of --restart is no
+// solution, has no links, or has another geometry. Throws UsageError if, with --restart, the arguments name a
+// solution instead of a scene, or set options that determine the links.
 LoadedScene LoadToSolve(SceneArguments& arguments);
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // apps/scene_arguments.h
 //
-// What all commands share that take a SCENE: which one, how it is read, how it is solved.
+// The arguments of all commands that take a SCENE: the scene, how to read it, and how to solve it.
 
 #pragma once
 
@@ -19,30 +19,30 @@
 namespace penumbra {
 
 struct SceneArguments {
-  const CLI::App* app = nullptr;  // which options were given; null: nobody gave any
+  const CLI::App* app = nullptr;  // knows which options were given; null: none
   std::string scene;              // a path, or the name of a built-in scene
   SceneOptions reading;
   std::vector<MaterialChange> emittance, reflectance;
   PipelineOptions solving;
-  int threads = 0;  // 0: all
+  int threads = 0;  // 0: all processors
   bool verbose = false;
-  std::optional<std::string> report;   // where the report goes
-  std::optional<std::string> restart;  // the solution whose links a solve begins with: LoadToSolve()
-  OutputFiles outputs;                 // what the command will write, which nothing that it reads may be
-  bool lit = true;                     // whether it is about light, and not geometry alone
+  std::optional<std::string> report;   // path of the report
+  std::optional<std::string> restart;  // the solution whose links the solve uses: LoadToSolve()
+  OutputFiles outputs;                 // files that the command writes; no input file may be one of them
+  bool lit = true;                     // the command computes light, not only geometry
 };
 
-// Where help lists the options of reading.
+// The help's group of the options for reading.
 inline constexpr const char* kSceneGroup = "Scene";
 
-// Threads, seed and verbosity: of every command that takes long.
+// Adds the options for threads, seed and verbosity, which all commands with long computations have.
 void AddRunningOptions(CLI::App& app, int* threads, std::uint64_t* seed, bool* verbose);
-// SCENE or SOLUTION, the options of reading it, threads, seed, verbosity.
+// Adds SCENE or SOLUTION, and the options for reading, threads, seed and verbosity.
 void AddSceneArguments(CLI::App& app, SceneArguments* arguments);
 CLI::Option* AddReportOption(CLI::App& app, SceneArguments* arguments);
 CLI::Option* AddRestartOption(CLI::App& app, SceneArguments* arguments);
 
-// Whether the user gave the option, as in `--eps`.
+// True if the user gave the option, for example `--eps`.
 bool IsGiven(const SceneArguments& arguments, const std::string& name);
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // apps/solve_options.h
 //
-// The options of a solve on the command line, which the table of options gives.
+// The options of a solve on the command line, from the table of options.
 
 #pragma once
 
@@ -8,7 +8,8 @@
 
 namespace penumbra {
 
-// Adds them all, and to the help of `app` what only studies choose. REQUIRES: AddSceneArguments().
+// Adds all options of the table, and the choices for studies to the help of `app`. REQUIRES:
+// AddSceneArguments() was called.
 void AddSolveOptions(CLI::App& app, SceneArguments* arguments);
 
 }  // namespace penumbra

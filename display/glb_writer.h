@@ -6,9 +6,9 @@
 
 namespace penumbra {
 
-// Binary glTF 2.0: the same triangles as in PLY, unlit, in the exposed radiosity as linear vertex colours,
-// emitters white; `_IRRADIANCE` and `_RADIOSITY` [W/m^2] as attributes of the application. Its axes are y up:
-// the node turns them.
+// Binary glTF 2.0. The triangles are those of the PLY format, without lighting. Vertex colours are the
+// exposed radiosity, linear, with white emitters. The application-specific attributes `_IRRADIANCE` and
+// `_RADIOSITY` are in W/m^2. glTF's y axis points up; the node rotates the scene accordingly.
 MeshWriterRegistry::Method GlbWriterMethod();
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // display/glm_conversion.h
 //
-// Conversions between the vectors of the solver and the mesh (Eigen, double) and those of the display (GLM),
-// and from double to float. All of them are in this header.
+// All conversions between the vectors of solver and mesh (Eigen, double) and those of the display (GLM), and
+// from double to float.
 
 #pragma once
 
@@ -16,7 +16,7 @@ namespace penumbra {
 inline glm::dvec3 ToGlm(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 inline Vec3 ToEigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-// The nearest floats, for the graphics system.
+// The nearest floats, for the graphics API.
 inline glm::vec3 ToFloats(const glm::dvec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
@@ -25,7 +25,7 @@ inline glm::vec4 ToFloats(const glm::dvec4& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(v.w)};
 }
 
-// The nearest floats of a colour, as pixels hold it: red, green, blue in x, y, z.
+// The nearest floats of a colour, as in pixels: red, green, blue in x, y, z.
 inline glm::vec3 ToPixel(const Rgb& colour) {
   return {static_cast<float>(colour[0]), static_cast<float>(colour[1]), static_cast<float>(colour[2])};
 }

@@ -1,6 +1,6 @@
 // display/image_writer.h
 //
-// Pictures as files: a writer for each format behind one interface.
+// Writers of pictures: one interface for all formats.
 
 #pragma once
 
@@ -11,21 +11,22 @@
 
 namespace penumbra {
 
-// A format holds what a screen shows, or linear radiosity. Its writer overrides the Bytes() of that.
+// A format stores either screen colours or linear radiosity. The format's writer overrides the matching
+// Bytes().
 class ImageWriter {
  public:
   virtual ~ImageWriter() = default;
 
   virtual bool IsLinear() const = 0;
 
-  // What the file holds; the same pixels give the same bytes. Throws InputError if that cannot be encoded.
-  // REQUIRES: the picture has a pixel, and the format is not linear.
+  // The contents of the file; the same pixels give the same bytes. Throws InputError if the picture cannot be
+  // encoded. REQUIRES: the picture has at least one pixel, and the format is not linear.
   virtual std::string Bytes(const Srgb8Image& image) const;
-  // REQUIRES: the picture has a pixel, and the format is linear.
+  // As above. REQUIRES: the picture has at least one pixel, and the format is linear.
   virtual std::string Bytes(const RgbImage& image) const;
 };
 
-// ImageWriters() holds all writers. The name of each is the ending of its files.
+// The type of ImageWriters(). The name of each writer is the ending of its files.
 using ImageWriterRegistry = Registry<const ImageWriter>;
 
 }  // namespace penumbra

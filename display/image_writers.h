@@ -9,19 +9,20 @@
 
 namespace penumbra {
 
-// Every format that pictures are written in.
+// The registry of all formats of pictures.
 ImageWriterRegistry& ImageWriters();
 
-// Whether the path has the ending of a format of linear radiosity, or of what a screen shows.
+// True if the path has the ending of a format for linear radiosity, or for screen colours.
 bool IsLinearImage(const std::string& path);
 bool IsScreenImage(const std::string& path);
 
-// The endings of the formats that hold what a screen shows, without the dot.
+// The endings of the formats for screen colours, without the dot.
 std::vector<std::string> ScreenImageEndings();
 
-// Writes the picture in the format that the ending of the path names. A file is written beside its place and
-// renamed, so that a killed run leaves the old one whole. Throws InputError if the file cannot be written;
-// nothing is left behind then. REQUIRES: IsScreenImage(path), or for linear radiosity IsLinearImage(path).
+// Writes the picture in the format for the path's ending. The function writes a temporary file beside the
+// target and renames it, so that an interrupted run leaves the old file complete. Throws InputError if the
+// file cannot be written; no file remains then. REQUIRES: IsScreenImage(path) for Srgb8Image,
+// IsLinearImage(path) for RgbImage.
 void WriteImageFile(const std::string& path, const Srgb8Image& image);
 void WriteImageFile(const std::string& path, const RgbImage& image);
 

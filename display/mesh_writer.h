@@ -1,6 +1,6 @@
 // display/mesh_writer.h
 //
-// Irradiance meshes for other programs: a writer for each format behind one interface.
+// Writers of irradiance meshes for other programs: one interface for all formats.
 
 #pragma once
 
@@ -16,15 +16,15 @@ class MeshWriter {
  public:
   virtual ~MeshWriter() = default;
 
-  // Whether the format holds colours for a screen.
+  // True if the format stores colours for a screen.
   virtual bool HasColours() const = 0;
 
-  // What the file holds; the same mesh gives the same bytes. `exposure` [m^2/W] makes the colours, if there
-  // are any. Throws InputError if a value does not fit into the format.
+  // The contents of the file; the same mesh gives the same bytes. `exposure` [m^2/W] converts radiosity to
+  // colours, in formats with colours. Throws InputError if the format cannot represent a value.
   virtual std::string Bytes(const Scene& scene, const IrradianceMesh& mesh, double exposure) const = 0;
 };
 
-// MeshWriters() holds all writers. The name of each is the ending of its files.
+// The type of MeshWriters(). The name of each writer is the ending of its files.
 using MeshWriterRegistry = Registry<const MeshWriter>;
 
 }  // namespace penumbra

@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// Every format that meshes are written in.
+// The registry of all formats of meshes.
 MeshWriterRegistry& MeshWriters();
 
 }  // namespace penumbra

@@ -6,9 +6,9 @@
 
 namespace penumbra {
 
-// Binary PLY, little-endian: each triangle as four. Vertices carry float positions, `irradiance_r/g/b`,
-// `radiosity_r/g/b` [W/m^2], and colours for a screen: the exposed radiosity [m^2/W times W/m^2] in sRGB,
-// emitters white. Faces carry `patch`.
+// Binary PLY, little-endian, with each triangle divided into four. Vertices have float positions,
+// `irradiance_r/g/b` and `radiosity_r/g/b` [W/m^2], and colours for a screen: exposure [m^2/W] * radiosity
+// [W/m^2] in sRGB, with white emitters. Faces have `patch`.
 MeshWriterRegistry::Method PlyWriterMethod();
 
 }  // namespace penumbra

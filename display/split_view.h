@@ -1,6 +1,6 @@
 // display/split_view.h
 //
-// The scratch images beside the picture that is made from them (thesis B.3.2).
+// The scratch images next to the picture that is computed from them (thesis B.3.2).
 
 #pragma once
 
@@ -11,13 +11,13 @@
 
 namespace penumbra {
 
-// Fills `whole` with four quarters: triangle ids, each in a colour of its own; barycentric
-// coordinates, s red, t green, 1 - s - t blue; depths, the nearest white; and `picture`. The frame and the
-// picture are of the size of a quarter of `whole`; the frame was drawn of the mesh with these rays.
+// Fills `whole` with four quarters: triangle ids, one colour each; barycentric coordinates, with s red, t
+// green and 1 - s - t blue; depths, with the nearest white; and `picture`. REQUIRES: frame and picture have
+// the size of a quarter of `whole`; the frame shows `mesh` and was drawn with `rays`.
 void PaintSplit(const RenderedFrame& frame, const PixelRays& rays, const IrradianceMesh& mesh,
                 const Srgb8Image& picture, Srgb8Image* whole);
 
-// A side of a quarter.
+// The side of a quarter, for a side of the whole picture [pixels].
 inline constexpr int QuarterSide(int side) { return side < 2 ? 1 : side / 2; }
 
 }  // namespace penumbra

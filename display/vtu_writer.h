@@ -6,9 +6,9 @@
 
 namespace penumbra {
 
-// VTK's XML for unstructured grids: quadratic triangles, which hold the interpolants themselves. Point data
-// `irradiance` and `radiosity` [W/m^2], three channels in doubles; cell data `patch`, the number of the face
-// as users count.
+// VTK's XML format for unstructured grids, with quadratic triangles, which represent the interpolants
+// exactly. Point data are `irradiance` and `radiosity` [W/m^2], three channels in doubles. Cell data are
+// `patch`, the face in the user's numbering.
 MeshWriterRegistry::Method VtuWriterMethod();
 
 }  // namespace penumbra

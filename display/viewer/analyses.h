@@ -1,7 +1,6 @@
 // display/viewer/analyses.h
 //
-// What overlays need and what takes long to compute, worked out beside the view for what it shows at the
-// time.
+// Computes, in the background, results that take long and that the present view needs.
 
 #pragma once
 
@@ -17,12 +16,13 @@ class Analyses {
  public:
   Analyses();
 
-  // What the view asks for, as far as it is there; starts what is not. `tools` is the mesh of the tools.
+  // Returns the results that the view needs, as far as they are complete, and starts the missing
+  // computations. `tools` is the mesh of the tools.
   AnalysisResults Update(const Snapshot& snapshot, const std::shared_ptr<const MeshState>& tools,
                          const ViewState& view);
-  // Whether anything is under way.
+  // True if a computation is running.
   bool Busy();
-  // There was not enough memory for one since this was asked last: it stays out.
+  // True if, since the last call, memory did not suffice for a computation. The result then stays missing.
   bool RanOutOfMemory();
 
  private:

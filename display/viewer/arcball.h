@@ -1,7 +1,7 @@
 // display/viewer/arcball.h
 //
-// Shoemake's arcball (1992): the model turns as if a ball around it were dragged. Positions are pixels of the
-// picture.
+// Shoemake's arcball (1992): the user rotates the model by dragging a ball around it. Positions are pixels of
+// the picture.
 
 #pragma once
 
@@ -19,16 +19,17 @@ struct PictureSize {
 
 enum class ArcballConstraint {
   kNone,
-  kViewerAxes,  // rotation about right, up or forward, whichever is nearest where the drag begins
-  kSceneAxes,   // the same of x, y and z
+  kViewerAxes,  // rotation about right, up or forward, whichever is closest at the start of the drag
+  kSceneAxes,   // the same for x, y and z
 };
 
 class ArcballDrag {
  public:
-  // The drag begins at (x, y). The ball is centred in the picture and turns about camera.look_at.
+  // Starts the drag at (x, y). The ball has its centre in the picture's centre; the rotation is about
+  // camera.look_at.
   ArcballDrag(const Camera& camera, PictureSize size, double x, double y, ArcballConstraint constraint);
 
-  // The camera with the pointer at (x, y). Distance and field of view stay.
+  // The camera for the pointer at (x, y). Distance and field of view do not change.
   Camera At(double x, double y) const;
 
  private:
@@ -41,13 +42,13 @@ class ArcballDrag {
   glm::dvec3 from_;
 };
 
-// The camera and what it looks at, moved with what lies at look_at's depth under the pointer, which went
-// (dx, dy) [pixels].
+// Moves the camera and look_at such that the point under the pointer at look_at's depth follows a pointer
+// movement of (dx, dy) [pixels].
 Camera Pan(const Camera& camera, PictureSize size, double dx, double dy);
-// The distance to look_at divided by `factor`, as near and as far as numbers keep the direction.
+// Divides the distance to look_at by `factor`, within the range where numbers represent the view's direction.
 Camera Zoom(const Camera& camera, double factor);
-// Another field of view [degrees, clamped to kMinFov .. kMaxFov] and distance, so that what lies at look_at
-// keeps its size: the perspective alone changes.
+// Sets the field of view [degrees, clamped to kMinFov .. kMaxFov], and the distance such that objects at
+// look_at keep their size. Only the perspective changes.
 Camera Warp(const Camera& camera, double vertical_fov);
 inline constexpr double kMinFov = 2, kMaxFov = 160;
 

@@ -6,7 +6,7 @@
 
 namespace penumbra::viewer {
 
-// What the sources look like from a probed point (thesis B.4.10).
+// The backprojections of the sources from a probed point (thesis B.4.10).
 OverlayRegistry::Method BackprojectionOverlayMethod();
 
 }  // namespace penumbra::viewer

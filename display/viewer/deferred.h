@@ -1,6 +1,7 @@
 // display/viewer/deferred.h
 //
-// Values that take long to compute, worked out beside the view and shown once they are there.
+// Values that take long to compute. A thread computes each value in the background, and the view shows the
+// value when it is complete.
 
 #pragma once
 
@@ -15,12 +16,12 @@
 
 namespace penumbra::viewer {
 
-// The value of one key at a time; asking for another cancels what is under way. For one thread, that of the
-// view. Keys are compared by ==.
+// Holds the value of one key at a time. A request for another key cancels the running computation. For use by
+// one thread, the view's. Keys are compared by ==.
 template <class Key, class Value>
 class Deferred {
  public:
-  // Called in a thread of its own. What it gives after a cancel is dropped.
+  // The function runs in a separate thread. The result of a cancelled computation is discarded.
   using Compute = std::function<Value(const Key&, const ExecutionContext&)>;
 
   explicit Deferred(Compute compute) : compute_(std::move(compute)) {}
@@ -28,20 +29,20 @@ class Deferred {
   Deferred(const Deferred&) = delete;
   Deferred& operator=(const Deferred&) = delete;
 
-  // The key's value, or null while it is being computed, which is started if need be.
+  // The key's value; null if the value is incomplete. Starts the computation if necessary.
   std::shared_ptr<const Value> Get(const Key& key) {
     Collect();
     if (key_ && *key_ == key) return value_;
     if (!running_) {
       Start(key);
     } else {
-      // Its thread ends soon; the next call after that starts the new one.
+      // The thread ends soon; a later call then starts the new computation.
       context_->Cancel();
     }
     return nullptr;
   }
 
-  // Forgets the value, and lets what is under way run out.
+  // Discards the value, and cancels the running computation.
   void Clear() {
     if (running_) context_->Cancel();
     Collect();
@@ -54,7 +55,7 @@ class Deferred {
     return running_;
   }
 
-  // There was not enough memory for a value since this was asked last: the key has none.
+  // True if, since the last call, memory did not suffice for a value. The key then has no value.
   bool RanOutOfMemory() { return no_memory_.exchange(false); }
 
  private:
@@ -98,7 +99,7 @@ class Deferred {
   std::optional<Key> key_;
   std::shared_ptr<const Value> value_;
   std::shared_ptr<ExecutionContext> context_;
-  std::shared_ptr<const Value> result_;  // of the thread, until done_
+  std::shared_ptr<const Value> result_;  // written by the thread until done_
   std::atomic<bool> done_{false}, no_memory_{false};
   bool running_ = false;
   std::thread thread_;

@@ -6,7 +6,7 @@
 
 namespace penumbra::viewer {
 
-// All potential discontinuities, violet (thesis B.4.4).
+// All potential discontinuities, in violet (thesis B.4.4).
 OverlayRegistry::Method DiscontinuityOverlayMethod();
 
 }  // namespace penumbra::viewer

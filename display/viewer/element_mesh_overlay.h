@@ -6,7 +6,7 @@
 
 namespace penumbra::viewer {
 
-// The elements of the global solution, down to a level (thesis B.4.2).
+// The elements of the global solution, down to a chosen level (thesis B.4.2).
 OverlayRegistry::Method ElementMeshOverlayMethod();
 
 }  // namespace penumbra::viewer

@@ -9,11 +9,11 @@
 
 namespace penumbra::viewer {
 
-// The representation error of each triangle: the largest of |shown - true| / max(true, 1 % of the mean of the
-// channel), over the channels and kErrorPoints points inside that the interpolant does not pass through.
+// The representation error of each triangle: the maximum of |shown - true| / max(true, 1 % of the channel's
+// mean), over the channels and over kErrorPoints interior points that are not nodes of the interpolant.
 struct ErrorMap {
   std::vector<float> error;  // per triangle [1]
-  double p99 = 0;            // the value that 99 % of the area does not pass
+  double p99 = 0;            // 99 % of the area has an error of at most this
 };
 ErrorMap MapRepresentationError(const LightState& light, const IrradianceMesh& mesh,
                                 const ExecutionContext& context);

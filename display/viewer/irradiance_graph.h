@@ -1,6 +1,6 @@
 // display/viewer/irradiance_graph.h
 //
-// The surfaces of thesis B.4.7: irradiance as height above the triangles.
+// The graphs of thesis B.4.7: surfaces whose height above the triangles is the irradiance.
 
 #pragma once
 
@@ -14,12 +14,12 @@
 
 namespace penumbra::viewer {
 
-// Values on the grid of a triangle with `cells` along each side: row j = 0 .. cells holds i = 0 .. cells - j,
-// at (s, t) = (i, j) / cells.
+// Values on a triangle's grid with `cells` cells per side: row j = 0 .. cells holds i = 0 .. cells - j, at
+// (s, t) = (i, j) / cells.
 struct GraphSheet {
   std::uint32_t triangle = 0;
   int cells = 1;
-  std::vector<Rgb> exact;  // [W/m^2]; empty where only the interpolant was asked for
+  std::vector<Rgb> exact;  // [W/m^2]; empty if only the interpolant is needed
 
   static std::size_t Size(int cells) {
     return static_cast<std::size_t>(cells + 1) * static_cast<std::size_t>(cells + 2) / 2;
@@ -28,12 +28,12 @@ struct GraphSheet {
 using IrradianceGraph = std::vector<GraphSheet>;
 
 struct GraphOptions {
-  int density = 1;       // cells along each side of a triangle, at most
-  bool dynamic = false;  // fewer where the triangle fills little of its leaf
-  bool exact = false;    // with exact values, which cost time
+  int density = 1;       // largest number of cells per side of a triangle
+  bool dynamic = false;  // fewer cells if the triangle fills a small part of its leaf
+  bool exact = false;    // with exact values, which take time
 };
 
-// Sheets over triangles.
+// One sheet per triangle of the list.
 IrradianceGraph MakeGraph(const LightState& light, const IrradianceMesh& mesh,
                           std::span<const std::uint32_t> triangles, const GraphOptions& options,
                           const ExecutionContext& context);

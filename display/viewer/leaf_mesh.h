@@ -9,9 +9,9 @@
 
 namespace penumbra::viewer {
 
-// The leaves of a forest as triangles of constant irradiance [W/m^2], indexed by ElementId: what there is to
-// see of a solution at any step. Nothing is computed and nothing need be balanced; T-vertices remain, which
-// the display closes.
+// The leaves of a forest as triangles of constant irradiance [W/m^2]. `irradiance` is indexed by ElementId.
+// The mesh shows a solution at any step: the function computes nothing, and the forest need not be balanced.
+// T-vertices remain; the display closes the gaps.
 IrradianceMesh LeafMesh(const ElementForest& forest, std::span<const Rgb> irradiance);
 
 }  // namespace penumbra::viewer

@@ -1,6 +1,6 @@
 // display/viewer/links.h
 //
-// Which links are shown, and how (thesis B.4.3).
+// The links that the view shows, and their colours (thesis B.4.3).
 
 #pragma once
 
@@ -16,20 +16,20 @@ namespace penumbra::viewer {
 
 enum class LinkClass : std::uint8_t {
   kVisible,  // white
-  kSplit,    // pink: the plane of one end cuts the other
-  kPartial,  // green: something may stand between
+  kSplit,    // pink: the plane of one end intersects the other
+  kPartial,  // green: something may lie between the ends
 };
 LinkClass ClassOf(const RadiositySolution& solution, const Link& link);
 Colour ColourOf(LinkClass link_class);
 const char* NameOf(LinkClass link_class);
-// The switch that shows links of the class.
+// The name of the switch that shows the links of the class.
 std::string SwitchOf(LinkClass link_class);
 
-// What the link brings its receiver, largest channel [W/m^2].
+// The irradiance that the link brings to its receiver, in the largest channel [W/m^2].
 double LinkIrradiance(const RadiositySolution& solution, const Link& link);
 
-// The indices of the links that the settings let through, at most settings.link_limit, the strongest first.
-// With an element selected, only links that end at it, above it or below it.
+// The indices of the links that pass the settings' filters, at most settings.link_limit, the strongest first.
+// If an element is selected, only links that end at this element, above it or below it.
 std::vector<std::uint32_t> ShownLinks(const RadiositySolution& solution, const OverlaySettings& settings,
                                       const Selection& selection);
 

@@ -1,6 +1,6 @@
 // display/viewer/mesh_tools.h
 //
-// Triangles of a mesh, as the tools of the viewer ask for them.
+// Functions on the triangles of a mesh for the viewer's tools.
 
 #pragma once
 
@@ -16,23 +16,24 @@ namespace penumbra::viewer {
 std::array<Vec3, 3> TriangleVertices(const IrradianceMesh& mesh, std::uint32_t triangle);
 double TriangleArea(const IrradianceMesh& mesh, std::uint32_t triangle);  // [m^2]
 Vec3 NormalOf(const Scene& scene, const IrradianceMesh& mesh, std::uint32_t triangle);
-// The point at barycentric coordinates (s, t).
+// The point at barycentric coordinates (s, t) [m].
 Vec3 PointInTriangle(const IrradianceMesh& mesh, std::uint32_t triangle, double s, double t);
 
-// The leaf of the solution's quadtrees that the triangle lies in.
+// The leaf of the solution's quadtrees that contains the triangle.
 ElementId LeafOf(const LightState& light, const IrradianceMesh& mesh, std::uint32_t triangle);
 
-// Whether the element is `top` or lies below it.
+// True if `element` is `top` or a descendant of `top`.
 bool IsBelow(const ElementForest& forest, ElementId element, ElementId top);
 
-// The triangles within any of the elements, ascending.
+// The indices of the triangles in any of the elements, ascending.
 std::vector<std::uint32_t> TrianglesOf(const LightState& light, const IrradianceMesh& mesh,
                                        std::span<const ElementId> elements);
 
-// A mesh of some of the triangles.
+// The mesh of the listed triangles.
 IrradianceMesh SubMesh(const IrradianceMesh& mesh, std::span<const std::uint32_t> triangles);
 
-// The exact irradiance at (s, t) of a triangle; on its border the limit from inside [W/m^2].
+// The exact irradiance at (s, t) of a triangle [W/m^2]; on the triangle's border, the limit from the
+// interior.
 Rgb ExactInTriangle(const LightState& light, const IrradianceMesh& mesh, std::uint32_t triangle, double s,
                     double t);
 

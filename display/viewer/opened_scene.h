@@ -1,6 +1,6 @@
 // display/viewer/opened_scene.h
 //
-// What the window gets from files and writes into them. Whoever opens the window knows how.
+// The window's access to files. The program that opens the window provides the functions.
 
 #pragma once
 
@@ -16,39 +16,40 @@ namespace penumbra::viewer {
 
 struct OpenedScene {
   OpenedScene() = default;
-  // NOLINTNEXTLINE(google-explicit-constructor): a scene is one that nobody has solved yet.
+  // NOLINTNEXTLINE(google-explicit-constructor): a scene alone is a scene without a solution.
   OpenedScene(std::shared_ptr<const Scene> the_scene) : scene(std::move(the_scene)) {}
 
   std::shared_ptr<const Scene> scene;
-  // Of a solution file; refers to the scene. Null: not solved.
+  // The state from a solution file, which refers to the scene. Null: not solved.
   std::shared_ptr<PipelineState> stored;
-  // Of another solution of the same geometry, over whose links the scene is lit. Null: it gets its own.
+  // The state of another solution of the same geometry, whose links transport the light of the scene. Null:
+  // the scene gets new links.
   std::shared_ptr<const PipelineState> restart;
-  PipelineOptions solving;  // of either, as it was solved
+  PipelineOptions solving;  // the options of `stored` or `restart`
 };
 
-// What says how a scene is read.
+// An option that determines how a scene is read.
 struct ReadingOption {
   std::string name, help;
-  bool toggle = false;  // else text
+  bool toggle = false;  // on or off; otherwise text
   std::function<std::string()> value;
 };
 
-// Each throws InputError, a line that says what is wrong. Those that write do it beside the place, then
-// rename.
+// Each function throws InputError with one line that describes the fault. Functions that write use a
+// temporary file beside the target, then rename it.
 struct ViewerFiles {
   using WriteSolved = std::function<void(const std::string& path, const Pipeline& pipeline)>;
 
-  // A scene or a solution by its path or name.
+  // Opens a scene or a solution by its path or name.
   std::function<OpenedScene(const std::string& name)> open;
-  // The scene that was opened last, read anew with another value of one of these options.
+  // Reads the last opened scene again, with another value of one of these options.
   std::vector<ReadingOption> reading;
   std::function<OpenedScene(const std::string& option, const std::string& value)> read_with;
-  // The pipeline is solved, meshed for interpolants and measured.
+  // REQUIRES: the pipeline is solved, measured, and has a mesh of kind kInterpolant.
   WriteSolved save_solution, save_report;
-  // Whether the format that the path's ending names holds the mesh, and not the scene alone.
+  // True if the format for the path's ending stores the mesh, not only the scene.
   std::function<bool(const std::string& path)> exports_mesh;
-  // `mesh` is null where the format does without.
+  // `mesh` is null if the format does not store the mesh.
   std::function<void(const std::string& path, const Scene& scene, const IrradianceMesh* mesh,
                      const Camera& camera)>
       export_file;

@@ -1,6 +1,6 @@
 // display/viewer/overlay.h
 //
-// Visualisations of the solver's inside (thesis B.4).
+// Visualisations of the solver's internal data (thesis B.4).
 
 #pragma once
 
@@ -23,7 +23,7 @@ namespace penumbra::viewer {
 class Menu;
 class Settings;
 
-// What takes long to compute, as far as it is there.
+// Results that take long to compute; null until complete.
 struct AnalysisResults {
   std::shared_ptr<const DiscontinuityList> discontinuities;
   std::shared_ptr<const IrradianceGraph> graph;
@@ -36,59 +36,59 @@ struct AnalysisResults {
 
 struct OverlayContext {
   const Snapshot& snapshot;
-  const MeshState& mesh;  // whose triangles the tools speak of
+  const MeshState& mesh;  // the mesh whose triangles the tools use
   const OverlaySettings& settings;
   const Selection& selection;
   const AnalysisResults& results;
-  bool isolated = false;  // nothing but what is selected is drawn
+  bool isolated = false;  // the picture shows only the selection
 
   bool Isolates(SelectionKind kind) const { return isolated && selection.kind == kind; }
 };
 
-// What has to be computed for an overlay.
+// The computations that an overlay needs.
 struct OverlayNeeds {
-  bool triangles = false;        // of a mesh, where the drawing mode has none
-  bool discontinuities = false;  // all of them
-  bool graph = false;            // of the irradiance over what is selected
-  bool exact_graph = false;      // that of the exact irradiance, too
+  bool triangles = false;        // triangles of a mesh, even if the drawing mode has none
+  bool discontinuities = false;  // all discontinuities
+  bool graph = false;            // the graph of the irradiance over the selection
+  bool exact_graph = false;      // the graph of the exact irradiance as well
 };
 
-// Something that users switch on and off.
+// A part of an overlay that users switch on and off.
 struct OverlaySwitch {
   std::string name;  // as in `set NAME on`
-  std::string help;  // a few words: what panels call it
+  std::string help;  // a few words: the label in panels
   std::string menu;  // its item in the menu `Visualisation`
   std::string key;   // a chord, or empty
   OverlayNeeds needs;
 };
 
-// The groups of panels that overlays may stand in.
+// The groups of panels that contain overlays.
 inline constexpr std::string_view kOverlayGroups[] = {"Visualisations", "Links", "Graphs"};
 
 class Overlay {
  public:
   virtual ~Overlay() = default;
 
-  // The one of kOverlayGroups that its switches and settings stand in.
+  // The group of kOverlayGroups that contains the overlay's switches and settings.
   virtual std::string Group() const { return "Visualisations"; }
-  // Without switches, an overlay shows what a user selects or probes.
+  // An overlay without switches shows what a user selects or probes.
   virtual std::vector<OverlaySwitch> Switches() const { return {}; }
-  // Adds what can be set beside the switches. The values outlive the settings.
+  // Adds settings other than the switches. `values` outlives `settings`.
   virtual void AddSettings(OverlaySettings* /*values*/, Settings* /*settings*/) const {}
-  // Adds what the menu has beside the switches. The values outlive the menu.
+  // Adds menu items other than the switches. `values` outlives `menu`.
   virtual void AddMenuItems(OverlaySettings* /*values*/, Menu* /*menu*/) const {}
 
-  // Overlays are painted by layer, the lowest first; those of equal layer in the order of the registry. Those
-  // of the library have the layers 0 to 8.
+  // The painter draws overlays in ascending order of layers, and in the registry's order within a layer. The
+  // library's overlays have layers 0 to 8.
   virtual int Layer() const { return kTopLayer; }
-  // Adds what there is to see. Draws nothing that is not switched on.
+  // Adds the overlay's visible parts to `drawing`. Parts that are switched off add nothing.
   virtual void Draw(const OverlayContext& context, OverlayDrawing* drawing) const = 0;
 
  protected:
   static constexpr int kTopLayer = 100;
 };
 
-// Overlays() holds all overlays.
+// The type of Overlays().
 using OverlayRegistry = Registry<const Overlay>;
 
 }  // namespace penumbra::viewer

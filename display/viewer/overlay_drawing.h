@@ -1,6 +1,6 @@
 // display/viewer/overlay_drawing.h
 //
-// What overlays draw with: lines, points and see-through triangles in space.
+// The primitives of overlays: lines, points and transparent triangles in space.
 
 #pragma once
 
@@ -26,7 +26,7 @@ struct OverlayLine {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // [m]
   Colour colour;
   float width = 1.2F;  // [pixels]
-  Selection pick;      // what a click on it selects
+  Selection pick;      // selected by a click on the line
 };
 
 struct OverlayPoint {
@@ -41,7 +41,7 @@ struct OverlayTriangle {
   float opacity = 1;
 };
 
-// Triangles are painted first, then lines, then points, each in the order added.
+// The painter draws triangles first, then lines, then points, each in the order in which they were added.
 struct OverlayDrawing {
   std::vector<OverlayTriangle> triangles;
   std::vector<OverlayLine> lines;
@@ -58,7 +58,7 @@ struct OverlayDrawing {
     for (std::size_t i = 2; i < convex.size(); ++i)
       triangles.push_back({{convex[0], convex[i - 1], convex[i]}, colour, opacity});
   }
-  // A line with barbs at b; `beside` is a direction that they shall lie near.
+  // A line with an arrowhead at b. The barbs of the head lie close to the direction `beside`.
   void Arrow(const Vec3& a, const Vec3& b, const Vec3& beside, Colour colour, float width = 1.2F,
              Selection pick = {});
 };

@@ -1,7 +1,7 @@
 // display/viewer/overlay_painter.h
 //
-// Paints overlays into the display's picture, hidden by what stands in front of them. All in software, as the
-// display itself: the same bytes with and without a window.
+// Paints overlays into the display's picture; surfaces in front hide them. The painter is software, like the
+// display: pictures with and without a window have equal bytes.
 
 #pragma once
 
@@ -18,20 +18,20 @@
 
 namespace penumbra::viewer {
 
-// How deep each pixel of a picture is.
+// The depth of each pixel of a picture.
 class DepthMap {
  public:
-  // Nothing stands anywhere.
+  // A map of an empty scene.
   DepthMap(const PixelRays& rays, int width, int height);
-  // The triangles of a frame that was drawn of the mesh with these rays.
+  // The map of a frame of `mesh` that was drawn with these rays.
   DepthMap(const PixelRays& rays, const RenderedFrame& frame, const IrradianceMesh& mesh);
 
   int width() const { return width_; }
   int height() const { return height_; }
   const PixelRays& rays() const { return rays_; }
 
-  // 1 / depth [1/m], less what the surface gains within a pixel on either side: what lies on the surface is
-  // before it. 0 where nothing stands.
+  // 1 / depth [1/m], minus the surface's change of 1 / depth within a pixel on either side, so that points on
+  // the surface count as in front of it. 0 where there is no surface.
   float Threshold(int x, int y) const { return inverse_[Index(x, y)]; }
 
  private:
@@ -44,7 +44,7 @@ class DepthMap {
   std::vector<float> inverse_;
 };
 
-// Where a point is in a picture: pixels, and 1 / depth [1/m], which is not above 0 behind the eye.
+// The position of a point in a picture: pixels, and 1 / depth [1/m], which is 0 or negative behind the eye.
 struct ScreenPoint {
   double x = 0, y = 0, inverse_depth = 0;
 };
@@ -52,7 +52,7 @@ ScreenPoint Project(const PixelRays& rays, const Vec3& point);
 
 void PaintOverlay(const OverlayDrawing& drawing, const DepthMap& depth, Srgb8Image* picture);
 
-// The selection of the visible line that passes nearest to (x, y), at most kPickDistance off; an empty one if
+// The selection of the visible line closest to (x, y), at most kPickDistance away; an empty selection if
 // there is none.
 Selection PickLine(const OverlayDrawing& drawing, const DepthMap& depth, double x, double y);
 inline constexpr double kPickDistance = 6;  // [pixels]

@@ -9,19 +9,19 @@
 
 namespace penumbra::viewer {
 
-// Every overlay there is, in the order of menus.
+// The registry of all overlays, in the order of menus.
 OverlayRegistry& Overlays();
 
-// One of each, in the same order.
+// One object per overlay, in the same order.
 std::vector<std::unique_ptr<const Overlay>> MakeOverlays();
 
-// What the switches that are on need.
+// The needs of all switches that are on.
 OverlayNeeds NeedsOf(const OverlaySettings& settings);
 
-// What all of them draw.
+// The drawing of all overlays.
 OverlayDrawing DrawOverlays(const OverlayContext& context);
 
-// Adds the switches and settings of those that stand in the group.
+// Adds the switches and settings of the group's overlays.
 void AddOverlaySettings(std::string_view group, OverlaySettings* values, Settings* settings);
 
 }  // namespace penumbra::viewer

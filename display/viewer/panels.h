@@ -11,23 +11,23 @@
 
 namespace penumbra::viewer {
 
-// The letters' height where nothing is enlarged [pixels]; panels grow with them.
+// The height of letters on a screen without scaling [pixels]; panels scale with it.
 inline constexpr float kPlainFontSize = 13;
 
-// Where a panel is [pixels].
+// The position and size of a panel [pixels].
 struct PanelRect {
   float left = 0, top = 0, width = 0, height = 0;
   bool operator==(const PanelRect&) const = default;
 };
 
-// Draws menus and panels with Dear ImGui, and runs what the user does with them.
+// Draws menus and panels with Dear ImGui, and runs the user's commands.
 class Panels {
  public:
-  // REQUIRES: within a frame of ImGui.
+  // REQUIRES: the call is within a frame of ImGui.
   void Draw(Viewer& viewer);
 
-  // Whether keys belong to a field that is being edited. ImGui's WantTextInput tells two frames after the
-  // end.
+  // True while a user edits a field that takes the keys. ImGui's WantTextInput reports this until two frames
+  // after the end of the edit.
   static bool Typing();
 
  private:
@@ -48,22 +48,22 @@ class Panels {
   void Dialog(Viewer& viewer);
   void Message(Viewer& viewer);
   void Legend(Viewer& viewer);
-  // Runs it; what it throws is shown.
+  // Runs the action, and shows the message of its exceptions.
   template <class Action>
   void Try(Viewer& viewer, const Action& action);
 
   struct PanelPlace {
-    PanelRect wanted;                // where the user had it
-    PanelRect shown;                 // where it was in the last frame
-    std::pair<float, float> window;  // the window's size when it was put there; 0: never yet
+    PanelRect wanted;                // as the user placed it
+    PanelRect shown;                 // as shown in the last frame
+    std::pair<float, float> window;  // the window's size at the time of placing; 0: not placed
   };
-  std::map<std::string, PanelPlace> places_;  // by the panel's name
-  std::string asked_;                         // the dialog that is open
-  char text_[1024] = {};                      // in its field
-  std::string edited_;                        // the setting whose field is being edited
-  char edit_[1024] = {};                      // in that field: a path, say
-  std::string unedited_;                      // what it showed before
-  std::string slid_;                          // the setting whose slider is held
+  std::map<std::string, PanelPlace> places_;  // by panel name
+  std::string asked_;                         // the open dialog
+  char text_[1024] = {};                      // text in the dialog's field
+  std::string edited_;                        // the setting whose field the user edits
+  char edit_[1024] = {};                      // text in this field, for example a path
+  std::string unedited_;                      // the field's text before the edit
+  std::string slid_;                          // the setting whose slider the user drags
   float slid_low_ = 0, slid_high_ = 1;
 };
 

@@ -1,7 +1,7 @@
 // display/viewer/picture.h
 //
-// The picture of a snapshot: what the window shows, without its panels. A function of the snapshot, the view
-// and what overlays add; everything kept here only saves time.
+// The picture of a snapshot: the window's content without panels. The picture is a function of the snapshot,
+// the view and the overlays' drawing. All state in this class only saves time.
 
 #pragma once
 
@@ -17,37 +17,37 @@
 
 namespace penumbra::viewer {
 
-// What a picture's colours stand for, where they are false.
+// The meaning of a picture's false colours.
 enum class ColourScale { kNone, kIrradiance /* [W/m^2] */, kError /* relative */ };
 const char* UnitOf(ColourScale scale);
 
 class PictureMaker {
  public:
-  // Draws width x height pixels. REQUIRES: width, height > 0; the view's camera can see.
+  // Draws width x height pixels. REQUIRES: width, height > 0; ValidateCamera() accepts the view's camera.
   const Srgb8Image& Make(const OverlayContext& context, const ViewState& view, const OverlayDrawing& drawing,
                          int width, int height);
 
-  // Rays that are still under way, or are not shown yet.
+  // True if rays are running, or finished rays are not in the picture yet.
   bool Busy() const { return rays_.Busy(); }
-  // The last picture is by rays, as far as they are there.
+  // True if the last picture shows the rays that are complete.
   bool by_rays() const { return by_rays_; }
   double RayFraction() const { return rays_.Fraction(); }
   void CancelRays() { rays_.Cancel(); }
 
-  // Of the last picture:
+  // Properties of the last picture:
   const Srgb8Image& screen() const { return screen_; }
   const RenderedFrame* frame() const { return display_ ? &display_->frame() : nullptr; }
-  // What the screen was made of: radiosity [W/m^2] or reflectance.
+  // The values behind the screen colours: radiosity [W/m^2] or reflectance.
   const RgbImage& linear() const { return by_rays_ ? ray_linear_ : display_->frame().linear; }
   const DepthMap* depth() const { return depth_ ? &*depth_ : nullptr; }
-  // The mesh that frame() was drawn of.
+  // The mesh of frame().
   const IrradianceMesh& drawn() const { return drawn_->mesh(); }
-  // The kind of mesh that the mode got: another one where its own is not built yet.
+  // The kind of the drawn mesh: a different kind from the mode's while the mode's mesh does not exist yet.
   MeshKind drawn_kind() const { return kind_; }
   double exposure() const { return exposure_; }  // screen value per W/m^2
   ColourScale scale() const { return scale_; }
   double scale_top() const { return scale_top_; }  // of false colours
-  // Why the view's back end did not draw the passes, and the rasteriser did; empty: it did.
+  // Why the view's back end could not draw the passes, so that the rasteriser drew them; empty if it could.
   const std::string& backend_error() const { return backend_error_; }
   const FrameTimes& times() const { return times_; }
 
@@ -59,18 +59,18 @@ class PictureMaker {
   bool Shows(const ErrorMap* errors) const;
   void PaintErrors(const ErrorMap& errors, double top, Srgb8Image* out) const;
 
-  std::shared_ptr<const MeshState> whole_;  // the mesh of the mode
-  std::shared_ptr<const MeshState> drawn_;  // that, or what is left of it when a selection is isolated
-  std::vector<std::uint32_t> left_;         // then, which of its triangles those are
+  std::shared_ptr<const MeshState> whole_;  // the mesh for the mode
+  std::shared_ptr<const MeshState> drawn_;  // whole_, or a part of it when a selection is isolated
+  std::vector<std::uint32_t> left_;         // for a part: its triangles' indices in whole_
   Selection isolated_;
   AnalysisResults isolated_by_;
   std::optional<TwoPassDisplay> display_;
-  Backend backend_ = Backend::kSoftware;  // that was asked for
+  Backend backend_ = Backend::kSoftware;  // the requested back end
   OpenGlCoordinates coordinates_ = OpenGlCoordinates::kFloat;
   std::string backend_error_;
   std::optional<DepthMap> depth_;
   RayPicture rays_;
-  bool by_rays_ = false;  // the last picture
+  bool by_rays_ = false;  // whether the last picture shows rays
   RgbImage ray_linear_;
   std::vector<PixelKind> ray_kind_;
   Srgb8Image screen_, part_;
@@ -80,7 +80,7 @@ class PictureMaker {
   FrameTimes times_;
 };
 
-// Exposure as MeterExposure() has it, from every kMeterStride-th pixel of every kMeterStride-th row.
+// MeterExposure() for every kMeterStride-th pixel of every kMeterStride-th row.
 double MeterSparsely(const RgbImage& linear, const std::vector<PixelKind>& kinds);
 inline constexpr int kMeterStride = 4;
 

@@ -1,7 +1,7 @@
 // display/viewer/probes.h
 //
-// The probes of thesis B.4.9 and B.4.10: what the irradiance at a point is made of, and what its sources look
-// like from it.
+// The probes of thesis B.4.9 and B.4.10: the contributions to the irradiance at a point, and the
+// backprojections of its sources.
 
 #pragma once
 
@@ -18,34 +18,35 @@ namespace penumbra::viewer {
 
 struct ProbeResult {
   ProbedPoint at;
-  std::int32_t face = -1;                  // as users count
+  std::int32_t face = -1;                  // in the user's numbering
   Rgb exact = Rgb::Zero();                 // [W/m^2]
-  std::optional<Rgb> interpolated;         // [W/m^2]; by the mesh that was given
-  std::vector<PatchContribution> sources;  // JoinFaces()
+  std::optional<Rgb> interpolated;         // [W/m^2]; of the given mesh
+  std::vector<PatchContribution> sources;  // after JoinFaces()
 };
 ProbeResult ProbeIrradiance(const LightState& light, const MeshState* mesh, const ProbedPoint& at);
 
-// The face that names a patch, as users count: of several that it was merged of, the first; -1 without any.
+// The face that names a patch, in the user's numbering: the first face of a patch that was merged from
+// several; -1 if the patch has no face.
 std::int32_t FirstFace(const Scene& scene, PatchId patch);
 
-// The contributions of the patches that a face was cut into as one, which names the first; the brightest
-// first.
+// Sums the contributions of the patches of one face. The sum has the first patch's number. The brightest
+// comes first.
 std::vector<PatchContribution> JoinFaces(const Scene& scene, const std::vector<PatchContribution>& sources);
 
-// A line for standard output: x,y,z,patch, then exact, interpolated and their difference, a value a channel.
+// A line for standard output: x,y,z,patch, then exact, interpolated and difference, three channels each.
 std::string ProbeLine(const ProbeResult& probe);
 inline constexpr const char* kProbeHeader =
     "x,y,z,patch,exact_r,exact_g,exact_b,interp_r,interp_g,interp_b,diff_r,diff_g,diff_b";
 
-// What is seen of one source, carried onto it.
+// The visible part of one source, projected onto the source.
 struct BackprojectedPatch {
   PatchId source = kNoPatch;
   std::vector<std::array<Vec3, 3>> visible;        // triangles [m]
-  std::vector<std::array<Vec3, 2>> blockers;       // edges that lie on the outline of a blocker
-  std::vector<std::array<Vec3, 2>> triangulation;  // the others
+  std::vector<std::array<Vec3, 2>> blockers;       // edges on the outline of a blocker
+  std::vector<std::array<Vec3, 2>> triangulation;  // the other edges
 };
-// Of every source of the point's patch that sends light and has its front above the point's horizon; sources
-// whose plane holds the point are left out.
+// The backprojections of all sources of the point's patch that send light and whose front lies partly above
+// the point's horizon. Sources whose plane contains the point are omitted.
 std::vector<BackprojectedPatch> Backproject(const LightState& light, const ProbedPoint& at,
                                             const ExecutionContext& context);
 

@@ -1,7 +1,7 @@
 // display/viewer/ray_picture.h
 //
-// Pictures by rays (RayShade, LerpShade) worked out beside the view, coarse to fine: every 16th pixel of
-// every 16th row first, then those between.
+// Pictures by ray casting (RayShade, LerpShade), computed in the background from coarse to fine: first every
+// 16th pixel of every 16th row, then the pixels between.
 
 #pragma once
 
@@ -15,15 +15,16 @@
 namespace penumbra::viewer {
 
 struct RayPictureKey {
-  std::shared_ptr<const LightState> light;  // what exact irradiance comes from
-  std::shared_ptr<const MeshState> mesh;    // whose interpolants are shown; null: exact irradiance
+  std::shared_ptr<const LightState> light;  // the source of exact irradiance
+  std::shared_ptr<const MeshState> mesh;    // the mesh whose interpolants are shown; null: exact irradiance
   Camera camera;
   int width = 0, height = 0;
 
   bool operator==(const RayPictureKey& other) const;
 };
 
-// One picture at a time; asking for another ends the one under way. For one thread, that of the view.
+// Computes one picture at a time. A request for another picture cancels the running one. For use by one
+// thread, the view's.
 class RayPicture {
  public:
   RayPicture();
@@ -31,21 +32,21 @@ class RayPicture {
   RayPicture(const RayPicture&) = delete;
   RayPicture& operator=(const RayPicture&) = delete;
 
-  // Starts the picture, or goes on with it. Where the last one still has to end, nothing happens until it
-  // did.
+  // Starts the picture, or continues it. If another picture is still being cancelled, the call has no effect;
+  // a later call starts the picture.
   void Show(const RayPictureKey& key);
-  // Ends what is under way, and does not begin with that picture again.
+  // Cancels the running picture. Show() does not restart it.
   void Cancel();
-  // Ends what is under way, and forgets it.
+  // Cancels the running picture and discards it.
   void Clear();
 
-  // Something is under way, or was not painted yet.
+  // True if a picture is running, or pixels of it have not been painted yet.
   bool Busy() const;
-  // The part of the pixels that are there, of the picture asked for last.
+  // The fraction of complete pixels of the last picture.
   double Fraction() const;
 
-  // Puts the pixels that are there into a picture of the same size, each also where the finer ones beside it
-  // are missing, and leaves the others. Radiosity [W/m^2].
+  // Copies the complete pixels into a picture of the same size [W/m^2 of radiosity]. A complete pixel also
+  // fills neighbouring pixels of finer rounds that are missing. Other pixels remain unchanged.
   void Paint(RgbImage* linear, std::vector<PixelKind>* kinds);
 
  private:
@@ -53,8 +54,8 @@ class RayPicture {
   void Collect();
 
   std::unique_ptr<Job> job_;
-  bool cancelled_ = false;  // by the user
-  bool painted_ = true;     // all that is there
+  bool cancelled_ = false;  // by a call of Cancel()
+  bool painted_ = true;     // all complete pixels have been painted
 };
 
 }  // namespace penumbra::viewer

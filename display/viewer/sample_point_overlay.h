@@ -6,7 +6,7 @@
 
 namespace penumbra::viewer {
 
-// The samples of the interpolants, yellow (thesis B.4.8).
+// The sample points of the interpolants, in yellow (thesis B.4.8).
 OverlayRegistry::Method SamplePointOverlayMethod();
 
 }  // namespace penumbra::viewer

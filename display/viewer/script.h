@@ -1,6 +1,7 @@
 // display/viewer/script.h
 //
-// Scripts that stand in for a user (`penumbra view --script FILE`): an action a line, played a step a frame.
+// Scripts that replace a user (`penumbra view --script FILE`). Each line is an action; the player runs one
+// step per frame.
 
 #pragma once
 
@@ -13,7 +14,7 @@
 
 namespace penumbra::viewer {
 
-// What an action comes to: at most one of these a frame.
+// The parts of an action; a frame runs at most one of them.
 struct ScriptStep {
   enum class Kind {
     kInput,
@@ -26,7 +27,7 @@ struct ScriptStep {
     kResize,
     kQuit
   } kind = Kind::kInput;
-  int line = 0;  // of the file
+  int line = 0;  // line number in the file
   InputEvent event;
   std::string text, value;  // menu path; option and value; file
   double amount = 0;        // frames or seconds
@@ -34,25 +35,25 @@ struct ScriptStep {
 };
 
 struct Script {
-  std::string name;  // of the file, for messages
+  std::string name;  // file name for messages
   std::vector<ScriptStep> steps;
 };
 
-// The words of a script, for `--help`.
+// The description of script commands for `--help`.
 extern const char* const kScriptHelp;
 
-// Throws InputError, `NAME:LINE: error: ...`, at the first line that is no action.
+// Parses the text. Throws InputError, `NAME:LINE: error: ...`, at the first line that is not an action.
 Script ParseScript(const std::string& name, const std::string& text);
-// Throws InputError if the file cannot be read.
+// Reads and parses the file. Throws InputError if that fails.
 Script ReadScript(const std::string& path);
 
-// What plays a script needs to be able to do.
+// The functions that a script's player needs.
 class ScriptStage {
  public:
   virtual ~ScriptStage() = default;
   virtual void Input(const InputEvent& event) = 0;
   virtual void Resize(int width, int height) = 0;
-  // Writes the next whole frame. Throws InputError if it cannot.
+  // Writes the next complete frame to a file. Throws InputError if that fails.
   virtual void Screenshot(const std::string& path) = 0;
 };
 
@@ -60,7 +61,8 @@ class ScriptPlayer {
  public:
   explicit ScriptPlayer(Script script) : script_(std::move(script)) {}
 
-  // The steps of one frame. False once all is done. Throws InputError with file and line if a step cannot be.
+  // Runs the steps of one frame. Returns false when the script is finished. Throws InputError with file and
+  // line if a step fails.
   bool Advance(Viewer& viewer, ScriptStage& stage, double seconds);
 
  private:
@@ -71,6 +73,6 @@ class ScriptPlayer {
   double waited_frames_ = 0, waited_seconds_ = 0;
 };
 
-inline constexpr double kLongestWait = 900;  // seconds that `wait idle` waits before it gives up
+inline constexpr double kLongestWait = 900;  // seconds after which `wait idle` fails
 
 }  // namespace penumbra::viewer

@@ -1,6 +1,6 @@
 // display/viewer/selection.h
 //
-// What is selected (thesis B.4.6): found by a click, drawn, told in words.
+// The selection (thesis B.4.6): picking by a click, validity, description.
 
 #pragma once
 
@@ -14,27 +14,28 @@
 
 namespace penumbra::viewer {
 
-// The point of a front that the frame shows at the pixel (x, y); nothing for the background.
+// The point of a front at the frame's pixel (x, y); nothing for the background.
 std::optional<ProbedPoint> PointAt(const Scene& scene, const IrradianceMesh& drawn,
                                    const RenderedFrame& frame, const PixelRays& rays, double x, double y);
 
-// What a click on a point of a patch selects: with triangles shown the triangle; else the patch as a whole,
-// or of an element that is selected already, the child there.
+// The selection by a click on a point of a patch: the triangle, if triangles are shown; otherwise the patch
+// as a whole or, if an element at the point is already selected, its child at the point.
 Selection SelectSurface(const OverlayContext& context, const ProbedPoint& at);
 
-// What a click on a line selects: a link, or the tube of a link that is selected already; a discontinuity.
+// The selection by a click on a line: a link; the tube of a link that is already selected; or a
+// discontinuity.
 Selection SelectLine(const Selection& before, const Selection& picked);
 
-// Whether the selection means something in the snapshot.
+// True if the snapshot contains the selected object.
 bool IsValid(const OverlayContext& context, const Selection& selection);
 
-// The elements that belong to what is selected; empty for a triangle.
+// The elements of the selected object; empty for a triangle.
 std::vector<ElementId> SelectedElements(const OverlayContext& context);
 
-// The triangles of `drawn` that are left when only what is selected is drawn.
+// The triangles of `drawn` that remain when the picture shows only the selection.
 std::vector<std::uint32_t> IsolatedTriangles(const OverlayContext& context, const IrradianceMesh& drawn);
 
-// What there is to tell about it, a line each.
+// A description of the selected object, one string per line.
 std::vector<std::string> DescribeSelection(const OverlayContext& context);
 std::string DescribePlace(const ProbedPoint& at, const Scene& scene);
 std::vector<std::string> DescribeProbe(const ProbeResult& probe, const Scene& scene);

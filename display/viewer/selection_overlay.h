@@ -6,8 +6,8 @@
 
 namespace penumbra::viewer {
 
-// The outlines of what is selected (thesis B.4.6): an element; a link; its tube, with the blockers; a
-// triangle; a discontinuity, with source, blocker and receiver.
+// The outline of the selection (thesis B.4.6): an element; a link; a link's tube with the blockers; a
+// triangle; a discontinuity with source, blocker and receiver.
 OverlayRegistry::Method SelectionOverlayMethod();
 
 }  // namespace penumbra::viewer

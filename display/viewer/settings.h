@@ -1,6 +1,6 @@
 // display/viewer/settings.h
 //
-// Everything that a user can set, by name: panels, menus and scripts all go through here.
+// All settings of the user, by name. Panels, menus and scripts use this interface.
 
 #pragma once
 
@@ -17,33 +17,33 @@ namespace penumbra::viewer {
 
 enum class SettingKind {
   kToggle,   // on, off
-  kNumber,   // from `low` to `high`; on a logarithmic slider if `logarithmic`
-  kInteger,  // the same, whole
+  kNumber,   // from `low` to `high`; the slider may be logarithmic
+  kInteger,  // the same for integers
   kChoice,   // one of `choices`
-  kText,     // anything
+  kText,     // any text
 };
 
 struct Setting {
   std::string name;   // as in `set NAME VALUE`
-  std::string group;  // where panels show it
-  std::string help;   // a few words; what panels call it
+  std::string group;  // the group of panels
+  std::string help;   // a few words: the label in panels
   SettingKind kind = SettingKind::kText;
   double low = 0, high = 1;
   bool logarithmic = false;
-  bool automatic = false;  // `auto` is a value, too
+  bool automatic = false;  // `auto` is also a value
   std::vector<std::string> choices;
   std::function<std::string()> get;
-  // Throws InputError, a few words that say what may be, unless the value may.
+  // Throws InputError, with a few words about the allowed values, if the value is not allowed.
   std::function<void(const std::string&)> set;
 };
 
-// The values of a number, from the lowest to the highest, and how a slider spreads them.
+// The range of a number, and the scale of its slider.
 struct SliderRange {
   double low, high;
   bool logarithmic = false;
 };
 
-// In the order added; names are unique.
+// Settings in the order in which they were added. REQUIRES: names are unique.
 class Settings {
  public:
   Setting& Toggle(const std::string& name, const std::string& group, const std::string& help, bool* value);
@@ -53,11 +53,11 @@ class Settings {
                   const SliderRange& range);
   Setting& Integer(const std::string& name, const std::string& group, const std::string& help, int* value,
                    int low, int high);
-  // A name and what it stands for.
+  // Pairs of a name and a value.
   template <class Value>
   using Named = std::vector<std::pair<std::string, Value>>;
 
-  // REQUIRES: every value that `value` may have has a name.
+  // REQUIRES: `choices` has a name for every value that `value` may have.
   template <class Value>
   Setting& Choice(const std::string& name, const std::string& group, const std::string& help, Value* value,
                   const Named<std::type_identity_t<Value>>& choices) {
@@ -75,7 +75,7 @@ class Settings {
                   std::function<Vec3()> get, std::function<void(const Vec3&)> set);
   Setting& Add(Setting setting);
 
-  // Null if there is none.
+  // The setting with this name; null if there is none.
   const Setting* Find(const std::string& name) const;
   const std::vector<Setting>& all() const { return all_; }
 
@@ -87,10 +87,10 @@ class Settings {
   std::vector<Setting> all_;
 };
 
-// The number that the whole text is. Throws InputError unless it is one from `low` to `high`.
+// The number that the complete text represents. Throws InputError unless it is from `low` to `high`.
 double NumberFrom(const std::string& text, double low, double high);
 
-// The shortest text that reads back as the number.
+// The shortest text that converts back to the number.
 std::string TextOf(double number);
 
 }  // namespace penumbra::viewer

@@ -1,7 +1,7 @@
 // display/viewer/snapshot.h
 //
-// What the solver's thread hands to the view: states that never change once they are there, so that the view
-// can draw one while the next is being worked out.
+// States that the solver's thread passes to the view. A state never changes, so that the view can draw one
+// state while the solver computes the next.
 
 #pragma once
 
@@ -22,7 +22,7 @@
 
 namespace penumbra::viewer {
 
-// The global solution at some step, with all that must live as long as it.
+// The global solution after some step, together with the objects that must live as long.
 class LightState {
  public:
   LightState(std::shared_ptr<const Scene> scene, std::shared_ptr<const PatchVisibility> visibility,
@@ -37,10 +37,10 @@ class LightState {
   const Scene& scene() const { return *scene_; }
   const PatchVisibility& visibility() const { return *visibility_; }
   const RadiositySolution& solution() const { return solution_; }
-  // As the mesh of this light would look for them.
+  // The options of the discontinuities for a mesh of this light.
   const DiscontinuityOptions& discontinuities() const { return discontinuities_; }
 
-  // Irradiance at points, exact; made when first asked for. Safe from any thread.
+  // Exact irradiance at points; created by the first call. Safe from any thread.
   const PointIrradiance& Exact() const {
     std::call_once(made_, [this] { exact_.emplace(solution_, *visibility_, options_); });
     return *exact_;
@@ -56,7 +56,7 @@ class LightState {
   mutable std::optional<PointIrradiance> exact_;
 };
 
-// A mesh of a light state.
+// A mesh of a LightState.
 class MeshState {
  public:
   MeshState(std::shared_ptr<const Scene> scene, IrradianceMesh mesh)
@@ -64,7 +64,7 @@ class MeshState {
 
   const Scene& scene() const { return *scene_; }
   const IrradianceMesh& mesh() const { return mesh_; }
-  // Which triangle holds a point; made when first asked for. Safe from any thread.
+  // Finds the triangle at a point; created by the first call. Safe from any thread.
   const MeshLocator& Locator() const {
     std::call_once(made_, [this] { locator_.emplace(*scene_, mesh_); });
     return *locator_;
@@ -78,7 +78,8 @@ class MeshState {
 };
 
 inline constexpr std::size_t kMeshKinds = 4;
-// As modes of drawing are called. Without a default: the compiler tells which kind has no name.
+// The names of the drawing modes. The switch has no default, so that the compiler reports kinds without a
+// name.
 inline const char* NameOf(MeshKind kind) {
   switch (kind) {
     case MeshKind::kFlat:
@@ -97,12 +98,12 @@ struct Snapshot {
   std::uint64_t number = 0;  // ascending
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const LightState> light;  // null before the first links
-  // By MeshKind; kFlat is always there, black before the first links.
+  // Indexed by MeshKind. kFlat always exists, and is black before the first links.
   std::array<std::shared_ptr<const MeshState>, kMeshKinds> mesh;
   std::vector<IterationReport> iterations;
   std::size_t corrections = 0;
   bool converged = false;
-  std::optional<PipelineReport> measured;  // energy and errors, once they were asked for
+  std::optional<PipelineReport> measured;  // energy and errors, after a request
 
   const std::shared_ptr<const MeshState>& Mesh(MeshKind kind) const {
     return mesh[static_cast<std::size_t>(kind)];

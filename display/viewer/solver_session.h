@@ -1,6 +1,6 @@
 // display/viewer/solver_session.h
 //
-// The offline half in a thread of its own, a step at a time, so that a window never waits for it.
+// The offline half in a separate thread, in single steps, so that a window never waits for it.
 
 #pragma once
 
@@ -22,53 +22,55 @@ namespace penumbra::viewer {
 struct SessionStatus {
   bool busy = false;
   bool cancelling = false;
-  std::string phase;    // what is being done
-  double fraction = 0;  // of it, in [0, 1]
-  std::string message;  // what went wrong last; empty: nothing
+  std::string phase;    // the present task
+  double fraction = 0;  // complete fraction of the phase, in [0, 1]
+  std::string message;  // the last error; empty: none
 };
 
-// All members but the destructor may be called from any thread; none but the destructor waits for the solver.
-// Tasks are done one after the other, in the order asked for.
+// All members except the destructor are safe from any thread; only the destructor waits for the solver. Tasks
+// run one after another, in the order of the calls.
 class SolverSession {
  public:
-  // Of a solution, its own options count.
+  // For a solution, the solution's options replace `options`.
   SolverSession(const OpenedScene& opened, const PipelineOptions& options);
-  // Cancels, and waits for the step at hand to end.
+  // Cancels, and waits for the end of the running step.
   ~SolverSession();
   SolverSession(const SolverSession&) = delete;
   SolverSession& operator=(const SolverSession&) = delete;
 
-  // The latest state; never null. A step that is under way shows once it is whole.
+  // The latest state; never null. The state contains only complete steps.
   std::shared_ptr<const Snapshot> snapshot() const;
   SessionStatus status() const;
 
-  // Starts over with another scene, or goes on from a solution. Where the links are given, linking and
-  // iterating are lighting the scene over them; the options that say how links are made (IsLinkOption) have
-  // to be those of the links.
+  // Starts with another scene, or from a solution. If links are given (OpenedScene::restart), linking and
+  // iterating compute the light over these links; the options that determine the links (IsLinkOption) must
+  // then equal those of the given links.
   void SetScene(const OpenedScene& opened);
-  // For what is done from now on. Where options of the links change, the next iteration starts over.
+  // Sets the options of later tasks. If options of the links change, the next iteration starts from the
+  // beginning.
   void SetOptions(const PipelineOptions& options);
-  // PipelineOptions::error_points of what is measured from now on: nothing else starts over for them.
+  // Sets PipelineOptions::error_points of later measurements, without effect on other results.
   void SetErrorPoints(std::size_t points);
   PipelineOptions options() const;
 
   void Link();      // from the beginning
-  void Iterate();   // links where there are none yet
-  void Converge();  // iterates until it is done, then corrects
+  void Iterate();   // links first if there are no links
+  void Converge();  // iterates until convergence, then corrects
   void Correct();   // by exact irradiance
-  // For a display mode, from the state then. Once the solver has settled, interpolants refine the solution as
-  // well, as they do for Pipeline::BuildMesh.
+  // Builds the mesh for a display mode, from the state at the start of the task. Once the solver has settled,
+  // a request for interpolants also refines the solution, as in Pipeline::BuildMesh.
   void BuildMesh(MeshKind kind);
-  // Energy and errors of the interpolants, built where they are not there. Of a solution, what it brought.
+  // Measures energy and the errors of the interpolants, which it builds if necessary. For a solution from a
+  // file, the file's measurements remain.
   void Measure();
-  // Writes what is solved, after Measure().
+  // Runs Measure(), then `write`.
   void Save(std::function<void(const Pipeline&)> write);
-  // Anything else that takes long and reads the latest state: pictures, say. What it throws as InputError is
-  // shown.
+  // Runs another long task that reads the latest state, for example for a picture. An InputError from the
+  // task becomes the status message.
   void Run(const std::string& phase,
            std::function<void(const Snapshot&, const ExecutionContext& context)> work);
 
-  // Ends the task at hand after its last whole step, and forgets those that wait.
+  // Ends the running task after its last complete step, and removes waiting tasks.
   void Cancel();
 
  private:
@@ -90,7 +92,7 @@ class SolverSession {
   void PublishLight(std::size_t corrections);
   void Publish(std::shared_ptr<Snapshot> next);
 
-  mutable std::mutex mutex_;  // guards what follows
+  mutable std::mutex mutex_;  // guards the following members
   std::condition_variable wake_;
   std::deque<std::pair<std::string, Task>> tasks_;
   std::shared_ptr<const Snapshot> snapshot_;
@@ -98,14 +100,14 @@ class SolverSession {
   PipelineOptions options_;
   std::shared_ptr<ExecutionContext> running_;
   bool stopping_ = false;
-  bool stale_links_ = false;  // options changed since the links were made
+  bool stale_links_ = false;  // options changed after linking
 
-  // Of the solver's thread alone.
+  // For the solver's thread only.
   std::shared_ptr<const PatchVisibility> visibility_;
   std::unique_ptr<Pipeline> pipeline_;
-  std::shared_ptr<const PipelineState> restart_;  // whose links the scene is lit over; null: its own
-  bool settled_ = false;                          // its iterations have come to their end
-  bool stored_ = false;                           // it shows what a file brought, and cannot go on from there
+  std::shared_ptr<const PipelineState> restart_;  // its links transport the light; null: the scene's own
+  bool settled_ = false;                          // the iterations have ended
+  bool stored_ = false;  // pipeline_ shows the results from a file, from which it cannot continue
 
   std::thread thread_;
 };

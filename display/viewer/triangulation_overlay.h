@@ -8,10 +8,10 @@
 
 namespace penumbra::viewer {
 
-// Its switch. With triangles shown, a click selects one.
+// The overlay's switch. While triangles are shown, a click selects a triangle.
 inline constexpr std::string_view kTrianglesSwitch = "triangles";
 
-// The triangles of the irradiance mesh: discontinuity edges violet, others green (thesis B.4.5).
+// The triangles of the irradiance mesh: discontinuity edges in violet, others in green (thesis B.4.5).
 OverlayRegistry::Method TriangulationOverlayMethod();
 
 }  // namespace penumbra::viewer

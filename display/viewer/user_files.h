@@ -1,7 +1,7 @@
 // display/viewer/user_files.h
 //
-// What the window remembers from one time to the next, in the folder that the XDG base directory
-// specification gives for state: $XDG_STATE_HOME/penumbra, by default ~/.local/state/penumbra.
+// Files that keep the window's state from one run to the next, in the state folder of the XDG base directory
+// specification: $XDG_STATE_HOME/penumbra, by default ~/.local/state/penumbra.
 
 #pragma once
 
@@ -16,24 +16,25 @@ namespace penumbra::viewer {
 
 class UserFiles {
  public:
-  // Nothing is read nor written where there is no such folder and none can be made: no home, say.
+  // If the folder does not exist and cannot be created, for example without a home folder, the object neither
+  // reads nor writes.
   UserFiles();
 
-  std::string Read(const std::string& name) const;  // empty if there is none
+  std::string Read(const std::string& name) const;  // empty if there is no such file
   void Write(const std::string& name, const std::string& text) const;
 
-  // Scenes that were opened, the latest first.
+  // The scenes that were opened, the latest first.
   std::vector<std::string> Recent() const;
-  // Puts a scene first. A path is kept absolute.
+  // Moves a scene to the front. Paths are stored as absolute paths.
   void AddRecent(const std::string& scene) const;
 
-  // Which panels are open, and what opens and closes them so again.
+  // Stores which panels are open, and opens the stored panels.
   void KeepPanels(const Viewer& viewer) const;
   void OpenPanels(Viewer* viewer) const;
 
-  // The cameras that were named in a scene, oldest first; the scene as in AddRecent.
+  // The named cameras of a scene, the oldest first; `scene` as in AddRecent().
   std::vector<Camera> Cameras(const std::string& scene) const;
-  // Keeps a camera; another one of its name in that scene goes.
+  // Stores a camera, in place of a camera with the same name in the same scene.
   void KeepCamera(const std::string& scene, const Camera& camera) const;
 
  private:

@@ -1,6 +1,6 @@
 // display/viewer/view_state.h
 //
-// Everything that decides what the window shows of a snapshot. The picture is a function of the two.
+// All parameters of the window's picture besides the snapshot. The picture is a function of the two.
 
 #pragma once
 
@@ -18,16 +18,16 @@
 
 namespace penumbra::viewer {
 
-// How faces are drawn: modes of `penumbra render`.
+// The modes of drawing faces, as in `penumbra render`.
 enum class DrawMode : std::uint8_t { kFlat, kGouraud, kGouraudMesh, kInterpolant, kExact, kLerp, kRho };
 
-// Modes that cast rays: what the passes show stands in until they are there.
+// True for modes that cast rays. Until the rays are complete, the picture shows the two passes.
 inline bool CastsRays(DrawMode mode) { return mode == DrawMode::kExact || mode == DrawMode::kLerp; }
 
-// The mesh that a mode draws.
+// The kind of mesh that a mode draws.
 MeshKind MeshOf(DrawMode mode);
 
-// Who draws the two passes.
+// The back ends that draw the two passes.
 enum class Backend : std::uint8_t { kSoftware, kOpenGl };
 
 enum class Navigation : std::uint8_t { kArcball, kWalk };
@@ -36,14 +36,15 @@ enum class SelectionKind : std::uint8_t { kNone, kElement, kLink, kTube, kTriang
 
 struct Selection {
   SelectionKind kind = SelectionKind::kNone;
-  // An ElementId, or an index in LinkSet::links, IrradianceMesh::triangles, or the list of discontinuities.
+  // An ElementId, or an index in LinkSet::links, in IrradianceMesh::triangles or in the list of
+  // discontinuities.
   std::int64_t index = -1;
 
   bool operator==(const Selection&) const = default;
   explicit operator bool() const { return kind != SelectionKind::kNone; }
 };
 
-// A point on the front of a patch that the user asks about.
+// A point on the front of a patch that a user probes.
 struct ProbedPoint {
   PatchId patch = kNoPatch;
   Vec3 position = Vec3::Zero();
@@ -53,16 +54,16 @@ struct ProbedPoint {
   }
 };
 
-// What is drawn over the faces (thesis B.4).
+// The settings of the overlays on the faces (thesis B.4).
 struct OverlaySettings {
-  std::set<std::string, std::less<>> shown;  // the switches of overlays that are on, by name
-  int mesh_depth = 20;                       // deepest level of elements drawn
-  double link_min_irradiance = 0;            // links that bring less are left out [W/m^2]
-  int link_limit = 5000;                     // of the others, the strongest this many
+  std::set<std::string, std::less<>> shown;  // names of the switches that are on
+  int mesh_depth = 20;                       // deepest level of elements that is drawn
+  double link_min_irradiance = 0;            // links with less irradiance are omitted [W/m^2]
+  int link_limit = 5000;                     // largest number of the other links: the strongest are shown
   double graph_scale = 0.001;                // height of graphs and probes [m per W/m^2]
-  int grid_density = 12;                     // cells along the side of a graph over a whole element
-  bool dynamic_grid = true;                  // cells by the share of the element that a triangle fills
-  bool hidden_lines = false;                 // draw what stands behind faces, too
+  int grid_density = 12;                     // cells per side of a graph over a whole element
+  bool dynamic_grid = true;   // fewer cells for triangles that fill a small part of the element
+  bool hidden_lines = false;  // draw lines behind faces as well
 
   bool Shows(std::string_view name) const { return shown.contains(name); }
   bool operator==(const OverlaySettings&) const = default;
@@ -73,27 +74,27 @@ struct ViewState {
   Navigation navigation = Navigation::kArcball;
   double walk_speed = 2;  // [m/s]
   bool mouse_look = false;
-  glm::dvec3 up_axis{0, 0, 1};  // of walking
+  glm::dvec3 up_axis{0, 0, 1};  // the vertical direction in walk mode
 
   DrawMode mode = DrawMode::kFlat;
   Backend backend = Backend::kSoftware;
-  OpenGlCoordinates coordinates = OpenGlCoordinates::kFloat;  // of the passes by OpenGL
+  OpenGlCoordinates coordinates = OpenGlCoordinates::kFloat;  // for the passes by OpenGL
   bool faces = true;
-  bool trees_by_reflectance = false;  // flat faces by rho (thesis B.4.1)
+  bool trees_by_reflectance = false;  // flat faces in their reflectance (thesis B.4.1)
   bool split = false;                 // ids, coordinates and picture side by side (thesis B.3.2)
   bool auto_exposure = true;
   double exposure = 0.01;  // screen value per W/m^2: the thesis's Irradiance-2-Pixel
   bool false_colour = false;
-  double false_colour_max = 0;  // top of the scale [W/m^2]; 0: the value that the exposure makes white
+  double false_colour_max = 0;  // end of the scale [W/m^2]; 0: the value that the exposure makes white
   bool error_map = false;
-  double error_map_max = 0.1;  // top of the scale, relative
-  int supersampling = 2;       // of pictures that are saved: samples a side of a pixel
-  bool isolate = true;         // only what is selected is drawn
+  double error_map_max = 0.1;  // end of the scale, relative
+  int supersampling = 2;       // of saved pictures: samples per side of a pixel
+  bool isolate = true;         // draw only the selection
 
   OverlaySettings overlays;
   Selection selection;
-  std::optional<ProbedPoint> probe;           // of irradiance
-  std::optional<ProbedPoint> backprojection;  // what its sources look like from it
+  std::optional<ProbedPoint> probe;           // of the irradiance
+  std::optional<ProbedPoint> backprojection;  // of the sources' backprojections
 };
 
 }  // namespace penumbra::viewer

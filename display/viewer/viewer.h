@@ -1,7 +1,7 @@
 // display/viewer/viewer.h
 //
-// The viewer without its window: what the user does goes in, pictures come out. A window, a script or a test
-// drives it, a frame at a time.
+// The viewer without its window: user input goes in, pictures come out. A window, a script or a test drives
+// the viewer, one frame after another.
 
 #pragma once
 
@@ -26,10 +26,10 @@
 
 namespace penumbra::viewer {
 
-// What the window shows around the picture.
+// The state of the window around the picture.
 struct PanelState {
   bool control = false, help = false, details = true, report = false, parameters = false;
-  std::string dialog;  // the name of a setting whose value is being asked for; empty: none
+  std::string dialog;  // the setting whose value a dialog requests; empty: no dialog
   bool quit = false;
 };
 
@@ -37,12 +37,13 @@ struct ViewerOptions {
   std::string scene_name;  // as the user gave it
   ViewerFiles files;
   PipelineOptions solving;
-  bool solve = true;  // begin at once
-  // Where the line of each probe goes.
+  bool solve = true;  // start to solve at once
+  // Receives the output line of each probe.
   std::function<void(const std::string&)> print;
-  // Told of each scene that was opened, by its name.
+  // Receives the name of each opened scene.
   std::function<void(const std::string&)> opened;
-  // The cameras that users named in a scene before, and where one goes that is named now.
+  // The cameras that the user named in a scene in earlier runs, and a function that stores a newly named
+  // camera.
   std::function<std::vector<Camera>(const std::string& scene)> kept_cameras;
   std::function<void(const std::string& scene, const Camera& camera)> keep_camera;
 };
@@ -51,18 +52,19 @@ class Viewer {
  public:
   Viewer(const OpenedScene& opened, ViewerOptions options);
 
-  // A frame: takes over what the solver and the analyses have done since the last, moves a walking camera by
-  // `seconds`, and draws width x height pixels. REQUIRES: no context of OpenGL is current in this thread.
+  // One frame: takes over the results of solver and analyses since the last frame, moves a walking camera by
+  // `seconds`, and draws width x height pixels. REQUIRES: no OpenGL context is current in this thread.
   const Srgb8Image& Frame(int width, int height, double seconds);
 
-  // What the user did to the picture, in the order of time.
+  // Processes user input on the picture, in the order of time.
   void Handle(const InputEvent& event);
 
-  // Runs a menu item, sets a setting. Throws InputError if there is none, or if it cannot be.
+  // Run a menu item, and set a setting. Throw InputError if there is none, or if it fails.
   void RunMenu(const std::string& path);
   void Set(const std::string& name, const std::string& value);
 
-  // Nothing is being computed, nor will be, unless the user does something; the last frame shows it all.
+  // True if nothing is being computed, nothing will be without user input, and the last frame shows all
+  // results.
   bool Idle();
 
   const Menu& menu() const { return menu_; }
@@ -73,26 +75,26 @@ class Viewer {
   const PictureMaker& picture() const { return picture_; }
   const std::vector<Camera>& cameras() const { return cameras_; }
   SessionStatus status() const { return session_.status(); }
-  // What is going on beside the solver, in a few words.
+  // A few words about the computations besides the solver's.
   std::string activity();
-  // What to tell the user: what went wrong last, up to the last frame; empty: nothing.
+  // The message for the user: the last error up to the last frame; empty: none.
   const std::string& message() const { return message_; }
   void Dismiss() { message_.clear(); }
   void Complain(const std::string& message) { message_ = message; }
-  // What is selected and probed, a line each.
+  // Descriptions of the selection and the probes, one string per line.
   std::vector<std::string> Details() const;
   const std::string& scene_name() const { return options_.scene_name; }
   const PipelineOptions& solving() const { return options_.solving; }
   double seconds_a_frame() const { return seconds_a_frame_; }
-  // The mouse turns the view as it moves, and is for nothing else: no dialog is to be answered.
+  // True if the mouse only turns the view: in walk mode with mouse look, and without an open dialog.
   bool Looking() const {
     return view_.navigation == Navigation::kWalk && view_.mouse_look && panels_.dialog.empty();
   }
 
-  // Scenes opened before, the latest first.
+  // Sets the scenes that were opened before, the latest first.
   void SetRecent(const std::vector<std::string>& names);
   void AddCamera(const Camera& camera);
-  // Throws InputError if the camera cannot see.
+  // Throws InputError if ValidateCamera() rejects the camera.
   void GoTo(const Camera& camera);
 
  private:
@@ -149,13 +151,13 @@ class Viewer {
   void DrawOverlays();
   void HearSession();
   bool HasNews() const;
-  // The session, to begin something that the user asked for: complaints are about what was before, and what
-  // it says next is news, even if it is the same.
+  // The session, for a task that the user requests. Discards older messages, and reports the session's next
+  // message even if it equals the last one.
   SolverSession& Begin();
   void SolvingChanged() { session_.SetOptions(options_.solving); }
 
   ViewerOptions options_;
-  std::optional<PipelineOptions> own_links_;  // while links are given: as one's own would be made
+  std::optional<PipelineOptions> own_links_;  // while links are given: the options of own links
   SolverSession session_;
   std::shared_ptr<const Snapshot> snapshot_;
   std::shared_ptr<const MeshState> tools_;
@@ -168,13 +170,14 @@ class Viewer {
   AnalysisResults results_;
   PictureMaker picture_;
   std::string message_;
-  std::string heard_;  // the session's message, once it was told
+  std::string heard_;  // the last message of the session that was shown
   std::size_t printed_ = 0;
   std::shared_ptr<const ProbeResult> printed_probe_;
-  // Meshes that were asked for, with the snapshot's number: each is once, whether it was cancelled or not.
+  // The meshes that were requested, each with the snapshot's number. Each is requested once, even if it was
+  // cancelled.
   std::set<std::pair<std::uint64_t, MeshKind>> asked_;
 
-  // The drawing of the overlays, and what it was made of.
+  // The drawing of the overlays, and the inputs of the drawing.
   OverlayDrawing drawing_;
   struct DrawnOf {
     std::shared_ptr<const Snapshot> snapshot;
@@ -187,7 +190,7 @@ class Viewer {
   };
   std::optional<DrawnOf> drawn_of_;
 
-  // The pointer.
+  // The state of the pointer.
   PictureSize size_{640, 480};
   double x_ = 0, y_ = 0;
   struct Press {
@@ -199,12 +202,12 @@ class Viewer {
   std::optional<Press> press_;
   std::optional<ArcballDrag> drag_;
   Camera press_camera_;
-  std::set<std::string> held_;  // keys
+  std::set<std::string> held_;  // keys held down
   double clock_ = 0;
   double last_click_ = -1, last_click_x_ = 0, last_click_y_ = 0;
   double seconds_a_frame_ = 0;
-  bool keep_camera_ = false;  // when the next scene comes
-  bool fresh_ = false;        // nothing happened since the last frame
+  bool keep_camera_ = false;  // keep the camera when the next scene opens
+  bool fresh_ = false;        // nothing happened after the last frame
 };
 
 }  // namespace penumbra::viewer

@@ -1,6 +1,6 @@
 // display/viewer/walk.h
 //
-// Walking and flying through a scene.
+// Camera movements for walking and flying through a scene.
 
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace penumbra::viewer {
 
-// The camera moved [m] along its view, to its right and along `up`, a unit vector.
+// Moves the camera by these distances [m]: along its view, to its right, and along `up`, a unit vector.
 Camera Fly(const Camera& camera, double forward, double right, double upward, const glm::dvec3& up);
 
-// The view turned by these angles [radians], to the right about `up`, a unit vector, and upwards; it stops
-// short of looking along `up`. The camera stands upright afterwards.
+// Turns the view by these angles [radians]: to the right about `up`, a unit vector, and upwards. The
+// elevation stays below a right angle. Afterwards the camera is upright.
 Camera Look(const Camera& camera, double right, double upward, const glm::dvec3& up);
 
 }  // namespace penumbra::viewer

@@ -6,8 +6,9 @@
 
 namespace penumbra {
 
-// Those that cross a leaf whose corners see different parts of the source (Stuerzlinger 1994), the heaviest
-// first; a leaf that is full refuses what other leaves may take.
+// Adaptive discontinuity meshing (Stuerzlinger 1994): chooses the discontinuities that cross a leaf whose
+// corners see different parts of the source, the heaviest first. A full leaf refuses a discontinuity for
+// itself only; other leaves may still take the discontinuity.
 DiscontinuityChoiceRegistry::Method AdaptiveChoiceMethod();
 
 }  // namespace penumbra

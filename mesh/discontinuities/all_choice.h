@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// All, however many a leaf gets.
+// Chooses all discontinuities, without a limit to the number in one leaf.
 DiscontinuityChoiceRegistry::Method AllChoiceMethod();
 
 }  // namespace penumbra

@@ -8,7 +8,7 @@
 namespace penumbra {
 namespace {
 
-// Divides towards one end of a contact after the other.
+// Divides a patch's leaves towards the ends of contacts, one end after another.
 class CornerDivider {
  public:
   CornerDivider(PatchId patch, int divisions, double min_area, ElementForest& forest)
@@ -19,7 +19,7 @@ class CornerDivider {
         first_new_(static_cast<ElementId>(forest.size())),
         forest_(forest) {}
 
-  // `deepest` is the level down to which leaves are divided, known below what was a leaf.
+  // `deepest` is the level at which the division ends, known only below an element that was a leaf.
   void Divide(const Vec3& end, ElementId id, int deepest = 0) {
     if (!ConvexContains(forest_[id].Vertices(), normal_, end, snap_)) return;
     const bool is_leaf = forest_[id].IsLeaf();

@@ -1,8 +1,9 @@
 // mesh/discontinuities/contact_corners.h
 //
-// Where contact edges end (thesis 4.4.2, drawback 2): there the irradiance depends on the direction in which
-// one comes near, and no polynomial fits. Each triangle has a value of its own at such a corner; leaves
-// graded towards it make the area small on which that is not enough.
+// The ends of contacts (thesis 4.4.2, drawback 2). Near such an end, the irradiance depends on the direction
+// in which a point approaches the end, and no polynomial fits the irradiance. Each triangle has its own value
+// at the corner. Leaves that are graded towards the corner reduce the area where the separate values do not
+// suffice.
 
 #pragma once
 
@@ -14,11 +15,12 @@
 
 namespace penumbra {
 
-// The ends of the contacts among the discontinuities of a patch, in its frame [m]; each once.
+// The ends of the contacts among `found`, in the patch's frame [m]. Ends within SnapDistance() of each other
+// count as one.
 std::vector<Vec2> ContactEnds(const Patch& patch, std::span<const Discontinuity> found);
 
-// Divides so many times those leaves of the patch that hold one of the ends, and balances its quadtree. No
-// leaf becomes smaller than the area [m^2].
+// Divides each leaf of the patch that holds one of the ends `divisions` times towards the end, and balances
+// the quadtree. No leaf becomes smaller than `min_area` [m^2].
 void DivideTowards(std::span<const Vec2> ends, int divisions, double min_area, PatchId patch,
                    ElementForest& forest);
 

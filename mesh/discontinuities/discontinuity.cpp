@@ -17,24 +17,24 @@ namespace {
 
 using Blockers = std::span<const PatchId>;
 
-// What is the same for all discontinuities of one receiver.
+// The data that all discontinuities of one receiver share.
 struct Receiver {
   PatchId id;
   const Patch& patch;
   Frame frame;
   double snap;  // [m]
-  double gap;   // what comes nearer touches it [m]
+  double gap;   // whatever is closer touches it [m]
 
   double Height(const Vec3& p) const { return frame.n.dot(p - frame.origin); }
 };
 
-// Everything about one source as the receiver sees it.
+// A source as seen from the receiver.
 struct SourceView {
   PatchId id;
   const Patch& patch;
   double strength;  // [W/m^2]
-  double rounding;  // heights below this are none [m]
-  Polygon3 lit;     // the part of the receiver before the source's plane
+  double rounding;  // heights below this count as zero [m]
+  Polygon3 lit;     // the part of the receiver in front of the source's plane
 
   double Height(const Vec3& p) const { return patch.normal.dot(p - patch.vertex[0]); }
 };
@@ -70,7 +70,7 @@ struct DiscontinuityFinder::Impl {
   Impl(const Scene& s, const PatchVisibility& v)
       : scene(s), visibility(v), silhouettes(s), gap(ContactGap(s)), contacts(s) {}
 
-  // Fills in weights and jumps, and keeps what is long and heavy enough.
+  // Computes weights and jumps, and keeps the discontinuities of sufficient length and weight.
   class Collector {
    public:
     Collector(const Impl& finder, const Receiver& receiver, const DiscontinuityOptions& options,
@@ -99,7 +99,8 @@ struct DiscontinuityFinder::Impl {
       if (d.weight >= options_.min_weight) found_.push_back(d);
     }
 
-    // What is left of the trace of a wedge past those blockers that do not contain its vertex and edge.
+    // Adds the parts of a wedge's trace that are visible past the blockers, except blockers that contain the
+    // wedge's vertex and edge.
     void AddWedge(const Discontinuity& d, Wedge& wedge, const SourceView& s, Blockers blockers,
                   const std::function<bool(PatchId)>& touches) {
       TraceParts trace;
@@ -130,7 +131,7 @@ struct DiscontinuityFinder::Impl {
     std::vector<Discontinuity>& found_;
   };
 
-  // False if the edge k of the blocker is no silhouette from s, or another of the blockers brings it.
+  // False if the blocker's edge k is no silhouette from s, or if another of the blockers adds the edge.
   bool IsOwnSilhouette(const Vec3& s, PatchId blocker, std::int32_t k, Blockers blockers) const {
     const std::int32_t edge = silhouettes.EdgeAt(blocker, k);
     if (!silhouettes.IsSilhouette(edge, s)) return false;
@@ -157,7 +158,7 @@ struct DiscontinuityFinder::Impl {
     return {id, patch, PolygonFrame(patch.Vertices()), snap, std::max(snap, gap)};
   }
 
-  // Whether a patch in the same plane goes on beyond the edge.
+  // True if a patch in the same plane continues beyond the edge.
   bool GoesOn(PatchId patch, std::int32_t k) const {
     const std::span<const PatchEdge> sharing = silhouettes.Sharing(silhouettes.EdgeAt(patch, k));
     const Patch& own = scene.patches[patch];
@@ -213,9 +214,9 @@ void DiscontinuityFinder::Impl::AddHorizon(const Receiver& r, const SourceView& 
   out.Add(d, met[0], met[1]);
 }
 
-// Lines along the edges of the source that hang closely above the receiver. On either side they are as far
-// from the edge as it is high, times these: near the edge by halves of what the irradiance falls within, then
-// in ratios that a quadratic follows.
+// Adds lines along the edges of the source that hang closely above the receiver. The distance of the lines
+// from the edge, on either side, is kOffsets times the edge's height: near the edge, in steps of half the
+// height, within which the irradiance falls; farther away, in ratios that a quadratic can follow.
 void DiscontinuityFinder::Impl::AddNearEdges(const Receiver& r, const SourceView& s, Collector& out) const {
   constexpr double kOffsets[] = {0, 0.5, 1, 1.7, 2.9, 5, 8.5, 14.5};
   for (std::int32_t k = 0; k < s.patch.size; ++k) {
@@ -254,8 +255,8 @@ void DiscontinuityFinder::Impl::AddVertexEdge(const Receiver& r, const SourceVie
         const double ha = r.Height(a), hb = r.Height(b);
         if (std::abs(ha) <= r.gap && std::abs(hb) <= r.gap) continue;  // a contact
         if (!IsOwnSilhouette(v, blocker, k, blockers)) continue;
-        // Between the vertex and the receiver, before the source, and in the pyramid from the vertex over the
-        // receiver: cut in space, so that nothing runs away to infinity.
+        // Clips the edge in space, so that no projection is infinite: to the slab between the vertex and the
+        // receiver, to the front of the source, and to the pyramid from the vertex over the receiver.
         SegmentClip clip;
         clip.Keep(ha + r.snap, hb + r.snap);
         clip.Keep(hs - ha - s.rounding, hs - hb - s.rounding);
@@ -296,7 +297,7 @@ void DiscontinuityFinder::Impl::AddVertexEdge(const Receiver& r, const SourceVie
 
 void DiscontinuityFinder::Impl::AddEdgeVertex(const Receiver& r, const SourceView& s, Blockers blockers,
                                               Collector& out) const {
-  // Each corner once, though several faces of a solid meet there.
+  // Each corner once, although several faces of a solid may share it.
   struct Use {
     std::int32_t corner;
     PatchId blocker;
@@ -324,7 +325,7 @@ void DiscontinuityFinder::Impl::AddCornerEvents(const Receiver& r, const SourceV
   for (std::int32_t k = 0; k < s.patch.size; ++k) {
     const Vec3 &a = s.patch.vertex[k], &b = s.patch.vertex[(k + 1) % s.patch.size];
     const double ha = r.Height(a), hb = r.Height(b);
-    // The source's points above the corner whose rays through it end on the receiver.
+    // The points of the source's edge above the corner whose lines through the corner end on the receiver.
     SegmentClip clip;
     clip.Keep(ha - hv - s.rounding, hb - hv - s.rounding);
     for (std::size_t e = 0; e < s.lit.size() && !clip.Empty(); ++e) {
@@ -332,7 +333,7 @@ void DiscontinuityFinder::Impl::AddCornerEvents(const Receiver& r, const SourceV
       clip.Keep(side.dot(a - v), side.dot(b - v));
     }
     if (clip.Empty()) continue;
-    // Which of the corner's edges are silhouettes changes where the source's edge crosses a face's plane.
+    // The set of the corner's silhouette edges changes where the source's edge crosses a face's plane.
     std::vector<double> cut = {clip.t0, clip.t1};
     for (const PatchId face : silhouettes.PatchesAround(corner)) {
       const Patch& patch = scene.patches[face];
@@ -354,14 +355,14 @@ void DiscontinuityFinder::Impl::AddCornerEvents(const Receiver& r, const SourceV
       d.geometric_weight = std::clamp(1 - hv / std::max(hp, hq), 0.0, 1.0);
       if (out.TooLight(d.geometric_weight * s.strength)) continue;
       const Vec3 middle = 0.5 * (p + q);
-      std::vector<Vec3> outline;  // the silhouette's edges at the corner
+      std::vector<Vec3> outline;  // the silhouette edges at the corner
       for (const std::int32_t edge : silhouettes.EdgesAround(corner))
         if (silhouettes.IsSilhouette(edge, middle)) outline.push_back(silhouettes.Away(edge, corner));
       if (outline.size() < 2) continue;
       const double bend = outline[0].cross(outline[1]).norm();
       if (outline.size() == 2 && outline[0].dot(outline[1]) < 0 &&
           bend <= s.rounding * std::max(outline[0].norm(), outline[1].norm()))
-        continue;  // it runs on straight
+        continue;  // the silhouette continues straight
       MarkShared(s, k, corner, middle, &d);
       Wedge wedge;
       wedge.apex = v;
@@ -396,7 +397,7 @@ void DiscontinuityFinder::Impl::AddTripleEdges(const Receiver& r, const SourceVi
         d.geometric_weight = std::max(d.geometric_weight, std::clamp(1 - lowest / source_height, 0.0, 1.0));
       }
       if (out.TooLight(d.geometric_weight * s.strength)) continue;
-      // Rounding may have it end beyond the receiver.
+      // Rounding may move the ends beyond the receiver.
       SegmentClip clip;
       const Vec3 &a = piece.from.on_receiver, &b = piece.to.on_receiver;
       for (std::size_t e = 0; e < s.lit.size() && !clip.Empty(); ++e) {
@@ -407,7 +408,7 @@ void DiscontinuityFinder::Impl::AddTripleEdges(const Receiver& r, const SourceVi
     }
 }
 
-// D1 if a silhouette edge at the corner lies in one plane with the source's edge.
+// Marks the discontinuity as D1 if a silhouette edge at the corner lies in one plane with the source's edge.
 void DiscontinuityFinder::Impl::MarkShared(const SourceView& s, std::int32_t source_edge, std::int32_t corner,
                                            const Vec3& from, Discontinuity* d) const {
   const Vec3& v = silhouettes.Position(corner);

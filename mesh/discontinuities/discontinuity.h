@@ -1,11 +1,11 @@
 // mesh/discontinuities/discontinuity.h
 //
-// Where the irradiance over a patch is not smooth (thesis, chapter 5): the traces of critical surfaces
-// between sources, blockers and the patch.
+// Discontinuities: the places on a patch where the irradiance is not smooth (thesis, chapter 5).
+// Discontinuities are the traces, on the patch, of the critical surfaces of sources and blockers.
 //
-// Notation: R receiver, S source, b a point of a blocker, x the point of R's plane on the line from S through
-// b, h the height above R's plane. Everything lies on straight segments, or on polylines where triple-edge
-// (EEE) surfaces are asked for, which the thesis leaves out (5.2).
+// Notation: R is the receiver, S the source, b a point of a blocker, x the point where the line from S
+// through b meets R's plane, and h the height above R's plane. Discontinuities are straight segments. The
+// thesis omits triple-edge (EEE) events (5.2); options.triple_edge_tolerance adds them as polylines.
 
 #pragma once
 
@@ -25,21 +25,21 @@
 
 namespace penumbra {
 
-// kNear is none in the strict sense: beside an edge of a source that hangs closely above the receiver the
-// irradiance falls within a few times the height, and a mesh that is coarser has to follow it as it follows
-// discontinuities.
+// kNear is no discontinuity in the strict sense: below the edge of a source that hangs closely above the
+// receiver, the irradiance falls within a few times the edge's height. A mesh of larger triangles must follow
+// the edge as it follows discontinuities.
 enum class DiscontinuityKind : std::uint8_t { kVE, kEV, kHorizon, kContact, kEEE, kNear };
 
-// The lowest derivative of the irradiance that jumps. Generic VE, EV and EEE events are D2, a horizon is D1
-// (so is an event whose source edge and blocker edge share a plane), a contact D0.
+// The lowest derivative of the irradiance that jumps. Generic VE, EV and EEE events are D2. A horizon is D1,
+// and so is an event whose source edge and blocker edge lie in one plane. A contact is D0.
 enum class DiscontinuityDegree : std::uint8_t { kD0, kD1, kD2 };
 
-// What happens to the irradiance across a discontinuity, along the normal of its line in the receiver, for a
-// source of 1 W/m^2. Jumps are those of the derivatives; the largest changes bound what the jumps lead to on
-// a receiver so large that the event itself ends on it.
+// The change of the irradiance across a discontinuity, along the normal of its line in the receiver, for a
+// source of 1 W/m^2. `gradient` and `curvature` are jumps of derivatives. `largest_gradient` and
+// `largest_value` bound the changes that the jumps cause on a receiver so large that the event ends on it.
 struct IrradianceJump {
-  double gradient = 0;          // of D1 events [1/m]
-  double curvature = 0;         // of the second derivative, D2; infinite for D1 events [1/m^2]
+  double gradient = 0;          // jump of the first derivative, of D1 events [1/m]
+  double curvature = 0;         // jump of the second derivative, of D2 events; infinite for D1 [1/m^2]
   double largest_gradient = 0;  // [1/m]
   double largest_value = 0;     // [1]
 };
@@ -52,91 +52,93 @@ struct Discontinuity {
   PatchId receiver = kNoPatch;
   PatchId source = kNoPatch;   // kNoPatch for a contact
   PatchId blocker = kNoPatch;  // kNoPatch for a horizon and a near edge; the touching patch for a contact
-  // VE: the source's vertex and the blocker's edge that meet; EV: the source's edge and the blocker's vertex;
-  // near: the source's edge. EEE: the source's edge, or -1, and that of the blocker. An edge has the number
-  // of the vertex where it starts.
+  // VE: the source's vertex and the blocker's edge that meet. EV: the source's edge and the blocker's vertex.
+  // Near: the source's edge. EEE: the source's edge, or -1 if the source has none, and the blocker's edge.
+  // The number of an edge is the number of the vertex where the edge starts.
   std::int32_t source_part = -1, blocker_part = -1;
-  PatchEdge second_blocker_edge, third_blocker_edge;  // EEE; the third where there is no edge of the source
-  // Of a D1 event: the edges that lie in one plane.
+  PatchEdge second_blocker_edge, third_blocker_edge;  // EEE; the third if no edge is the source's
+  // D1 events: the edges of source and blocker that lie in one plane.
   std::int32_t shared_source_edge = -1;
   PatchEdge shared_blocker_edge;
   double geometric_weight = 0;  // max(d_sb / d_sr), at most 1; 1 for a horizon, infinite for a contact
   static constexpr int kJumps = 3;
   std::array<IrradianceJump, kJumps> jump;  // at points spread along the segment
   double strength = 0;                      // the source's largest radiosity [W/m^2]
-  double weight = 0;                        // on the receiver as a whole [W/m^2]: see Weight()
-  bool wanted = false;                      // by refinement, whatever it weighs
+  double weight = 0;                        // on the whole receiver [W/m^2], see Weight()
+  bool wanted = false;                      // refinement has requested it, whatever its weight
 };
 
-// True if both are the same trace of the same critical surface, as it was found at any time.
+// True if both are the same trace of the same critical surface, even if separate searches found them.
 inline bool SameTrace(const Discontinuity& a, const Discontinuity& b) {
   return a.source == b.source && a.kind == b.kind && a.end[0] == b.end[0] && a.end[1] == b.end[1];
 }
 
 inline constexpr double kInfiniteWeight = std::numeric_limits<double>::infinity();
 
-// What the discontinuity weighs on a piece of the mesh of the size [m], across it, and no nearer than
-// `margin` [m] to the piece's borders.
-//  kThesis: geometric_weight times strength (thesis 5.3), on any piece.
-//  kIrradiance: an estimate of the largest error of the quadratic through the piece's nodes, if it has no
-//  edge there: kKinkError x size x jump of the gradient, or kBendError x size^2 x jump of the second
-//  derivative; beside a border what a straight line, or a parabola, that runs on to it is off by; at most
-//  what the largest changes allow.
+// The weight [W/m^2] of the discontinuity on a piece of the mesh. `size` [m] is the extent of the piece
+// across the discontinuity; `margin` [m] is the smallest distance between the discontinuity and the piece's
+// borders.
+//  kThesis: geometric_weight * strength (thesis 5.3), for any piece.
+//  kIrradiance: an estimate of the largest error of the quadratic through the piece's nodes if the piece has
+//   no edge along the discontinuity: the least of largest_value, KinkError() * (jump of the gradient or
+//   largest_gradient) and BendError() * (jump of the second derivative), times `strength`.
+//  A contact weighs kInfiniteWeight.
 double Weight(const Discontinuity& d, DiscontinuityWeight kind, double size,
               double margin = std::numeric_limits<double>::infinity());
 
-// The largest error over [0, 1] and over c of the quadratic through the values at 0, 1/2 and 1 of
-// max(0, x - c), and of max(0, x - c)^2 / 2. For a step it is its height.
+// The largest error, over x in [0, 1] and over c, of the quadratic through the values at 0, 1/2 and 1 of
+// max(0, x - c), and of max(0, x - c)^2 / 2. For a step, the largest error is the step's height.
 inline constexpr double kKinkError = 0.0962;
 inline constexpr double kBendError = 0.0188;
-// The same on a piece of the size, in which neither lies nearer than `margin` to a border [m, m^2].
+// The largest errors of the same two functions on a piece of extent `size` [m] whose borders are at least
+// `margin` [m] from c: min(kKinkError size, margin) [m] and min(kBendError size^2, margin^2 / 2) [m^2].
 double KinkError(double size, double margin);
 double BendError(double size, double margin);
 
-// Finds the discontinuities on one receiver at a time. Lists which patches share an edge once, at
-// construction.
+// Finds the discontinuities of one receiver per call. The constructor lists the patches that share an edge.
 class DiscontinuityFinder {
  public:
-  // Both must outlive the finder.
+  // Scene and visibility must outlive the finder.
   DiscontinuityFinder(const Scene& scene, const PatchVisibility& visibility);
   ~DiscontinuityFinder();
   DiscontinuityFinder(DiscontinuityFinder&&) noexcept;
 
-  // All contacts on the receiver, and its VE, EV and horizon discontinuities whose weight on the receiver as
-  // a whole is at least options.min_weight. `source_strength` [W/m^2] holds for each patch the largest
-  // radiosity (over its leaves and the channels).
+  // Returns all contacts on the receiver, and its other discontinuities whose weight on the whole receiver is
+  // at least options.min_weight. `source_strength` [W/m^2] holds for each patch the largest radiosity over
+  // the patch's leaves and the channels.
   //  (1) Every segment lies on the receiver and is longer than SnapDistance().
   //  (2) The same input gives the same list, in the same order. Equal segments may occur several times.
-  //  (3) A VE event of an edge that two patches share is left out where both face the source's vertex, or
-  //  both look
-  //      away: the edge is no silhouette. Its copy from the second patch is left out as well.
-  //  Likewise an EV event of a corner at which fewer than two edges are silhouettes, or two in one line.
-  //  (4) Unless options.keep_hidden, parts of a segment are left out where another patch of the pair's
-  //  blockers stands in the lines from the receiver through vertex and edge.
-  //  (5) What comes within ContactGap() of the receiver touches it, and casts no shadow line of its own
-  //  beside the
-  //      contact.
-  //  (6) With options.triple_edge_tolerance also the pieces of EEE events.
-  //  (7) Beside an edge of a source that hangs at most kMaxHangingHeight of its length above the receiver
-  //  lines run along the edge, ever farther from it.
-  // Safe from any thread. Of no use if it was cancelled.
+  //  (3) An edge that two patches share causes a VE event only if the edge is a silhouette: not if both
+  //   patches face the source's vertex, or both face away. The event occurs once, not once per patch. A
+  //   corner causes an EV event only if at least two edges there are silhouettes and these do not lie in one
+  //   line.
+  //  (4) Unless options.keep_hidden is set, the list omits the parts of a segment where another blocker of
+  //   the pair meets the lines from the receiver through vertex and edge.
+  //  (5) Edges and vertices of blockers within ContactGap() of the receiver touch the receiver. Such edges
+  //   and vertices cause contacts, but no further discontinuities.
+  //  (6) If options.triple_edge_tolerance > 0, the list includes the pieces of EEE events.
+  //  (7) For an edge of a source whose height above the receiver is at most kMaxHangingHeight times the
+  //   edge's length, the list includes near lines along the edge, at growing distances.
+  // Safe from any thread. If the context is cancelled, the result is incomplete.
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
                                   const DiscontinuityOptions& options,
                                   const ExecutionContext& context = ExecutionContext()) const;
 
-  // The parts that Find() joins: the contacts, and what one of SourcesOf() the receiver casts, if its
-  // strength [W/m^2] counts; of no use if it was cancelled.
+  // The parts of Find()'s result: FindContacts() returns the contacts; FindFrom() the discontinuities that
+  // one of SourcesOf() the receiver causes, none unless Counts(strength). `strength` is in W/m^2. If the
+  // context is cancelled, the result is incomplete.
   std::vector<Discontinuity> FindContacts(PatchId receiver, const DiscontinuityOptions& options) const;
   std::vector<Discontinuity> FindFrom(PatchId receiver, const PatchPair& pair, double strength,
                                       const DiscontinuityOptions& options,
                                       const ExecutionContext& context = ExecutionContext()) const;
-  // The geometric weight, and the form factor of a source, are 1 at most.
+  // True if a source of this strength can cause a discontinuity of the minimum weight: the geometric weight
+  // and the form factor of a source are at most 1.
   static bool Counts(double strength, const DiscontinuityOptions& options) {
     return strength > 0 && strength >= options.min_weight;
   }
 
-  // Of a discontinuity of this scene at a point of its line, in the receiver's frame: JumpAt() across the
-  // line.
+  // JumpAt() across the line of a discontinuity of this scene, at the point `at` of the line, in the
+  // receiver's frame.
   IrradianceJump Jump(const Discontinuity& d, const Vec2& at) const;
 
  private:

@@ -7,11 +7,11 @@
 namespace penumbra {
 namespace {
 
-// Edges are traced down to this part of the weight that counts, so that a source may grow brighter for a
-// while: a choice.
+// Traces include discontinuities down to this fraction of the minimum weight, so that a source may become
+// brighter without new traces: a choice.
 constexpr double kHeadroom = 0.5;
 
-// Whether what was found with the one holds for the other but for strengths and the minimum weight.
+// True if discontinuities found with `a` are valid for `b`, apart from strengths and the minimum weight.
 bool SameGeometry(const DiscontinuityOptions& a, const DiscontinuityOptions& b) {
   return a.weight == b.weight && a.keep_hidden == b.keep_hidden &&
          a.triple_edge_tolerance == b.triple_edge_tolerance;

@@ -1,7 +1,7 @@
 // mesh/discontinuities/discontinuity_cache.h
 //
-// What a weight is made of, kept apart (thesis 5.4): the geometric factor, with the trace that it belongs to,
-// is found once; the radiometric factor, the source's radiosity, is that of the day.
+// A cache of discontinuities that stores the factors of a weight separately (thesis 5.4). Traces and their
+// geometric factors are computed once; the radiometric factor is the source's current radiosity.
 
 #pragma once
 
@@ -16,19 +16,19 @@ namespace penumbra {
 
 class DiscontinuityCache {
  public:
-  // Both must outlive the cache.
+  // Scene and visibility must outlive the cache.
   DiscontinuityCache(const Scene& scene, const PatchVisibility& visibility);
 
-  // What DiscontinuityFinder::Find() gives, to the byte. A source is traced the first time that it is strong
-  // enough to count, and again only when it has become so much brighter that weaker edges of its come to
-  // count, or other options than the strengths are asked for. Safe from several threads for different
-  // receivers. Of no use if it was cancelled; what was found whole is kept.
+  // The result of DiscontinuityFinder::Find(), byte for byte. The cache traces a source when its strength
+  // first reaches the minimum. The cache traces the source again only if options other than the strengths
+  // change, or if the source has become so bright that lighter discontinuities reach the minimum weight. Safe
+  // from several threads for different receivers. If the context is cancelled, the result is incomplete; the
+  // cache keeps what it traced completely.
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
                                   const DiscontinuityOptions& options,
                                   const ExecutionContext& context = ExecutionContext());
 
-  // Pairs of receiver and source since the beginning: how often one was traced, and how often what was known
-  // was enough.
+  // Pairs of receiver and source since construction: how many were traced, and how many the cache answered.
   struct Counts {
     std::size_t traced = 0, kept = 0;
   };
@@ -37,14 +37,14 @@ class DiscontinuityCache {
  private:
   struct Source {
     bool traced = false;
-    double least = 0;  // of the weight for a source of 1 W/m^2: lighter edges are not known
+    double least = 0;  // smallest known weight for a source of 1 W/m^2
     std::vector<Discontinuity> edges;
   };
   struct Receiver {
     bool known = false;
-    DiscontinuityOptions options;  // that all was found with
+    DiscontinuityOptions options;  // all entries were found with these options
     std::vector<Discontinuity> contacts;
-    std::vector<Source> sources;  // as in PatchVisibility::SourcesOf()
+    std::vector<Source> sources;  // in the order of PatchVisibility::SourcesOf()
     Counts counts;
   };
 

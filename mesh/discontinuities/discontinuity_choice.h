@@ -1,6 +1,6 @@
 // mesh/discontinuities/discontinuity_choice.h
 //
-// Which discontinuities become edges of the mesh: several ways to choose behind one interface.
+// The interface of methods that choose which discontinuities become edges of the mesh.
 
 #pragma once
 
@@ -18,46 +18,48 @@
 
 namespace penumbra {
 
-// True if the discontinuity may become an edge of the leaf. Never asked for contacts.
+// True if the discontinuity may become an edge of the leaf. No method calls the filter for contacts.
 using LeafFilter = std::function<bool(const Discontinuity&, ElementId)>;
 
-// The order in which the discontinuities of a patch are tried.
+// The order in which the discontinuities of a patch are activated.
 struct DiscontinuityRanks {
-  std::vector<double> rank;  // of each: the highest come first
-  double least = 0;          // lower ones are not tried
+  std::vector<double> rank;  // of each discontinuity; the highest comes first
+  double least = 0;          // the activation omits lower ranks
 };
 
-// What is not overridden is the choice by weight (ActivateDiscontinuities).
+// A method of choice. The defaults choose by weight (ActivateDiscontinuities).
 class DiscontinuityChoiceMethod {
  public:
   virtual ~DiscontinuityChoiceMethod() = default;
 
-  // Whether any discontinuity becomes an edge. If not, none needs to be found.
+  // True if the method makes any discontinuity an edge. If false, the mesh needs no search for
+  // discontinuities.
   virtual bool TakesAny() const { return true; }
 
-  // Whether the weights alone decide, so that refinement may ask for one that was too light.
+  // True if only the weights decide, so that refinement may request a discontinuity of too little weight.
   virtual bool ByWeightAlone() const { return false; }
 
-  // How many lines may run through the inside of a leaf.
+  // The largest number of lines through the interior of a leaf.
   virtual std::size_t MostLines(const DiscontinuityOptions& options) const {
     return static_cast<std::size_t>(options.max_leaf_dsets);
   }
 
-  // Ranks that take the place of the weights; nothing: the weights are the ranks.
+  // Ranks that replace the weights. Without a value, the weights are the ranks.
   virtual std::optional<DiscontinuityRanks> Rank(PatchId /*patch*/, std::span<const Discontinuity> /*found*/,
                                                  const DiscontinuityOptions& /*options*/) const {
     return std::nullopt;
   }
 
-  // What decides leaf by leaf on the patch; an empty function: a discontinuity becomes an edge of all leaves
-  // that it crosses, or of none. The forest and the visibility outlive the function; one thread calls it.
+  // A filter that decides for each leaf of the patch. Without a filter, a discontinuity becomes an edge of
+  // all leaves that it crosses, or of none. Forest and visibility outlive the function; a single thread calls
+  // the function.
   virtual LeafFilter FilterOf(const ElementForest& /*forest*/, const PatchVisibility& /*visibility*/,
                               PatchId /*patch*/) const {
     return {};
   }
 };
 
-// DiscontinuityChoices() holds all ways to choose.
+// The type of DiscontinuityChoices().
 using DiscontinuityChoiceRegistry = Registry<const DiscontinuityChoiceMethod>;
 
 }  // namespace penumbra

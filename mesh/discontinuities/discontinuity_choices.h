@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// Every way there is to choose discontinuities. The first is the default.
+// The registry of all methods that choose discontinuities. The first is the default.
 DiscontinuityChoiceRegistry& DiscontinuityChoices();
 
 }  // namespace penumbra

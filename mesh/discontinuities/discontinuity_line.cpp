@@ -16,7 +16,7 @@ LineInterval ClipLine(const Vec2& origin, const Vec2& direction, const Polygon2&
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const Vec2& a = outline[k];
     const Vec2 side = (outline[(k + 1) % outline.size()] - a).normalized();
-    const double depth = Cross2(side, origin - a) - inset;  // of the origin within the half-plane
+    const double depth = Cross2(side, origin - a) - inset;  // of the origin inside the half-plane
     const double rate = Cross2(side, direction);
     if (rate == 0) {
       if (depth < 0) return {1, 0};

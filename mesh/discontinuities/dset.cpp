@@ -16,8 +16,8 @@
 namespace penumbra {
 namespace {
 
-// For each discontinuity the line that it lies on. Longest first: a line's direction is then known at least
-// as well as that of any segment that joins it.
+// For each discontinuity, the line on which it lies. Grouping starts with the longest discontinuity, so that
+// a line's direction is at least as accurate as the direction of any discontinuity that joins the line.
 struct Lines {
   std::vector<DiscontinuityLine> lines;
   std::vector<std::int32_t> line_of;
@@ -59,14 +59,14 @@ void Unite(std::vector<LineInterval>& intervals) {
   intervals.resize(kept);
 }
 
-// Those to be tried, one after the other: the heaviest first, of equal weight the one found first. Weights
-// fall while lines are activated, so that one that is still the heaviest after it has been weighed again is;
-// one that rose would count as it was.
+// The order of activation: the heaviest first; of equal weights, the first found. Weights fall while lines
+// become active. Therefore an entry that is still the heaviest after an update of its own weight is the
+// heaviest of all. A weight that rises keeps its earlier value.
 class ActivationOrder {
  public:
   using Weigh = std::function<double(std::size_t)>;
 
-  // With `weigh` weights are those of the moment.
+  // With `weigh`, the order uses updated weights.
   ActivationOrder(std::vector<double> weight, double least, Weigh weigh)
       : weight_(std::move(weight)), least_(least), weigh_(std::move(weigh)) {
     for (std::size_t i = 0; i < weight_.size(); ++i)
@@ -103,7 +103,7 @@ class ActivationOrder {
   std::vector<std::size_t> heap_;
 };
 
-// The activation of one patch's discontinuities, in order.
+// Activates the discontinuities of one patch in order.
 class Activator {
  public:
   Activator(const ElementForest& forest, PatchId patch, std::span<const Discontinuity> found,
@@ -164,8 +164,8 @@ class Activator {
     return {std::move(weight), least, std::move(weigh)};
   }
 
-  // Where lines compete for the room in a leaf, those of its dark places come first. What weighs enough for
-  // the leaf as a whole still does: it may have the room that is left.
+  // Ranks lines in the dark places of a leaf first, where lines compete for the room in the leaf. A line of
+  // sufficient weight for the leaf as a whole remains a candidate, and may use the room that is left.
   void ScaleInCrowds(std::span<const double> weight) {
     std::vector<std::vector<std::int32_t>> competing(lines_.leaves().size());
     for (std::size_t i = 0; i < weight.size(); ++i) {
@@ -184,7 +184,7 @@ class Activator {
     });
   }
 
-  // Activates it where it may be.
+  // Activates the discontinuity where possible.
   void Try(std::size_t i) {
     tried_[i] = true;
     std::int32_t& line = number_[grouped_.line_of[i]];
@@ -203,7 +203,7 @@ class Activator {
     if (d.degree == DiscontinuityDegree::kD0) drawn.contact.push_back(interval);
   }
 
-  // Makes the line one of the leaves' that it meets; true if any took it.
+  // Adds the line to the leaves that the discontinuity meets. Returns true if any leaf took the line.
   bool Join(std::size_t i, std::int32_t line) {
     const bool leaf_by_leaf = filter_ && !IsContact(i);
     const std::span<const Impinged> impinged = lines_.Meet(found_[i]);
@@ -234,7 +234,7 @@ class Activator {
     return joined;
   }
 
-  // What was too light, though there would be room for it.
+  // Lists the discontinuities that were too light, although their leaves have room for them.
   void FindOmitted() {
     for (std::size_t i = 0; i < found_.size(); ++i) {
       const std::int32_t line = number_[grouped_.line_of[i]];
@@ -271,9 +271,9 @@ class Activator {
   const PlaceScale& at_place_;
   LeafLines lines_;
   const Lines grouped_;
-  std::vector<std::int32_t> number_;  // of each of grouped_.lines among those of the result; -1: not active
+  std::vector<std::int32_t> number_;  // of each of grouped_.lines: index in result_.lines; -1: not active
   std::vector<bool> tried_;
-  std::vector<double> scale_;  // of errors, per leaf
+  std::vector<double> scale_;  // factors of errors, per leaf
   OmissionCost omission_;
   PatchDSets result_;
 };

@@ -1,11 +1,11 @@
 // mesh/discontinuities/dset.h
 //
-// DSets (thesis 5.5.4-5.5.7): which discontinuities of a patch become edges of its leaves' triangulations. A
-// DSet is a line together with those of its discontinuities that impinge on one leaf, and gives the leaf at
-// most one edge.
+// DSets (thesis 5.5.4-5.5.7) determine which discontinuities of a patch become edges of the leaves'
+// triangulations. A DSet is a pair of a line and a leaf: the line's discontinuities that impinge on the leaf.
+// A DSet gives the leaf at most one edge.
 //
-// Where the thesis keeps DSets in every tree node and passes them down when a node splits, the lines of a
-// patch are found once, here, when the quadtree is final, and leaves refer to them by number.
+// The thesis stores DSets in every node of the quadtree and passes them on when a node splits. Here, a
+// patch's lines are found once, when the quadtree is final; leaves refer to lines by number.
 
 #pragma once
 
@@ -24,57 +24,66 @@
 
 namespace penumbra {
 
-// A discontinuity too light to be active, with its parts on those leaves that have no edge along its line.
+// An inactive discontinuity of too little weight, with its parts on the leaves that have no edge along its
+// line.
 struct OmittedDiscontinuity {
-  std::size_t number = 0;  // of those that were found
-  std::size_t leaves = 0;  // whose inside it crosses
+  std::size_t number = 0;  // index in the list of discontinuities found
+  std::size_t leaves = 0;  // number of leaves whose interior it crosses
   std::vector<OmittedPart> parts;
 };
 
 // The active DSets of one patch.
 struct PatchDSets {
-  std::vector<DiscontinuityLine> lines;  // those with an active discontinuity, strongest first
+  std::vector<DiscontinuityLine> lines;  // lines with an active discontinuity, in the order of activation
   std::vector<ElementId> leaves;         // of the patch, depth first
   std::vector<std::vector<std::int32_t>>
-      leaf_lines;                    // per leaf, ascending: lines active on it or along its border
-  std::size_t activated = 0;         // discontinuities
-  std::size_t dsets_active = 0;      // DSets that cross the inside of their leaf
-  std::size_t refused = 0;           // discontinuities that would have crowded a leaf
+      leaf_lines;                    // per leaf, ascending: lines active in the leaf or along its border
+  std::size_t activated = 0;         // number of active discontinuities
+  std::size_t dsets_active = 0;      // DSets that cross the interior of their leaf
+  std::size_t refused = 0;           // discontinuities that no leaf took because leaves were full
   std::size_t refused_contacts = 0;  // of these, contacts
-  std::size_t most_merged = 0;       // active discontinuities in one DSet, at most
-  // Leaves for whose sake a discontinuity was refused everywhere: they were full, and at most as many as
-  // those with room for it; or it was a contact. Ascending.
+  std::size_t most_merged = 0;       // largest number of active discontinuities in one DSet
+  // The full leaves because of which all leaves refused a discontinuity, ascending. A refusal counts only if
+  // it concerns a contact, or if at most as many leaves were full as had room for the discontinuity.
   std::vector<ElementId> crowded;
-  // What refinement may ask for, where leaving it out costs at least options.min_wanted_weight.
+  // The discontinuities that refinement may request: on some leaf, omission costs at least
+  // options.min_wanted_weight.
   std::vector<OmittedDiscontinuity> omitted;
 };
 
-// How many times an error on a leaf counts; once without.
+// The factor of errors on a leaf; without a function the factor is 1.
 using ErrorScale = std::function<double(ElementId)>;
-// The same at a place in a leaf, in the frame of the patch [m].
+// The factor of errors at a point of a leaf, in the frame of the patch [m].
 using PlaceScale = std::function<double(ElementId, const Vec2&)>;
 
-// What a caller may add to the weights of discontinuities; all of it may be empty.
+// Additions of the caller to the weights of discontinuities. Each may be empty.
 struct ActivationRules {
+<<<<<<< HEAD
   LeafFilter filter = {};    // of the method of choice (DiscontinuityChoiceMethod::FilterOf)
   ErrorScale scale = {};     // on each leaf
   PlaceScale at_place = {};  // in leaves that have room for fewer lines than weigh enough
+=======
+  LeafFilter filter;    // of the method of choice (DiscontinuityChoiceMethod::FilterOf)
+  ErrorScale scale;     // factor of errors on each leaf
+  PlaceScale at_place;  // factor in leaves where more lines of sufficient weight compete than have room
+>>>>>>> h_g
 };
 
-// Activates the discontinuities in order of weight, contacts first, each for all leaves on which it impinges
-// or for none (thesis 5.5.7).
-//  (1) An active discontinuity weighs at least options.min_weight, or is wanted. In the irradiance weight it
-//  weighs what leaving its line out would cost beside those that are active already (OmissionCost), on each
-//  leaf `rules.scale` times. If `rules.at_place` is given, it orders those in leaves that have room for
-//  fewer lines than weigh enough; what weighs enough by either is tried.
-//  (2) At most options.max_leaf_dsets lines run through the inside of any leaf. Those along a leaf's border
-//  add no edge and do not count.
-//  (3) The heaviest come first; of equal weight, the one found first.
-// options.choice may change this: its method may put other ranks in place of the weights of (1) and (3), and
-// another number in place of that of (2). If there is a filter, each leaf that the filter lets pass takes
-// what has room there, whatever becomes of other leaves. REQUIRES: the patch's quadtree is balanced; `found`
-// are discontinuities on this patch; the filter is that of the method (DiscontinuityChoiceMethod::FilterOf).
-// Throws InputError if there is no such choice.
+// Activates the discontinuities in the order of their weights, contacts first. A discontinuity becomes active
+// on all leaves on which it impinges, or on none (thesis 5.5.7).
+//  (1) An active discontinuity weighs at least options.min_weight, or is wanted. With the irradiance weight,
+//   the weight is the cost of omitting the discontinuity's line from the mesh with the lines active so far
+//   (OmissionCost); `rules.scale` multiplies the errors of each leaf. In leaves where more lines of
+//   sufficient weight compete than have room, `rules.at_place`, if given, replaces `rules.scale` in the
+//   order. A discontinuity takes part if either factor gives it sufficient weight.
+//  (2) At most options.max_leaf_dsets lines cross the interior of any leaf. Lines along a leaf's border add
+//   no edge and do not count.
+//  (3) The heaviest come first. Of discontinuities with equal weight, the first of `found` comes first.
+// The method options.choice may replace the weights in (1) and (3) by ranks, and the limit in (2) by another.
+// With a filter, each leaf that passes the filter takes the discontinuities that it has room for,
+// independently of other leaves. REQUIRES: the patch's quadtree is balanced; `found` are discontinuities on
+// this patch; the filter is that of the method (DiscontinuityChoiceMethod::FilterOf). Throws InputError if no
+// method is called options.choice.
 PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
                                    std::span<const Discontinuity> found, const DiscontinuityOptions& options,
                                    const ActivationRules& rules = {});

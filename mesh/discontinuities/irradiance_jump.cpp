@@ -10,14 +10,14 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// What all events at one point of the receiver share.
+// The data that all events at one point of the receiver share.
 struct View {
   const Vec3& x;
-  const Vec3& normal;  // of the receiver
+  const Vec3& normal;  // the receiver's normal
   const Vec3& across;
   const Patch& source;
 
-  // Irradiance from a unit area of the source at y with unit radiosity [1/m^2].
+  // The irradiance from a unit area of the source at y with unit radiosity [1/m^2].
   double Kernel(const Vec3& y) const {
     const Vec3 r = y - x;
     const double squared = r.squaredNorm();
@@ -26,12 +26,13 @@ struct View {
   }
 };
 
-// A straight line in the image on the source's plane.
+// A straight line of the image on the source's plane.
 struct SourceLine {
-  Vec3 along, across;  // unit, in the source's plane
+  Vec3 along, across;  // unit vectors in the source's plane
 };
 
-// How far a direction in the image runs along the line for a step across it, and to which side.
+// The distance along the line per unit distance across it, for a direction in the image, and the side of the
+// line to which the direction points.
 struct Slope {
   double slope;
   int side;  // 0: parallel to the line
@@ -43,7 +44,7 @@ Slope SlopeOf(const Vec3& direction, const SourceLine& line) {
   return {along / across, across > 0 ? 1 : -1};
 }
 
-// Where the image of the blocker's edge ab lies on the source's plane, and how fast it moves.
+// The image of the blocker's edge ab on the source's plane, and the speed of the image.
 class MovingEdge {
  public:
   MovingEdge(const View& view, const Vec3& a, const Vec3& b)
@@ -58,11 +59,11 @@ class MovingEdge {
 
   bool valid() const { return valid_; }
   const SourceLine& line() const { return line_; }
-  // Of the image at the point y of it, along line().across, for a unit step of x [1].
+  // The speed of the image's point y, along line().across, for a unit step of x [1].
   double SpeedAt(const Vec3& y) const {
     return view_.across.cross(edge_).dot(y - a_) / plane_.dot(line_.across);
   }
-  // On which side of the line the image of p lies, times a length.
+  // Proportional to the signed distance of p's image from the line.
   double Side(const Vec3& p) const {
     const double side = plane_.dot(p - a_);
     return plane_.dot(line_.across) > 0 ? side : -side;
@@ -75,7 +76,7 @@ class MovingEdge {
   SourceLine line_;
 };
 
-// +1 if the faces at the edge cover the side of the moving line to which `across` points, else -1.
+// +1 if the faces at the edge cover the side of the moving line to which `across` points, otherwise -1.
 int CoveredSide(const Scene& scene, const Silhouettes& silhouettes, PatchId blocker, std::int32_t k,
                 const MovingEdge& moving) {
   double largest = 0;
@@ -89,13 +90,13 @@ int CoveredSide(const Scene& scene, const Silhouettes& silhouettes, PatchId bloc
 
 double SourceDiameter(const Patch& source) { return Diameter(source.Vertices()); }
 
-// A chord of the source is no longer than its diameter, and no longer than the image of the blocker's edge.
+// `chord` bounds the chords of the source, by the source's diameter and by the image of the blocker's edge.
 void BoundGradient(IrradianceJump* jump, double kernel, double speed, double chord, double source_area) {
   jump->largest_gradient = kernel * std::abs(speed) * chord;
   jump->largest_value = std::min(1.0, kernel * source_area);
 }
 
-// Both edges lie in one plane with x: the gradient jumps with the length that they share.
+// Both edges lie in one plane with x: the jump of the gradient is proportional to the length that they share.
 IrradianceJump EdgeEdge(const Scene& scene, const Silhouettes& silhouettes, const View& view,
                         std::int32_t source_edge, PatchId blocker, std::int32_t k) {
   const Patch& patch = scene.patches[blocker];
@@ -106,7 +107,7 @@ IrradianceJump EdgeEdge(const Scene& scene, const Silhouettes& silhouettes, cons
   IrradianceJump jump;
   if (!moving.valid()) return jump;
   const Vec3 plane = (a - view.x).cross(b - view.x);
-  // Where on the source's edge the blocker's ends appear.
+  // The position on the source's edge where a point of the blocker appears.
   const auto appears = [&](const Vec3& p) {
     const Vec3 side = plane.cross(p - view.x);
     return side.dot(view.x - v) / side.dot(w - v);
@@ -115,7 +116,7 @@ IrradianceJump EdgeEdge(const Scene& scene, const Silhouettes& silhouettes, cons
   if (!std::isfinite(ta) || !std::isfinite(tb)) return jump;
   const double t0 = std::clamp(std::min(ta, tb), 0.0, 1.0), t1 = std::clamp(std::max(ta, tb), 0.0, 1.0);
   if (!(t0 < t1)) return jump;
-  // Gauss's rule of two points.
+  // Gauss's rule with two points.
   double sum = 0;
   constexpr double kNode = 0.21132486540518713;
   for (const double s : {kNode, 1 - kNode}) {
@@ -125,7 +126,7 @@ IrradianceJump EdgeEdge(const Scene& scene, const Silhouettes& silhouettes, cons
   const Vec3 inside = Centroid(view.source.Vertices()) - v;
   const int source_side = inside.dot(moving.line().across) > 0 ? 1 : -1;
   const int covered = CoveredSide(scene, silhouettes, blocker, k, moving);
-  // Of the lower side as the covered one: see JumpAt() of VE events.
+  // The formula is for a covered lower side: see VertexEdge().
   jump.gradient = covered * source_side * sum * (t1 - t0) * (w - v).norm();
   jump.largest_gradient = std::abs(jump.gradient);
   jump.curvature = kInfinity;
@@ -144,12 +145,12 @@ IrradianceJump VertexEdge(const Scene& scene, const Silhouettes& silhouettes, co
   const std::int32_t size = view.source.size;
   const Slope next = SlopeOf(view.source.vertex[(d.source_part + 1) % size] - v, moving.line());
   const Slope last = SlopeOf(view.source.vertex[(d.source_part + size - 1) % size] - v, moving.line());
-  // The chord at height z grows from nothing at a corner of the source (its slope jumps up), and bends
-  // inwards at a corner beside it.
+  // The length of the chord at height z grows from zero at a corner of the source, where its slope jumps up,
+  // and bends inwards at a corner to the side.
   const double bend = (next.side == last.side ? 1 : -1) * std::abs(next.slope - last.slope);
   const double speed = moving.SpeedAt(v), kernel = view.Kernel(v);
   const int covered = CoveredSide(scene, silhouettes, d.blocker, d.blocker_part, moving);
-  // With the lower side covered, the visible area loses the chord for each step up.
+  // If the lower side is covered, the visible area loses the chord with each step up.
   jump.curvature = covered * (speed > 0 ? 1 : -1) * speed * speed * bend * kernel;
   const double magnified = (v - view.x).norm() / (0.5 * (a + b) - view.x).norm();
   BoundGradient(&jump, kernel, speed,
@@ -163,15 +164,15 @@ IrradianceJump EdgeVertex(const Scene& scene, const Silhouettes& silhouettes, co
   const Vec3& b = scene.patches[d.blocker].vertex[d.blocker_part];
   const Vec3& v = view.source.vertex[d.source_part];
   const Vec3 along = (view.source.vertex[(d.source_part + 1) % view.source.size] - v).normalized();
-  const SourceLine line = {along, view.source.normal.cross(along)};  // the source lies above it
+  const SourceLine line = {along, view.source.normal.cross(along)};  // the source lies above the line
   const Vec3 ray = b - view.x;
   const double approach = view.source.normal.dot(ray);
   IrradianceJump jump;
   if (approach == 0) return jump;
-  const double magnified = view.source.normal.dot(v - view.x) / approach;  // from b to its image
+  const double magnified = view.source.normal.dot(v - view.x) / approach;  // image of b / b, as distances
   if (!(magnified > 1)) return jump;
   const Vec3 y = view.x + magnified * ray;
-  // The image runs against x.
+  // The image moves in the opposite direction of x.
   const Vec3 shift =
       -(magnified - 1) * (view.across - ray * (view.source.normal.dot(view.across) / approach));
   const double speed = shift.dot(line.across), kernel = view.Kernel(y);
@@ -181,7 +182,7 @@ IrradianceJump EdgeVertex(const Scene& scene, const Silhouettes& silhouettes, co
   int count = 0;
   double longest = 0;
   for (const std::int32_t edge : silhouettes.EdgesAround(corner)) {
-    // Its faces contain b: they look at the source's point just as they look away from x.
+    // The faces at the edge contain b: each faces the source's point exactly if it faces away from x.
     if (!silhouettes.IsSilhouette(edge, view.x)) continue;
     const Vec3 away = silhouettes.Away(edge, corner);
     longest = std::max(longest, magnified * away.norm());
@@ -204,13 +205,13 @@ IrradianceJump TripleEdge(const Scene& scene, const Silhouettes& silhouettes, co
   const bool of_source = d.source_part >= 0;
   if (of_source) edge[2] = {d.source, d.source_part};
   std::array<std::array<Vec3, 2>, 3> end;
-  std::array<Vec3, 3> plane;  // its normal, of x and the edge
+  std::array<Vec3, 3> plane;  // normals of the planes of x and each edge
   for (int i = 0; i < 3; ++i) {
     const Patch& patch = scene.patches[edge[i].patch];
     end[i] = {patch.vertex[edge[i].k], patch.vertex[(edge[i].k + 1) % patch.size]};
     plane[i] = (end[i][0] - view.x).cross(end[i][1] - view.x);
   }
-  // Where the three meet on the source's plane: on its edge, or behind the crossing of two others.
+  // Where the edges meet in the source's plane: on the source's edge, or behind the crossing of two edges.
   const Vec3 from = of_source ? end[2][0] : view.x;
   const Vec3 way = of_source ? Vec3(end[2][1] - end[2][0]) : plane[0].cross(plane[1]);
   const Vec3& across = of_source ? plane[0] : view.source.normal;
@@ -218,8 +219,8 @@ IrradianceJump TripleEdge(const Scene& scene, const Silhouettes& silhouettes, co
   if (rate == 0) return jump;
   const Vec3 y = from + (across.dot((of_source ? view.x : view.source.vertex[0]) - from) / rate) * way;
 
-  // Of the three half planes that are seen where they overlap: their normals, outwards, and how fast they
-  // grow.
+  // The visible region is the overlap of three half planes, with these outward normals and these speeds of
+  // growth.
   std::array<Vec3, 3> outward;
   std::array<double, 3> speed = {0, 0, 0};
   double chord = SourceDiameter(view.source), fastest = 0;
@@ -246,8 +247,8 @@ IrradianceJump TripleEdge(const Scene& scene, const Silhouettes& silhouettes, co
     product *= sine[i];
   }
   if (product == 0) return jump;
-  // Of one sign: the overlap is the triangle. Else the half plane whose sine is the odd one cuts it off a
-  // corner.
+  // If all sines have one sign, the overlap is the triangle. Otherwise, the half plane whose sine has the
+  // other sign cuts the triangle off a corner of the other two.
   int odd = 0;
   for (int i = 0; i < 3; ++i)
     if ((sine[i] > 0) != (sine[(i + 1) % 3] > 0) && (sine[i] > 0) != (sine[(i + 2) % 3] > 0)) odd = i;
@@ -257,16 +258,17 @@ IrradianceJump TripleEdge(const Scene& scene, const Silhouettes& silhouettes, co
   return jump;
 }
 
-// Beyond the source's plane there is nothing; before it the cosine at the source grows with the distance.
+// The irradiance is zero behind the source's plane. In front of it, the cosine at the source is proportional
+// to the distance from the plane.
 IrradianceJump Horizon(const View& view) {
   const double tilt = std::abs(view.source.normal.dot(view.across));
   IrradianceJump jump;
-  // A mean over the source by the tensor product of Gauss's rule of three points.
+  // The mean over the source by a tensor product of Gauss's rule with three points.
   constexpr std::array<double, 3> kNode = {0.11270166537925831, 0.5, 0.8872983346207417};
   constexpr std::array<double, 3> kWeight = {5.0 / 18, 8.0 / 18, 5.0 / 18};
   double sum = 0, total = 0;
   const auto& c = view.source.vertex;
-  const Vec3& last = view.source.size == 4 ? c[3] : c[2];  // a triangle is a quadrilateral with a short side
+  const Vec3& last = view.source.size == 4 ? c[3] : c[2];  // a triangle has a fourth side of length zero
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       const double s = kNode[i], t = kNode[j];
@@ -286,10 +288,10 @@ IrradianceJump Horizon(const View& view) {
   return jump;
 }
 
-// Of a line beside an edge that hangs at the height h above the receiver, at the distance q h. Beside a long
-// edge the irradiance is (1 - q / sqrt(1 + q^2)) / 2 of the source's radiosity. What takes the place of a
-// jump of the second derivative is that derivative, at q = 0, where it changes its sign, that of the next
-// line.
+// The jump at a line along an edge that hangs at height h above the receiver, at distance q h from the edge.
+// Near a long edge the irradiance is (1 - q / sqrt(1 + q^2)) / 2 times the source's radiosity. In place of a
+// jump of the second derivative, the function uses the second derivative itself; at q = 0, where the second
+// derivative changes its sign, its value at the next line.
 IrradianceJump NearEdge(const View& view, std::int32_t edge) {
   constexpr double kInflection = 0.5;
   const Vec3 &a = view.source.vertex[static_cast<std::size_t>(edge)],

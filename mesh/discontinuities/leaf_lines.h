@@ -1,6 +1,6 @@
 // mesh/discontinuities/leaf_lines.h
 //
-// Which lines run through which leaves of a patch, while its discontinuities are activated one by one.
+// The lines that cross the leaves of a patch, while the patch's discontinuities are activated one by one.
 
 #pragma once
 
@@ -17,42 +17,43 @@
 
 namespace penumbra {
 
-// A leaf's corners in the plane of its patch, counter-clockwise.
+// The corners of a leaf in the plane of its patch, counter-clockwise [m].
 Polygon2 LeafOutline(const Element& leaf, const Frame& frame);
 
 // A leaf on which a discontinuity impinges.
 struct Impinged {
-  std::size_t leaf;  // its place among LeafLines::leaves()
-  bool inside;       // it crosses the leaf's inside, not just its border
+  std::size_t leaf;  // index in LeafLines::leaves()
+  bool inside;       // the discontinuity crosses the leaf's interior, not only its border
 };
 
 class LeafLines {
  public:
-  // No lines yet. No leaf will take more than `most` through its inside.
+  // Starts without lines. No leaf takes more than `most` lines through its interior.
   LeafLines(const ElementForest& forest, PatchId patch, std::size_t most);
 
-  // Depth first.
+  // The leaves of the patch, depth first.
   std::span<const ElementId> leaves() const { return leaves_; }
 
-  // The leaves that the discontinuity meets, until the next call.
+  // The leaves that the discontinuity meets. The result is valid until the next call.
   std::span<const Impinged> Meet(const Discontinuity& d);
-  // Tells what leaving it out costs where it crosses the inside of a leaf. `number` is that of its line among
-  // those of the jumps; on each leaf errors count `scale` times.
+  // Adds to `cost` the parts of the discontinuity in the interiors of leaves, with their jumps. `number` is
+  // the index of `line` in `jumps`; scale[i] multiplies the errors on leaf i.
   void Describe(const Discontinuity& d, const LineJumps& jumps, const DirectedLine& line, std::int32_t number,
                 std::span<const double> scale, OmissionCost* cost);
 
-  // True if the leaf has no room for the line.
+  // True if the line would cross the leaf's interior and the leaf has no room for it.
   bool Full(const Impinged& i, std::int32_t line) const;
-  // True if one of the leaves that the discontinuity crosses has no room for its line; -1 if no leaf has it.
+  // True if a leaf that the discontinuity crosses has no room for its line. `line` is -1 if no leaf has the
+  // line.
   bool Crowds(const Discontinuity& d, std::int32_t line);
-  // Makes the line one of the leaf's, for one discontinuity more.
+  // Adds the line to the leaf, for one more discontinuity.
   void Join(const Impinged& i, std::int32_t line);
 
-  // Per leaf, the lines that run through its inside, and those that run along its border, too; in the order
-  // in which they came.
+  // Per leaf, in the order of Join(): the lines through the interior; and these together with the lines along
+  // the border.
   std::span<const std::vector<std::int32_t>> inside() const { return inside_; }
   std::span<const std::vector<std::int32_t>> touching() const { return touching_; }
-  // The most discontinuities of one line in one leaf.
+  // The largest number of discontinuities that joined one line of one leaf.
   std::size_t most_merged() const { return most_merged_; }
 
  private:

@@ -1,20 +1,20 @@
 // mesh/discontinuities/leaf_margins.h
 //
-// Distances, in units of SnapDistance(), that keep what lies inside a leaf apart from its border.
-// Neighbouring leaves agree on the vertices of their common border only, so nothing inside one leaf may come
-// so near to the border that rounding could place it there.
+// Distances, in units of SnapDistance(), that separate the interior of a leaf from its border. Neighbouring
+// leaves agree only on the vertices of their common border. No other vertex of a leaf may therefore lie so
+// close to the border that rounding could place the vertex there.
 
 #pragma once
 
 namespace penumbra {
 
-// Two points that were snapped to one line lie within 2 of it, each from its own side.
+// The largest distance between two points that were snapped to one line, one from either side.
 inline constexpr double kOnLine = 2;
-// Vertices inside a leaf keep this distance from its border: above kOnLine, with room for a segment that
-// bends by 1.
+// The smallest distance between a vertex inside a leaf and the leaf's border: kOnLine, and room for a segment
+// that bends by 1.
 inline constexpr double kLeafMargin = 4;
-// A discontinuity that ends within this distance of a leaf's border, along its line, is taken to reach it. It
-// bounds how far back a segment is cut that nearly touches a border.
+// A discontinuity that ends within this distance of a leaf's border, along its line, counts as reaching the
+// border. This distance also bounds how much of a segment that nearly touches a border is cut off.
 inline constexpr double kLeafReach = 64;
 
 }  // namespace penumbra

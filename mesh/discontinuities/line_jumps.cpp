@@ -15,14 +15,14 @@ void AddTo(IrradianceJump& sum, const IrradianceJump& jump) {
   sum.largest_value += jump.largest_value;
 }
 
-// Of events in which the same edges share a plane.
+// Identifies events in which the same edges share a plane.
 using SharedEdges = std::array<std::int32_t, 4>;
 
 SharedEdges SharedEdgesOf(const Discontinuity& d) {
   return {d.source, d.shared_source_edge, d.shared_blocker_edge.patch, d.shared_blocker_edge.k};
 }
 
-// What one discontinuity brings along a line of that direction, at one of its sample points.
+// The jumps of one discontinuity along a line of this direction, at one of the discontinuity's sample points.
 LineJump JumpOf(const Discontinuity& d, int sample, const Vec2& direction) {
   const IrradianceJump& jump = d.jump[static_cast<std::size_t>(sample)];
   LineJump result;
@@ -33,7 +33,8 @@ LineJump JumpOf(const Discontinuity& d, int sample, const Vec2& direction) {
   if (kink) {
     to.gradient = d.strength * jump.gradient;
   } else {
-    // The jump of an odd derivative does not know left from right, that of an even one does.
+    // The jump of an odd derivative does not depend on the line's direction; the jump of an even derivative
+    // does.
     to.curvature = (d.end[1] - d.end[0]).dot(direction) >= 0 ? d.strength * jump.curvature
                                                              : -d.strength * jump.curvature;
   }
@@ -48,7 +49,7 @@ void LineJump::Add(const LineJump& other) {
 }
 
 double ErrorWithout(const LineJump& jump, double size, double margin) {
-  // Of the mean square: the smaller part's share, 1 in the middle.
+  // The mean square is proportional to the smaller part's size, relative to half the piece: 1 in the middle.
   const double freed = size > 0 ? std::sqrt(2 * margin / size) : 0;
   return std::min(freed * jump.kink.largest_value, KinkError(size, margin) * std::abs(jump.kink.gradient)) +
          std::min({freed * jump.bend.largest_value, KinkError(size, margin) * jump.bend.largest_gradient,
@@ -60,7 +61,7 @@ LineJumps::LineJumps(std::span<const Discontinuity> found, std::span<const std::
     : lines_(lines.size()) {
   std::vector<std::size_t> order(found.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  // Those of the same edges one after the other; D2 events have none.
+  // Sorts events of the same edges together; D2 events have no shared edges.
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     if (line_of[a] != line_of[b]) return line_of[a] < line_of[b];
     const SharedEdges edges_a = SharedEdgesOf(found[a]), edges_b = SharedEdgesOf(found[b]);
@@ -68,7 +69,7 @@ LineJumps::LineJumps(std::span<const Discontinuity> found, std::span<const std::
   });
   std::vector<Piece> pieces, shared;
   std::vector<double> place;
-  // Where several of the same edges lie, the first counts.
+  // Where several events of the same edges overlap, the first counts.
   const auto close = [&] {
     place.clear();
     for (const Piece& p : shared) {

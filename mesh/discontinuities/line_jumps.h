@@ -1,8 +1,8 @@
 // mesh/discontinuities/line_jumps.h
 //
-// By how much the derivatives of the irradiance jump across a line of a patch, along which many
-// discontinuities may lie: edges of a blind that are all parallel, or the upright edges of a row of boards.
-// Jumps in one place add up, with their signs, however light each of them is.
+// Jumps of the irradiance's derivatives across a line of a patch. Many discontinuities may lie along one
+// line, for example those of the parallel slats of a blind, or of the upright edges of a row of boards. Jumps
+// at one place are added with their signs, so that many light discontinuities may have a large sum.
 
 #pragma once
 
@@ -15,28 +15,30 @@
 
 namespace penumbra {
 
-// Sums for what all sources send [W/m^2 ...], of first and of second degree.
+// Sums over all sources: `kink` of first-degree (D1) jumps, `bend` of second-degree (D2) jumps, as
+// IrradianceJump times radiosity [W/m^2 ...].
 struct LineJump {
   IrradianceJump kink, bend;
 
   void Add(const LineJump& other);
 };
 
-// An estimate of the error of a quadratic on a piece of the mesh of the size [m] that has no edge there,
-// though it could have one no nearer than `margin` [m] to its borders, as in Weight(), but for the largest
-// values: where they bind, a step is over within the piece, and an edge at its foot frees the smaller part of
-// the piece, no more [W/m^2].
+// An estimate [W/m^2] of the error of a quadratic on a piece of the mesh of extent `size` [m] without an edge
+// along the line, if the edge would lie at least `margin` [m] from the piece's borders. The terms are those
+// of Weight(), except that the largest values are multiplied by sqrt(2 margin / size): where the largest
+// values bind, the step ends within the piece, and an edge at its foot frees only the smaller part of the
+// piece.
 double ErrorWithout(const LineJump& jump, double size, double margin);
 
 class LineJumps {
  public:
-  // `line_of` names for each of `found` the one of `lines` that it lies on. Contacts have no jumps that could
-  // be added.
+  // line_of[i] is the index in `lines` of the line on which found[i] lies. The constructor ignores contacts,
+  // which have no jumps.
   LineJumps(std::span<const Discontinuity> found, std::span<const std::int32_t> line_of,
             std::span<const DiscontinuityLine> lines);
 
-  // Across a line at the place `t` along it. A D1 event of one source, which is found from either end of the
-  // length that its edges share, counts once.
+  // The sum of jumps across the line at parameter `t` [m]. A D1 event of one source that is found from both
+  // ends of the length that its edges share counts once.
   LineJump At(std::int32_t line, double t) const;
 
  private:
@@ -44,10 +46,10 @@ class LineJumps {
     double t0, t1;
     LineJump jump;
   };
-  // What holds on a range of places is kept at the nodes of a tree over the places, so that a sum is a sum of
-  // what holds there and nothing has to be subtracted from it.
+  // A tree over the places: each node holds the sum of the jumps that cover the node's whole range. At() adds
+  // nodes and never subtracts.
   struct Line {
-    std::vector<double> place;  // where a piece begins or ends, ascending
+    std::vector<double> place;  // ends of pieces, ascending
     std::vector<LineJump> node;
   };
 

@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// None: the mesh has the leaves alone.
+// Chooses no discontinuity: only leaves form the mesh.
 DiscontinuityChoiceRegistry::Method NoneChoiceMethod();
 
 }  // namespace penumbra

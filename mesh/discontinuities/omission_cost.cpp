@@ -69,7 +69,7 @@ void OmissionCost::CutByLines(Part& part, std::int32_t own, std::span<const std:
     if (lines[part.lines] != own) Cut(part, active[lines[part.lines]]);
 }
 
-// Keeps the side of the line on which the segment's middle lies.
+// Keeps the side of the line that contains the segment's midpoint.
 void OmissionCost::Cut(Part& part, const DirectedLine& line) {
   const double side = line.Distance(Middle(part.segment)) >= 0 ? 1 : -1;
   kept_.clear();

@@ -1,8 +1,8 @@
 // mesh/discontinuities/omission_cost.h
 //
-// What it costs to leave a discontinuity out of a mesh that has others already (thesis 8.2): on the cell of
-// the leaf that the active lines leave around it, the error of a quadratic that knows nothing of the jumps
-// along its line.
+// The cost of omitting a discontinuity from a mesh that already has other edges (thesis 8.2). The active
+// lines of a leaf bound a cell around the discontinuity. The cost is the error, on this cell, of a quadratic
+// without the jumps along the discontinuity's line.
 
 #pragma once
 
@@ -17,47 +17,47 @@
 
 namespace penumbra {
 
-// A segment inside a leaf, with what jumps across its line there.
+// A segment of a discontinuity inside a leaf, with the jumps across its line there.
 struct OmittedPart {
   std::size_t leaf = 0;
   Vec2 from = Vec2::Zero(), to = Vec2::Zero();  // in the frame of the patch [m]
   LineJump jump;
 };
 
-// ErrorWithout() the part on a convex piece of the mesh that it runs through [W/m^2].
+// ErrorWithout() the segment's jumps on a convex piece of the mesh that the segment crosses [W/m^2].
 double ErrorOnPiece(const OmittedPart& part, std::span<const Vec2> piece);
 
 class OmissionCost {
  public:
-  // Begins the next discontinuity.
+  // Starts the next discontinuity.
   void Begin() { first_part_.push_back(parts_.size()); }
-  // A part of it, in a leaf of this outline and area, on which errors count that many times.
+  // Adds a part of the current discontinuity, in a leaf with this outline and this area [m^2]. Errors on the
+  // leaf are multiplied by `scale`.
   void AddPart(const OmittedPart& part, const Polygon2& outline, double area, double scale) {
     parts_.push_back({part, area, scale, scale, outline, 0});
   }
 
-  // Makes errors on every part count so many times as `scale` says, which is told how many times they count
-  // on its leaf.
+  // Replaces the factor of errors of every part by scale(part, factor of the part's leaf).
   void Rescale(const std::function<double(const OmittedPart&, double)>& scale) {
     for (Part& part : parts_) part.scale = scale(part.segment, part.leaf_scale);
   }
 
-  // `inside` are for each leaf the numbers of those `active` lines that run through it, which only grow from
-  // one call to the next; `own` is that of the discontinuity's own line, which does not count; -1 if that is
-  // not active.
+  // In the functions below, inside[k] holds the numbers of those `active` lines that cross leaf k; lines may
+  // only be added between calls. `own` is the number of the discontinuity's own line, which bounds no cell;
+  // -1 if the line is not active.
 
   struct Cost {
-    double by_place = 0;
-    double at_most = 0;  // the same, each part counted as its leaf is where that is more
+    double by_place = 0;  // with the factors of Rescale() [W/m^2]
+    double at_most = 0;   // with the larger of the part's and the leaf's factors [W/m^2]
   };
 
-  // Of leaving out discontinuity i, root mean square over the leaves that it crosses [W/m^2]. Both fall when
-  // lines become active.
+  // The cost of omitting discontinuity i: the root mean square over the leaves that it crosses [W/m^2]. Both
+  // values fall as lines become active.
   Cost Of(std::size_t i, std::int32_t own, std::span<const std::vector<std::int32_t>> inside,
           std::span<const DiscontinuityLine> active);
+  // The number of leaves whose interior discontinuity i crosses.
   std::size_t LeavesOf(std::size_t i) { return PartsOf(i).size(); }
-  // The parts of discontinuity i in leaves that its line does not run through, where each costs at least so
-  // much [W/m^2].
+  // The parts of discontinuity i in leaves without its line on which omission costs at least `least` [W/m^2].
   std::vector<OmittedPart> PartsWithout(std::size_t i, std::int32_t own,
                                         std::span<const std::vector<std::int32_t>> inside,
                                         std::span<const DiscontinuityLine> active, double least);
@@ -67,7 +67,7 @@ class OmissionCost {
     OmittedPart segment;
     double leaf_area, leaf_scale, scale;
     Polygon2 cell;          // convex
-    std::size_t lines = 0;  // of the leaf that have cut it
+    std::size_t lines = 0;  // number of the leaf's lines that have cut the cell
   };
 
   std::span<Part> PartsOf(std::size_t i);

@@ -6,8 +6,8 @@
 
 namespace penumbra {
 
-// In random order, as many as a leaf may have, contacts first: to compare with ranking. Of the others it
-// tries DiscontinuityOptions::random_share.
+// Chooses in random order, as many discontinuities as a leaf has room for, contacts first: a baseline for the
+// ranked choice. Apart from contacts, the choice tries the fraction DiscontinuityOptions::random_share.
 DiscontinuityChoiceRegistry::Method RandomChoiceMethod();
 
 }  // namespace penumbra

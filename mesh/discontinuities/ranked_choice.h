@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// The heaviest, as many as a leaf may have (thesis 5.5.7).
+// Chooses the heaviest discontinuities, as many as a leaf has room for (thesis 5.5.7).
 DiscontinuityChoiceRegistry::Method RankedChoiceMethod();
 
 }  // namespace penumbra

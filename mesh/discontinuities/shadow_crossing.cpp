@@ -5,8 +5,8 @@
 namespace penumbra {
 namespace {
 
-// Points are taken this far from the corners towards the middle, so that what touches a corner does not
-// decide: a choice.
+// The distance between test points and corners, relative to the distance to the centre. Objects that touch a
+// corner should not affect the result: a choice.
 constexpr double kInwards = 1e-3;
 
 bool Blocks(const Patch& patch, const Vec3& x, const Vec3& y) {
@@ -35,7 +35,7 @@ bool ShadowCrossing::Crosses(PatchId source, ElementId leaf) {
   return place->second;
 }
 
-// A bit for each of the source's points.
+// One bit for each of the source's points: set if the point is visible from x.
 std::uint32_t ShadowCrossing::SeenFrom(const Vec3& x, PatchId source) const {
   const Patch& patch = forest_.scene().patches[source];
   if (!(patch.normal.dot(x - patch.vertex[0]) > 0)) return 0;

@@ -1,7 +1,8 @@
 // mesh/discontinuities/shadow_crossing.h
 //
-// Adaptive discontinuity meshing (Stuerzlinger 1994): the exact shadow boundaries of a source are wanted only
-// in elements that one of them crosses, and that is seen from what the element's corners see of the source.
+// Adaptive discontinuity meshing (Stuerzlinger 1994) inserts the exact shadow boundaries of a source only in
+// elements that a boundary crosses. Visibility of the source from the element's corners tells which elements
+// these are.
 
 #pragma once
 
@@ -13,14 +14,14 @@
 
 namespace penumbra {
 
-// Answers for the leaves of one receiver, and remembers.
+// Tests the leaves of one receiver, and stores the results.
 class ShadowCrossing {
  public:
-  // All must outlive the object; the forest may not change.
+  // All arguments must outlive the object; the forest must not change.
   ShadowCrossing(const ElementForest& forest, const PatchVisibility& visibility, PatchId receiver);
 
-  // True if not all of the leaf's corners, and its centre, see the same ones of the source's corners and
-  // centre. Shadows that slip between these points are missed, as in the paper.
+  // True unless the leaf's corners and centre all see the same of the source's corners and centre. The test
+  // misses shadows that lie between these points, as in the paper.
   bool Crosses(PatchId source, ElementId leaf);
 
  private:

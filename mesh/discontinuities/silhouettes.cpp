@@ -15,7 +15,7 @@ Silhouettes::Silhouettes(const Scene& scene)
     const auto id = static_cast<PatchId>(p);
     for (std::int32_t k = 0; k < patch.size; ++k) {
       const Vec3& v = patch.vertex[k];
-      // -0 becomes 0.
+      // Adding 0 turns -0 into 0.
       const auto [place, added] = corner.try_emplace(std::tuple(v.x() + 0.0, v.y() + 0.0, v.z() + 0.0),
                                                      static_cast<std::int32_t>(corners_.size()));
       if (added) corners_.push_back({v, {}, {}});
@@ -47,7 +47,8 @@ std::array<double, 2> Silhouettes::Sides(std::int32_t edge, const Vec3& from) co
   if (sharing.size() != 2 || sharing[0].patch == sharing[1].patch) return {0, 0};
   const Patch &one = scene_.patches[sharing[0].patch], &two = scene_.patches[sharing[1].patch];
   const Vec3& a = one.vertex[sharing[0].k];
-  // A closed surface runs along its edges once in each direction; else one of the two is turned over.
+  // The faces of a closed surface traverse their common edge in opposite directions; otherwise one face is
+  // reversed.
   const double turned = two.vertex[sharing[1].k] == a ? -1 : 1;
   return {one.normal.dot(from - a), turned * two.normal.dot(from - a)};
 }
@@ -58,7 +59,7 @@ bool Silhouettes::IsSilhouette(std::int32_t edge, const Vec3& from) const {
 }
 
 bool Silhouettes::MayBeSilhouette(std::int32_t edge, std::span<const Vec3> polygon) const {
-  bool front = true, back = true;  // of both faces
+  bool front = true, back = true;  // for both faces
   for (const Vec3& p : polygon) {
     const auto [one, two] = Sides(edge, p);
     front = front && std::min(one, two) > 0;

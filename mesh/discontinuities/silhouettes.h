@@ -1,7 +1,8 @@
 // mesh/discontinuities/silhouettes.h
 //
-// Which patches meet in an edge or a corner, and which of their edges are silhouettes: seen from a point, the
-// two faces at an edge look to different sides, or there is one face only.
+// The patches that meet in an edge or a corner, and the edges that are silhouettes. An edge is a silhouette
+// from a point if one of the edge's two faces faces the point and the other faces away, or if the edge does
+// not have exactly two faces.
 
 #pragma once
 
@@ -14,18 +15,18 @@
 
 namespace penumbra {
 
-// The edge of a patch from its vertex k to k + 1.
+// The edge of a patch from its vertex k to vertex k + 1.
 struct PatchEdge {
   PatchId patch = kNoPatch;
   std::int32_t k = 0;
 };
 
-// Corners and edges of a scene by number; those with the same coordinates are one.
+// Corners and edges of a scene by number. Corners, or edges, with equal coordinates have one number.
 class Silhouettes {
  public:
   explicit Silhouettes(const Scene& scene);
 
-  // The number of the corner at a vertex, and of the edge that starts there.
+  // The number of the corner at vertex k, and the number of the edge that starts there.
   std::int32_t CornerAt(PatchId patch, std::int32_t k) const { return corner_at_[Index(patch, k)]; }
   std::int32_t EdgeAt(PatchId patch, std::int32_t k) const { return edge_at_[Index(patch, k)]; }
 
@@ -35,11 +36,12 @@ class Silhouettes {
   }
   std::span<const PatchId> PatchesAround(std::int32_t corner) const { return corners_[Size(corner)].patches; }
   std::span<const PatchEdge> Sharing(std::int32_t edge) const { return edges_[Size(edge)].sharing; }
-  // From one end of the edge to the other [m]. REQUIRES: the corner is one of its ends.
+  // The vector from the given end of the edge to the other end [m]. REQUIRES: the corner is an end of the
+  // edge.
   Vec3 Away(std::int32_t edge, std::int32_t corner) const;
 
-  // True unless exactly two faces meet in the edge and the point sees the fronts of both, or of neither; a
-  // point in the plane of one sees a silhouette.
+  // False if exactly two faces meet in the edge and the point sees the fronts of both, or of neither. From a
+  // point in the plane of one face, the edge is a silhouette.
   bool IsSilhouette(std::int32_t edge, const Vec3& from) const;
   // False only if the edge is no silhouette from any point of the convex polygon.
   bool MayBeSilhouette(std::int32_t edge, std::span<const Vec3> polygon) const;
@@ -55,8 +57,8 @@ class Silhouettes {
     std::vector<PatchEdge> sharing;
   };
 
-  // How far the point lies before each of the two faces that meet in the edge, both turned as the first is
-  // [m]; two zeros where other than two meet.
+  // The heights of the point above the two faces that meet in the edge [m], with the second face oriented
+  // like the first. Two zeros unless exactly two faces meet.
   std::array<double, 2> Sides(std::int32_t edge, const Vec3& from) const;
 
   static std::size_t Size(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -65,7 +67,7 @@ class Silhouettes {
   const Scene& scene_;
   std::vector<Corner> corners_;
   std::vector<Edge> edges_;
-  std::vector<std::int32_t> corner_at_, edge_at_;  // four a patch
+  std::vector<std::int32_t> corner_at_, edge_at_;  // four per patch
 };
 
 }  // namespace penumbra

@@ -14,48 +14,49 @@ namespace {
 
 using EdgeEnds = std::array<Vec3, 2>;
 
-// A part of the first edge, from 0 to 1.
+// A part of the first edge, whose ends are 0 and 1.
 struct Range {
   double t0, t1;
 };
 
-// A piece is halved at most so often: only rounding keeps it from getting straight before.
+// The limit on halvings of a piece. Only rounding errors prevent a piece from becoming straight earlier.
 constexpr int kMostHalvings = 24;
 
-// Places on an edge that are nearer than this are one: the root of an edge that two patches share.
+// Parameters of an edge closer than this are equal: the root of an edge that two patches share.
 constexpr double kSameRoot = 1e-12;
 
-// Six times the volume between the edges' ends, and what it is to be compared with.
+// True if the edges lie in one plane: compares six times the volume of the tetrahedron of their ends with
+// rounding.
 bool LieInOnePlane(const EdgeEnds& e, const EdgeEnds& f, double rounding) {
   const Vec3 d = e[1] - e[0], g = f[1] - f[0], across = d.cross(g);
   const double area = across.norm();
-  // Parallel: the sine of the angle is within rounding of the shorter one's length.
+  // Parallel: the sine of the angle times the length of the shorter edge is within rounding.
   if (area * std::min(d.norm(), g.norm()) <= rounding * d.norm() * g.norm()) return true;
   return std::abs(across.dot(f[0] - e[0])) <= rounding * area;
 }
 
-// The point on the edge in the plane through p with this normal.
+// The point of the edge in the plane through p with this normal.
 Vec3 OnPlane(const EdgeEnds& edge, const Vec3& p, const Vec3& normal) {
   const double f0 = normal.dot(edge[0] - p), f1 = normal.dot(edge[1] - p);
   return Between(edge[0], edge[1], std::clamp(f0 / (f0 - f1), 0.0, 1.0));
 }
 
-// The lines through three edges, by the place on the first where they touch it.
+// The lines through three edges, parameterised by their points on the first edge.
 class RuledSurface {
  public:
   RuledSurface(const EdgeEnds& first, const EdgeEnds& second, const EdgeEnds& third)
       : edge_{&first, &second, &third} {}
 
-  // Where on the first edge the line through it and the two others touches these between their ends:
+  // The parameters of the first edge whose line meets the second and third edge between their ends:
   // ascending, disjoint. The bounds are roots of linear functions.
   struct Ranges {
-    std::array<Range, 3> range;  // of five at most, no two of which adjoin
+    std::array<Range, 3> range;  // of at most five parts, no two of which are adjacent
     int size = 0;
   };
   Ranges Domain() const;
 
   Vec3 Point(double t) const { return Between((*edge_[0])[0], (*edge_[0])[1], t); }
-  // Of the line, quadratic in t.
+  // The direction of the line, quadratic in t.
   Vec3 Direction(const Vec3& p) const { return PlaneWith(1, p).cross(PlaneWith(2, p)); }
   std::array<Vec3, 3> Touched(double t) const {
     const Vec3 p = Point(t);
@@ -69,9 +70,9 @@ class RuledSurface {
 };
 
 RuledSurface::Ranges RuledSurface::Domain() const {
-  // The line touches the second edge where the ends of that lie on different sides of the plane through the
-  // first one's point and the third edge, and the other way about. Each side is linear in the first one's
-  // point.
+  // The line meets the second edge if the edge's ends lie on different sides of the plane through p and the
+  // third edge, where p is the line's point on the first edge; likewise with the second and third edge
+  // exchanged. Each side is linear in p.
   std::array<std::array<double, 2>, 4> value;  // at both ends of the first edge
   for (int i = 0; i < 2; ++i) {
     for (int end = 0; end < 2; ++end) {
@@ -102,13 +103,13 @@ RuledSurface::Ranges RuledSurface::Domain() const {
   return domain;
 }
 
-// An edge of the source, or one of blockers, once, though two faces share it.
+// An edge of the source, or a blocker's edge; an edge of two faces occurs once.
 struct EventEdge {
   bool of_source;
   std::int32_t number;  // Silhouettes::EdgeAt()
   PatchEdge at;
-  EdgeEnds whole, ends;                 // as it is, and the part in the tube
-  std::array<double, 2> above, before;  // heights of the ends above the receiver and before the source [m]
+  EdgeEnds whole, ends;                 // the whole edge, and its part in the tube
+  std::array<double, 2> above, before;  // heights of ends above the receiver and before the source [m]
 };
 
 // The part of a blocker between receiver and source.
@@ -137,9 +138,9 @@ class Tracer {
     if (lit_.empty() || lighting_.empty()) return {};
     CollectEdges(blockers);
     if (!options_.keep_hidden) CollectObstacles(blockers);
-    // Three edges have a line in common only if each two of them have.
+    // Three edges have a common line only if each pair of them has one.
     const std::size_t n = edges_.size();
-    std::vector<std::vector<std::size_t>> partners(n);  // that come later
+    std::vector<std::vector<std::size_t>> partners(n);  // partners with higher indices
     std::vector<char> meet(n * n, 0);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = i + 1; j < n; ++j)
@@ -158,7 +159,7 @@ class Tracer {
   double Above(const Vec3& p) const { return receiver_.normal.dot(p - receiver_.vertex[0]); }
   double Before(const Vec3& p) const { return source_.normal.dot(p - source_.vertex[0]); }
 
-  // Those parts that light from the source to the receiver can touch.
+  // Collects the parts of edges that light from the source to the receiver can touch.
   void CollectEdges(std::span<const PatchId> blockers) {
     const ConvexRegion tube = Tube(lit_, lighting_).Region();
     const auto add = [&](PatchId patch, std::int32_t k, bool of_source) {
@@ -201,20 +202,19 @@ class Tracer {
       const Patch& patch = scene_.patches[blocker];
       const Polygon3 above = ClipToHalfSpace(patch.Vertices(), receiver_.normal, receiver_.vertex[0]);
       if (above.empty()) continue;
-      // What is flush with the source hides none of it.
+      // A blocker flush with the source hides no part of the source.
       const Polygon3 between =
           ClipToHalfSpace(above, source_.normal, source_.vertex[0] + options_.rounding * source_.normal);
       if (!between.empty()) obstacles_.push_back({blocker, patch.normal, between});
     }
   }
 
-  // False only if no line from receiver to source touches both edges, or those that do make no EEE events.
+  // False only if no line from receiver to source meets both edges, or if such lines cause no EEE events.
   bool MayMeet(const EventEdge& e, const EventEdge& f) const {
     if (e.of_source && f.of_source) return false;
     if (!e.of_source && !f.of_source && OfOneBody(e, f)) return false;
     if (LieInOnePlane(e.whole, f.whole, options_.rounding)) return false;
-    // Which is nearer to the receiver, and which farther from the source, as far as that can be said of all
-    // their points.
+    // Whether one edge is closer to the receiver, or farther from the source, with all its points.
     const int nearer = WhollyLess(e.above, f.above), farther = WhollyLess(f.before, e.before);
     if (nearer * farther < 0) return false;
     if (nearer != 0 && !MayReach(e.ends, e.above, f.ends, f.above, lit_, receiver_.normal)) return false;
@@ -222,15 +222,15 @@ class Tracer {
            MayReach(e.ends, e.before, f.ends, f.before, lighting_, source_.normal);
   }
 
-  // +1 if both of a are less than both of b, -1 the other way about, else 0.
+  // +1 if both values of a are less than both values of b, -1 for the reverse, otherwise 0.
   static int WhollyLess(const std::array<double, 2>& a, const std::array<double, 2>& b) {
     return std::max(a[0], a[1]) < std::min(b[0], b[1])   ? 1
            : std::max(b[0], b[1]) < std::min(a[0], a[1]) ? -1
                                                          : 0;
   }
 
-  // Whether lines through both edges can meet the polygon: on its plane they fill no more than the hull of
-  // those through the ends.
+  // True if lines through both edges can meet the polygon. On the polygon's plane, these lines meet only the
+  // hull of the lines through the edges' ends.
   bool MayReach(const EdgeEnds& e, const std::array<double, 2>& e_height, const EdgeEnds& f,
                 const std::array<double, 2>& f_height, const Polygon3& polygon, const Vec3& normal) const {
     std::array<Vec3, 4> at;
@@ -247,7 +247,8 @@ class Tracer {
     return true;
   }
 
-  // A line that touches two edges of a convex body runs in one of its sides, or through it.
+  // True if both edges belong to one convex body: a line that touches both lies in a side of the body, or
+  // crosses the body.
   bool OfOneBody(const EventEdge& e, const EventEdge& f) const {
     for (const PatchEdge& a : silhouettes_.Sharing(e.number))
       for (const PatchEdge& b : silhouettes_.Sharing(f.number)) {
@@ -269,7 +270,7 @@ class Tracer {
     if (!trace_.pieces.empty()) traces_.push_back(std::move(trace_));
   }
 
-  // Where nothing changes on the way from one end of a range to the other, its middle tells for all of it.
+  // Between two cuts of a range no condition changes. Therefore the midpoint decides for the whole part.
   void TraceRange(const Range& range) {
     parts_ = {range};
     const std::array<double, 3> place = {range.t0, 0.5 * (range.t0 + range.t1), range.t1};
@@ -277,7 +278,7 @@ class Tracer {
       point_[i] = surface_->Point(place[i]);
       direction_[i] = surface_->Direction(point_[i]);
     }
-    // On the receiver, and through the source.
+    // The conditions that the line meets the receiver, and passes through the source.
     cuts_.clear();
     CutAtOutline(lit_, range);
     if (!edge_[0]->of_source) CutAtOutline(lighting_, range);
@@ -286,7 +287,7 @@ class Tracer {
              (edge_[0]->of_source || ConvexContains(lighting_, source_.normal, line.on_source, 0));
     });
     if (parts_.empty()) return;
-    // Silhouettes change where the line lies in the plane of a face.
+    // An edge's silhouette status changes where the line lies in the plane of a face.
     cuts_.clear();
     for (const EventEdge* edge : edge_)
       if (!edge->of_source)
@@ -309,7 +310,7 @@ class Tracer {
     }
   }
 
-  // Where the line passes from one side of an edge of the polygon to the other.
+  // Cuts where the line passes from one side of an edge of the polygon to the other.
   void CutAtOutline(const Polygon3& polygon, const Range& range) {
     for (std::size_t k = 0; k < polygon.size(); ++k) {
       const Vec3 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
@@ -319,9 +320,9 @@ class Tracer {
     }
   }
 
-  // At the roots of the quadratic with these values at the ends and in the middle of the range.
+  // Cuts at the roots of the quadratic with these values at the ends and the midpoint of the range.
   void Cut(const std::array<double, 3>& value, const Range& range) {
-    // Bernstein's form: first (1 - s)^2 + 2 bend s (1 - s) + last s^2.
+    // Bernstein form: first (1 - s)^2 + 2 bend s (1 - s) + last s^2.
     const double first = value[0], last = value[2], bend = 2 * value[1] - 0.5 * (first + last);
     if (std::min({first, bend, last}) > 0 || std::max({first, bend, last}) < 0) return;
     const double discriminant = bend * bend - first * last;
@@ -331,7 +332,7 @@ class Tracer {
       if (s > 0 && s < 1) cuts_.push_back(range.t0 + s * (range.t1 - range.t0));
   }
 
-  // Leaves those of the parts between cuts whose middle holds.
+  // Keeps those parts between cuts whose midpoint satisfies the condition.
   template <class Holds>
   void Narrow(const Holds& holds) {
     std::sort(cuts_.begin(), cuts_.end());
@@ -355,8 +356,9 @@ class Tracer {
     std::swap(parts_, narrowed_);
   }
 
-  // The curve from one point to the other is a conic's arc, whose weights are the direction's components
-  // across the receiver: it is farthest from the chord where the ends' shares are equal (its shoulder).
+  // The curve between the points is an arc of a conic; the weights are the components of the line's direction
+  // across the receiver. The arc's largest distance from the chord is at its shoulder, where the ends have
+  // equal contributions.
   void AddPieces(const Range& range, const Transversal& from, const Transversal& to, int halvings) {
     const auto weight = [&](double t) {
       return receiver_.normal.dot(surface_->Direction(surface_->Point(t)));
@@ -364,10 +366,10 @@ class Tracer {
     const double first = weight(range.t0), last = weight(range.t1);
     const double root = std::sqrt(first / last), s = root / (1 + root);
     const double t = range.t0 + s * (range.t1 - range.t0);
-    // Else they are rounding errors.
+    // Outside these limits, the halves would be rounding errors.
     std::optional<Transversal> shoulder;
     if (range.t0 < t && t < range.t1 && halvings < kMostHalvings) shoulder = At(t);
-    // What the control point between the ends has of the shoulder.
+    // The contribution of the control point to the shoulder.
     const double share = 1 - 2 * first * (1 - s) * (1 - s) / weight(t);
     if (!shoulder || Straight(from.on_receiver, shoulder->on_receiver, to.on_receiver, share)) {
       trace_.pieces.push_back({from, to});
@@ -383,15 +385,16 @@ class Tracer {
     const Vec3 control = 0.5 * chord + bulge / share;
     const double length = chord.norm(), along = control.dot(chord);
     if (std::max(length, control.norm()) <= tolerance_) return true;
-    // Nor does it run beyond the chord's ends: it lies between chord and control point.
+    // The arc does not extend beyond the chord's ends, because it lies between the chord and the control
+    // point.
     return along >= 0 && along <= length * length && chord.cross(bulge).norm() <= tolerance_ * length;
   }
 
-  // The line at t; nothing where it runs along the receiver or the source.
+  // The line at t; nothing if the line is parallel to the receiver or the source.
   std::optional<Transversal> At(double t) const {
     Transversal line;
     line.on_edge = surface_->Touched(t);
-    // The two that are farthest apart give it the most digits.
+    // The two points with the largest distance give the most accurate line.
     const auto& [p, q, r] = line.on_edge;
     const double pq = (q - p).squaredNorm(), pr = (r - p).squaredNorm(), qr = (r - q).squaredNorm();
     const Vec3& a = std::max(pq, pr) >= qr ? p : q;
@@ -428,14 +431,14 @@ class Tracer {
   const Patch& source_;
   TripleEdgeOptions options_;
   double tolerance_;
-  Polygon3 lit_, lighting_;  // the parts of receiver and source that see each other
+  Polygon3 lit_, lighting_;  // the parts of receiver and source in front of each other
   std::vector<EventEdge> edges_;
   std::vector<Obstacle> obstacles_;
 
-  // Of the triple, and the range, in question.
+  // The present triple and range.
   std::array<const EventEdge*, 3> edge_ = {};
   const RuledSurface* surface_ = nullptr;
-  std::array<Vec3, 3> point_, direction_;  // at both ends and in the middle
+  std::array<Vec3, 3> point_, direction_;  // at both ends and at the midpoint
   std::vector<double> cuts_;
   std::vector<Range> parts_, narrowed_;
   TripleEdgeTrace trace_;

@@ -7,7 +7,8 @@
 namespace penumbra {
 namespace {
 
-// The segment in which the patch cuts the plane; false if the patch has no points strictly on both sides.
+// The segment in which the patch intersects the plane. Returns false if the patch lies on one side of the
+// plane.
 bool Section(const Patch& patch, const Vec3& normal, const Vec3& point, double rounding,
              std::array<Vec3, 2>* section) {
   std::array<double, 4> height;
@@ -44,7 +45,7 @@ void TraceParts::Hide(const Wedge& wedge, const Patch& blocker) {
   const double sa = wedge.source_normal.dot(a - wedge.on_source);
   const double sb = wedge.source_normal.dot(b - wedge.on_source);
   const Vec3 along = wedge.end[1] - wedge.end[0];
-  // The fraction along the trace of the line through the apex and a point at height h.
+  // The parameter, on the trace, of the line through the apex and the point p.
   const auto fraction = [&](const Vec3& p) {
     const double h = wedge.receiver_normal.dot(p - wedge.on_receiver);
     const Vec3 meets = wedge.apex + (p - wedge.apex) * (wedge.apex_height / (wedge.apex_height - h));

@@ -1,6 +1,6 @@
 // mesh/interpolants/current_irradiance.h
 //
-// Exact irradiance from a solution that changes: made when someone asks for it, forgotten after a change.
+// Exact irradiance from a solution that changes: created on demand, and dropped when the solution changes.
 
 #pragma once
 
@@ -16,12 +16,13 @@ namespace penumbra {
 
 class CurrentIrradiance {
  public:
-  // From the solution as it is; null if it was cancelled.
+  // Creates the irradiance from the present solution. Null if it was cancelled.
   using Make = std::function<std::unique_ptr<const PointIrradiance>(const ExecutionContext&)>;
 
   explicit CurrentIrradiance(Make make) : make_(std::move(make)) {}
 
-  // The same until Reset(); null if it was cancelled. Safe from any thread, but not beside Reset().
+  // Returns the same object until Reset(); null if its creation was cancelled. Safe from any thread, but not
+  // concurrently with Reset().
   const PointIrradiance* Get(const ExecutionContext& context = ExecutionContext()) {
     const std::lock_guard<std::mutex> lock(making_);
     if (!irradiance_) irradiance_ = make_(context);

@@ -1,7 +1,7 @@
 // mesh/interpolants/irradiance_mesh.h
 //
-// Where the offline half and the online half meet (thesis, abstract): a list of triangles, each with an
-// irradiance interpolant. The display needs nothing else but the materials.
+// The result of the offline half and the input of the online half (thesis, abstract): a list of triangles
+// with one irradiance interpolant each. The display needs only this mesh and the materials.
 
 #pragma once
 
@@ -17,15 +17,15 @@ namespace penumbra {
 
 struct IrradianceMesh {
   struct Triangle {
-    std::array<std::uint32_t, 3> vertex;  // indices in `positions`, counter-clockwise from the front
+    std::array<std::uint32_t, 3> vertex;  // indices in `positions`, counter-clockwise as seen from the front
     PatchId patch = kNoPatch;
-    // Edge k runs from vertex k to vertex k + 1: true if it lies on a discontinuity of the mesh.
+    // True for edge k, from vertex k to vertex k + 1, if the edge lies on a discontinuity of the mesh.
     std::array<bool, 3> discontinuity = {false, false, false};
   };
 
-  std::vector<Vec3> positions;      // [m]; triangles of one patch share vertices, patches do not
-  std::vector<Triangle> triangles;  // the triangles of a patch are consecutive, patches ascending
-  std::vector<QuadraticInterpolant> irradiance;  // one a triangle [W/m^2]
+  std::vector<Vec3> positions;                   // [m]; triangles of one patch share vertices, patches do not
+  std::vector<Triangle> triangles;               // consecutive for each patch, in the order of patches
+  std::vector<QuadraticInterpolant> irradiance;  // one per triangle [W/m^2]
 };
 
 }  // namespace penumbra

@@ -14,16 +14,16 @@
 namespace penumbra {
 namespace {
 
-// What a triangle's sample refers to: a slot of `values`.
+// An index in the list of samples, for one sample of a triangle.
 using Slot = std::uint32_t;
 
 struct Node {
   PatchId patch = kNoPatch;
-  std::uint32_t triangle = 0;  // that asks, in IrradianceMesh::triangles
-  std::uint8_t sample = 0;     // which of its samples, in the order of kSampleAt
+  std::uint32_t triangle = 0;  // the triangle that needs it, in IrradianceMesh::triangles
+  std::uint8_t sample = 0;     // number in the triangle, in the order of kSampleAt
 };
 
-// The triangles of all patches with their vertices, without interpolants.
+// The triangles and vertices of all patches, without interpolants.
 IrradianceMesh JoinPatches(std::span<const PatchTriangulation> patches) {
   IrradianceMesh mesh;
   for (const PatchTriangulation& patch : patches) {
@@ -42,9 +42,9 @@ IrradianceMesh JoinPatches(std::span<const PatchTriangulation> patches) {
   return mesh;
 }
 
-// All nodes of a mesh, and which of them each triangle's samples are.
+// All nodes of a mesh, and the nodes of each triangle.
 struct Nodes {
-  std::vector<Node> first;  // per node, the first triangle that asks
+  std::vector<Node> first;  // per node, the first triangle that needs it
   std::vector<std::array<Slot, 6>> of_triangle;
 };
 
@@ -86,7 +86,7 @@ class Sampling {
     for (const Patch& patch : scene.patches) uncertainty_.push_back(Uncertainty(patch, gap));
   }
 
-  // The nodes' samples, from the triangles that they name.
+  // The samples at the nodes, for the triangles that the nodes name.
   std::vector<PointIrradianceResult> Evaluate(std::span<const Node> nodes, double done_before,
                                               double done_after) {
     std::vector<PointIrradianceResult> results(nodes.size());
@@ -99,7 +99,7 @@ class Sampling {
         unknown.push_back(i);
     }
     constexpr std::size_t kNodesATask = 64;
-    // In batches, so that progress is told from one thread and a cancelled run ends soon.
+    // Batches let one thread report progress, and end a cancelled run soon.
     constexpr std::size_t kBatch = 1 << 14;
     for (std::size_t begin = 0; begin < unknown.size() && !context_.Cancelled(); begin += kBatch) {
       const std::size_t size = std::min(kBatch, unknown.size() - begin);
@@ -128,7 +128,7 @@ class Sampling {
     if (node.sample % 2 == 0) {
       at.position = corner(k);
     } else {
-      // Ascending ids: the same bits from both sides of the edge.
+      // The order of ids makes the result equal, bit for bit, on both sides of the edge.
       const bool ascending = t.vertex[k] < t.vertex[(k + 1) % 3];
       at.position = 0.5 * (ascending ? corner(k) + corner(k + 1) : corner(k + 1) + corner(k));
     }
@@ -161,8 +161,8 @@ IrradianceSampler WhileGoing(IrradianceSampler sampler, const ExecutionContext& 
   };
 }
 
-// What comes within the contact gap touches the node. This holds for all nodes, not only those on contacts:
-// where a shadow's edge starts at a foot, vertices lie within the gap beside it.
+// Objects within the contact gap touch the node, even a node that is on no contact: near a foot where a
+// shadow's edge starts, vertices lie within the gap.
 double SampleUncertainty(const Scene& scene, const Patch& patch) {
   return Uncertainty(patch, ContactGap(scene));
 }
@@ -178,7 +178,7 @@ BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangula
   Nodes nodes = NumberNodes(mesh, quadratic);
   Sampling sampling(scene, mesh, sampler, cache, context);
 
-  // Each node from its first triangle; then, where the side matters, from every other triangle as well.
+  // Evaluates each node for its first triangle, and each one-sided node for every other triangle as well.
   constexpr double kFirstShare = 0.8;
   std::vector<PointIrradianceResult> values = sampling.Evaluate(nodes.first, 0, kFirstShare);
   std::vector<Node> again;

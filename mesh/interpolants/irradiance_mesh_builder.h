@@ -1,11 +1,12 @@
 // mesh/interpolants/irradiance_mesh_builder.h
 //
-// Interpolants over triangulated patches (thesis 3.2, 3.3): six samples a triangle, each evaluated once.
+// Interpolants over triangulated patches (thesis 3.2, 3.3) from six samples per triangle. Each sample is
+// evaluated once.
 //
-// A node is a vertex or an edge midpoint. Its irradiance is the limit from inside the triangle that asks
-// (6.3). Where the sampler says that the side matters, every triangle at the node gets a value of its own, so
-// that nothing leaks across a contact (D0) edge, and each corner at the end of one has the value of its own
-// direction (6.4).
+// A node is a vertex or the midpoint of an edge. The irradiance at a node is the limit from the interior of
+// the triangle that needs it (6.3). If the sampler reports a one-sided value, every triangle at the node gets
+// its own value. Therefore no light leaks across a contact (D0) edge, and each corner at the end of a contact
+// has the value for its own direction (6.4).
 
 #pragma once
 
@@ -23,31 +24,33 @@
 
 namespace penumbra {
 
-// PointIrradiance::OnPatch(), or whatever stands in for it. Called from several threads at once.
+// PointIrradiance::OnPatch() or a replacement. Must be safe from several threads at once.
 using IrradianceSampler = std::function<PointIrradianceResult(PatchId, const ReceiverPoint&)>;
-// PointIrradiance::NearlyOnPatch() with that tolerance. `exact` must outlive it.
+// A sampler that calls PointIrradiance::NearlyOnPatch() with this tolerance. `exact` must outlive the
+// sampler.
 IrradianceSampler NearSampler(const PointIrradiance& exact, double tolerance);
-// The same, which gives nothing any more once it was cancelled. Both must outlive it.
+// The same sampler, except that it returns an empty result after cancellation. `context` must outlive the
+// result.
 IrradianceSampler WhileGoing(IrradianceSampler sampler, const ExecutionContext& context);
 
-// ReceiverPoint::uncertainty of samples on the patch [m].
+// The value of ReceiverPoint::uncertainty for samples on the patch [m].
 double SampleUncertainty(const Scene& scene, const Patch& patch);
 
 struct BuiltMesh {
   IrradianceMesh mesh;
-  std::size_t point_evaluations = 0;  // those of the sampler; what the cache knew is not counted
+  std::size_t point_evaluations = 0;  // calls of the sampler, without the samples from the cache
 };
 
-// The mesh of all patches, with linear or quadratic interpolants. Patches ascend, triangles keep their order.
-// The result does not depend on the number of threads. REQUIRES: patches[i] belongs to patch i of the scene;
-// order is not kConstant. With a cache, samples that it knows are not evaluated again, and new ones are
-// added.
+// The mesh of all patches, with linear or quadratic interpolants. The order of patches and triangles is that
+// of `patches`. The result does not depend on the number of threads. With a cache, the builder evaluates only
+// samples that the cache lacks, and adds them to the cache. REQUIRES: patches[i] belongs to patch i of the
+// scene; order is not kConstant.
 BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangulation> patches,
                               InterpolantOrder order, const IrradianceSampler& sampler,
                               const ExecutionContext& context, SampleCache* cache = nullptr);
 
-// The same triangles with the irradiance of their leaves in the solution [W/m^2], indexed by ElementId: flat
-// shading of the constant basis.
+// The same triangles with constant interpolants: the irradiance of each triangle's leaf. `element_irradiance`
+// is indexed by ElementId [W/m^2].
 IrradianceMesh BuildConstantMesh(std::span<const PatchTriangulation> patches,
                                  std::span<const Rgb> element_irradiance);
 

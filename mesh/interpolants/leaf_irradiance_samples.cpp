@@ -17,8 +17,8 @@ LeafIrradianceSamples::LeafIrradianceSamples(const ElementForest& forest, PatchI
 
 Rgb LeafIrradianceSamples::At(ElementId leaf, const Vec3& place) {
   const Element& element = forest_[leaf];
-  // The triangle, of those that the quarters fall into, in which the place lies deepest, or least far
-  // outside.
+  // Of the triangles into which the quarters are divided, the triangle with the largest minimum barycentric
+  // coordinate of the place.
   std::array<Vec3, 3> around;
   Vec3 weights = Vec3::Constant(-std::numeric_limits<double>::infinity());
   for (const std::array<Vec3, 4>& quarter : Quarters(element))
@@ -26,7 +26,7 @@ Rgb LeafIrradianceSamples::At(ElementId leaf, const Vec3& place) {
       const Vec3 a = quarter[0] - place, b = quarter[k] - place, c = quarter[k + 1] - place;
       const Vec3 areas(patch_.normal.dot(b.cross(c)), patch_.normal.dot(c.cross(a)),
                        patch_.normal.dot(a.cross(b)));
-      if (!(areas.sum() > 0)) continue;  // of a leaf that is no wider than a rounding
+      if (!(areas.sum() > 0)) continue;  // a leaf as narrow as rounding errors
       const Vec3 barycentric = areas / areas.sum();
       if (barycentric.minCoeff() <= weights.minCoeff()) continue;
       weights = barycentric;

@@ -1,6 +1,7 @@
 // mesh/interpolants/leaf_irradiance_samples.h
 //
-// How much light there is in places of a leaf, where its mean does not tell: half of it may lie in shadow.
+// Approximate irradiance at points of a leaf, where the leaf's mean is not enough: half of a leaf may lie in
+// shadow.
 
 #pragma once
 
@@ -12,16 +13,16 @@
 
 namespace penumbra {
 
-// Answers for the leaves of one patch, and remembers. Not for several threads at once.
+// Answers for the leaves of one patch, and stores the samples. Not safe from several threads at once.
 class LeafIrradianceSamples {
  public:
-  // All must outlive the object; the forest may not change.
+  // All arguments must outlive the object; the forest must not change.
   LeafIrradianceSamples(const ElementForest& forest, PatchId patch, const IrradianceSampler& sampler);
 
-  // About the irradiance at a place of the leaf, linear between samples at its corners, the middles of its
-  // sides and its middle [W/m^2].
+  // The approximate irradiance at a point of the leaf [W/m^2]: linear between samples at the leaf's corners,
+  // at the midpoints of its sides and at its centre.
   Rgb At(ElementId leaf, const Vec3& place);
-  // Calls of the sampler so far.
+  // Calls of the sampler since construction.
   std::size_t evaluations() const { return samples_.size(); }
 
  private:

@@ -27,14 +27,14 @@ struct Box2 {
 
 constexpr std::uint32_t kLeafSize = 4;
 
-// A node of a patch's tree of boxes; its first child follows it.
+// A node of a patch's tree of boxes. The first child follows its parent in the array.
 struct BoxNode {
   Box2 box;
-  std::uint32_t begin = 0, end = 0;  // triangles in `order`, of a leaf; begin == end: not one
+  std::uint32_t begin = 0, end = 0;  // triangles in `order`, of a leaf; begin == end: no leaf
   std::uint32_t second_child = 0;
 };
 
-// The distance from p to the segment, and its nearest point.
+// The point of the segment that is closest to p.
 Vec2 NearestOnSegment(const Vec2& p, const Vec2& a, const Vec2& b) {
   const Vec2 edge = b - a;
   const double t = std::clamp(edge.dot(p - a) / edge.squaredNorm(), 0.0, 1.0);
@@ -49,9 +49,9 @@ struct MeshLocator::Impl {
   std::vector<Frame> frames;                 // per patch
   std::vector<double> margin;                // per patch [m]
   std::vector<std::array<Vec2, 3>> corners;  // per triangle
-  std::vector<std::uint32_t> order;          // triangles, as the trees sort them
+  std::vector<std::uint32_t> order;          // triangles in the order of the trees
   std::vector<BoxNode> nodes;
-  std::vector<std::uint32_t> root;  // per patch, in nodes; nodes.size() of the time: no triangles
+  std::vector<std::uint32_t> root;  // per patch, index in nodes; meaningless without triangles
   std::vector<bool> has_triangles;
 
   Impl(const Scene& s, const IrradianceMesh& m) : scene(s), mesh(m) {
@@ -110,7 +110,7 @@ struct MeshLocator::Impl {
     Build(half, end);
   }
 
-  // Calls visit(triangle) for the triangles whose boxes come within `reach` of p.
+  // Calls visit(triangle) for the triangles in boxes within `reach` of p.
   template <class Visit>
   void ForEachNear(std::uint32_t index, const Vec2& p, double reach, const Visit& visit) const {
     const BoxNode& node = nodes[index];
@@ -132,7 +132,7 @@ std::optional<MeshLocator::Location> MeshLocator::Find(PatchId patch, const Vec3
   if (!impl_->has_triangles[patch]) return std::nullopt;
   const Vec2 p = impl_->frames[patch].ToPlane(point);
   const double reach = std::max(tolerance, impl_->margin[patch]);
-  // The distance to the triangle, or minus the depth in it in barycentric coordinates.
+  // The distance to the triangle, and the smallest barycentric coordinate of a point inside.
   double best_distance = reach, best_depth = -1;
   std::optional<std::uint32_t> best;
   Vec2 best_point = p;
@@ -167,7 +167,7 @@ std::optional<MeshLocator::Location> MeshLocator::Find(PatchId patch, const Vec3
   const double area = Cross2(c[1] - c[0], c[2] - c[0]);
   Location at;
   at.triangle = *best;
-  if (!(area > 0)) return at;  // its first corner: it is no wider than a rounding
+  if (!(area > 0)) return at;  // the first corner: the triangle is as narrow as rounding errors
   at.s = std::clamp(Cross2(best_point - c[0], c[2] - c[0]) / area, 0.0, 1.0);
   at.t = std::clamp(Cross2(c[1] - c[0], best_point - c[0]) / area, 0.0, 1.0 - at.s);
   return at;

@@ -1,6 +1,6 @@
 // mesh/interpolants/mesh_locator.h
 //
-// Which triangle of an irradiance mesh holds a point, and where in it.
+// Finds the triangle of an irradiance mesh that contains a point, and the point's barycentric coordinates.
 
 #pragma once
 
@@ -17,21 +17,22 @@ class MeshLocator {
  public:
   struct Location {
     std::uint32_t triangle = 0;  // in IrradianceMesh::triangles
-    double s = 0, t = 0;         // barycentric, as the interpolant wants them: s, t >= 0, s + t <= 1
+    double s = 0, t = 0;         // coordinates of the interpolant: s, t >= 0, s + t <= 1
   };
 
-  // How far outside a patch's triangles a point may lie to be on its border, in units of SnapDistance().
+  // The distance from a patch's triangles, in units of SnapDistance(), up to which a point counts as on their
+  // border.
   static constexpr double kBorder = 16;
 
-  // Both must outlive the locator.
+  // Scene and mesh must outlive the locator.
   MeshLocator(const Scene& scene, const IrradianceMesh& mesh);
   ~MeshLocator();
   MeshLocator(MeshLocator&&) noexcept;
 
-  // The triangle of the patch that holds the point, whose height above the patch does not matter. Of several
-  // the one in which it lies deepest, then the lowest index. Nothing if the point lies outside the patch by
-  // more than max(tolerance, kBorder * SnapDistance()) [m]; within that it is moved to the border. Safe from
-  // any thread.
+  // The triangle of the patch that contains the point's projection on the patch. If several do, the one with
+  // the largest minimum barycentric coordinate; if these are equal, the one with the lowest index. A point
+  // outside the patch by at most max(tolerance, kBorder * SnapDistance()) [m] is moved to the border; a point
+  // farther outside gives no location. Safe from any thread.
   std::optional<Location> Find(PatchId patch, const Vec3& point, double tolerance = 0) const;
 
  private:
@@ -39,7 +40,7 @@ class MeshLocator {
   std::unique_ptr<Impl> impl_;
 };
 
-// The interpolant's value there [W/m^2]; it may dip below zero beside a dark place.
+// The interpolant's value at the location [W/m^2]. The value may be negative near dark places.
 Rgb IrradianceAt(const IrradianceMesh& mesh, const MeshLocator::Location& at);
 
 }  // namespace penumbra

@@ -12,21 +12,22 @@
 
 namespace penumbra {
 
-// The order of the six samples (thesis 3.3): vertices and edge midpoints in turn, from vertex 0 along edge
-// 01.
+// The coordinates (s, t) of the six samples in their order (thesis 3.3): vertices and midpoints of edges in
+// turn, starting at vertex 0 along edge 01.
 inline constexpr std::array<std::array<double, 2>, 6> kSampleAt = {
     {{0, 0}, {0.5, 0}, {1, 0}, {0.5, 0.5}, {0, 1}, {0, 0.5}}};
 
-// R(s, t) = a s^2 + b2 s t + c2 s + d t^2 + e2 t + f, in W/m^2 for each channel. The doubled coefficients 2B,
-// 2C and 2E are what is stored, as in the thesis.
+// R(s, t) = a s^2 + b2 s t + c2 s + d t^2 + e2 t + f, in W/m^2 for each channel. As in the thesis, the
+// members are the doubled coefficients b2 = 2B, c2 = 2C and e2 = 2E.
 struct QuadraticInterpolant {
   Rgb a = Rgb::Zero(), b2 = Rgb::Zero(), c2 = Rgb::Zero(), d = Rgb::Zero(), e2 = Rgb::Zero(), f = Rgb::Zero();
 
   Rgb At(double s, double t) const { return (a * s + b2 * t + c2) * s + (d * t + e2) * t + f; }
 
-  // Through six samples in the order of kSampleAt; quadratic data are reproduced to rounding.
+  // The quadratic through six samples in the order of kSampleAt. Samples of a quadratic reproduce it up to
+  // rounding.
   static QuadraticInterpolant Quadratic(const std::array<Rgb, 6>& r);
-  // Through the samples at the three vertices.
+  // The linear interpolant through samples at the three vertices.
   static QuadraticInterpolant Linear(const std::array<Rgb, 3>& r);
   static QuadraticInterpolant Constant(const Rgb& r);
 };

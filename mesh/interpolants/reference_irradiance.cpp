@@ -8,7 +8,7 @@
 namespace penumbra {
 namespace {
 
-constexpr double kDarkest = 0.05;  // of the mean: a leaf's mean is all that is known of its dark places
+constexpr double kDarkest = 0.05;  // of the mean: the lower bound for leaves, whose dark places are unknown
 
 }  // namespace
 

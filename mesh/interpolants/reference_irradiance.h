@@ -1,6 +1,7 @@
 // mesh/interpolants/reference_irradiance.h
 //
-// Errors of what is shown are relative: on a leaf they count beside the light that the solution gives it.
+// Factors that make errors of the shown irradiance relative to the irradiance that the solution has on a
+// leaf.
 
 #pragma once
 
@@ -14,26 +15,29 @@ namespace penumbra {
 
 class ReferenceIrradiance {
  public:
-  // The solution must outlive it. The thesis's weight does not tell of errors: it counts alike everywhere.
+  // The solution must outlive the object. With the thesis's weight, which does not measure errors, all
+  // factors are 1.
   ReferenceIrradiance(const RadiositySolution& solution, DiscontinuityWeight weight);
 
-  // How many times an error counts on a leaf of the forest, which was grown from the solution's: once at the
-  // mean irradiance, more often in the dark.
+  // The factor of errors on a leaf of the forest, which must be the solution's forest or grown from it: (mean
+  // irradiance over the scene's leaves) / (irradiance of the leaf, bounded from below), so that dark leaves
+  // have factors above 1.
   double ScaleOf(const ElementForest& forest, ElementId leaf) const;
-  // The same where there is this irradiance [W/m^2], which may be darker than the mean of any leaf.
+  // The factor for errors at a point with irradiance `light` [W/m^2], which may be darker than any leaf's
+  // mean.
   double ScaleIn(const Rgb& light) const;
-  // The largest on the patch, of its leaves.
+  // The largest factor over the leaves of the patch.
   double LargestScale(PatchId patch) const;
-  // The options to find all that may become an edge by the light of the patch's leaves, if only because
-  // refinement asks for it.
+  // The options with a minimum weight that finds all discontinuities that may become edges on the patch,
+  // given the irradiance of its leaves, even if only because refinement requests them.
   DiscontinuityOptions ToFindOn(PatchId patch, DiscontinuityOptions options) const;
 
  private:
   double Scale(double light, double darkest) const;
 
   const RadiositySolution& solution_;
-  std::vector<double> darkest_;  // leaf of each patch, by its brightest channel [W/m^2]
-  double mean_ = 0;              // over the leaves; 0: all count once [W/m^2]
+  std::vector<double> darkest_;  // darkest leaf of each patch, by its brightest channel [W/m^2]
+  double mean_ = 0;              // over the leaves [W/m^2]; 0: all factors are 1
 };
 
 }  // namespace penumbra

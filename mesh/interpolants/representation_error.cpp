@@ -14,21 +14,22 @@ namespace penumbra {
 namespace {
 
 constexpr std::size_t kPointsATask = 16;
-// Further points in each part of the scene: so many if there are few parts, so many of all parts together,
-// and so many at least. A part that seems to err by too much gets more: what few points see may be bad luck.
+// Additional points in each part of the scene: kPartPoints, but at most kAllPartPoints for all parts
+// together, and at least kFewestPartPoints. A part whose error seems too large gets kSuspectPoints more,
+// because the result for few points may be an accident.
 constexpr std::size_t kPartPoints = 20, kAllPartPoints = 160, kFewestPartPoints = 4, kSuspectPoints = 300;
 
-// The share of values that a 99th percentile has below it and above it.
+// The fractions of values below and above the 99th percentile.
 constexpr double kP99 = 0.99, kAboveP99 = 0.01;
 
-// What is found at some points.
+// The values at the points of a measurement.
 struct Values {
   std::vector<SurfacePoint> at;
   std::vector<Rgb> shown, exact;         // [W/m^2]
-  std::vector<std::vector<Rgb>> truths;  // by each of the better samplers
+  std::vector<std::vector<Rgb>> truths;  // from each of the better samplers
 };
 
-// Adds what is found at further points.
+// Appends the values at additional points.
 void Evaluate(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
               std::span<const IrradianceSampler> better, std::span<const SurfacePoint> points,
               Values& values) {
@@ -48,13 +49,13 @@ void Evaluate(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSa
     values.exact[i] = sampler(at.patch, receiver).irradiance;
     for (std::size_t k = 0; k < better.size(); ++k)
       values.truths[k][i] = better[k](at.patch, receiver).irradiance;
-    // A face that is narrower than the mesh resolves shows nothing that could be wrong.
+    // A face that is narrower than the mesh's resolution shows nothing, and counts as exact.
     const auto place = locator.Find(at.patch, at.position);
     values.shown[i] = place ? Rgb(IrradianceAt(mesh, *place).max(0.0)) : values.exact[i];
   });
 }
 
-// Of the errors of values at these points.
+// Statistics of the errors of values at these points.
 RepresentationError Summarise(const Scene& scene, std::span<const SurfacePoint> at,
                               std::span<const ValueError> errors) {
   RepresentationError error;
@@ -80,14 +81,14 @@ RepresentationError Summarise(const Scene& scene, std::span<const SurfacePoint> 
   return error;
 }
 
-// Of two lists of the same values the larger errors; the second may be empty at first.
+// Replaces each error in `largest` by the larger of the two lists' errors. `largest` may be empty initially.
 void KeepLarger(const std::vector<ValueError>& errors, std::vector<ValueError>& largest) {
   if (largest.empty()) largest = errors;
   for (std::size_t i = 0; i < errors.size(); ++i)
     largest[i].error = std::max(largest[i].error, errors[i].error);
 }
 
-// So many random points in a part of the scene; none where it is not seen.
+// `count` random points in a part of the scene; none if the part is not seen.
 std::vector<SurfacePoint> SpreadOverPart(const Scene& scene, std::span<const double> areas,
                                          const ScenePart& part, std::size_t count, std::uint64_t seed) {
   std::vector<double> weights(areas.size(), 0.0);
@@ -98,7 +99,7 @@ std::vector<SurfacePoint> SpreadOverPart(const Scene& scene, std::span<const dou
   return SpreadPoints(scene, weights, count, seed + 1 + static_cast<std::uint64_t>(part.patches[0]));
 }
 
-// The errors of the values, sorted into the parts that their points lie in; parts without any are left out.
+// Groups the errors by the parts that contain their points, without parts that contain none.
 std::vector<PartError> SummariseParts(const Scene& scene, std::span<const ScenePart> parts,
                                       std::span<const SurfacePoint> at, std::span<const ValueError> errors) {
   std::vector<std::size_t> part_of(scene.patches.size());
@@ -113,8 +114,7 @@ std::vector<PartError> SummariseParts(const Scene& scene, std::span<const SceneP
   return by_part;
 }
 
-// Measures part by part, at the points that are there and at further ones, which `evaluate` adds to the
-// values.
+// Measures each part at the existing points and at additional points, whose values `evaluate` appends.
 std::vector<PartError> MeasureParts(const Scene& scene,
                                     const std::function<void(std::span<const SurfacePoint>)>& evaluate,
                                     std::uint64_t seed, double bound, const Values& values) {
@@ -202,7 +202,8 @@ MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const
   const std::vector<double> areas = ReflectingAreas(scene);
   Values values;
   Evaluate(scene, mesh, sampler, better, SpreadPoints(scene, areas, points, seed), values);
-  // Means are those of the first points, which spread evenly; so are all figures but those of parts.
+  // The first points, which are distributed uniformly, determine means and all statistics except those of
+  // parts.
   const auto first = [&](const std::vector<Rgb>& of) { return std::span(of).first(points); };
   const std::span<const SurfacePoint> evenly = std::span(values.at).first(points);
   error.interpolant =

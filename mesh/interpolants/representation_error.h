@@ -1,7 +1,7 @@
 // mesh/interpolants/representation_error.h
 //
-// The error of what is shown: interpolants against the irradiance itself, at points that the construction
-// never used.
+// The error of the shown irradiance: interpolants compared with exact irradiance, at points other than the
+// interpolation nodes.
 
 #pragma once
 
@@ -18,33 +18,34 @@
 
 namespace penumbra {
 
-// Of the mean irradiance of a channel: errors where it is darker are relative to this.
+// A fraction of the channel's mean irradiance: errors at darker points are relative to this value.
 inline constexpr double kErrorFloor = 0.01;
 
-// No part of the scene may err by more than so many times the error asked for, at its 99th percentile.
+// The largest 99th percentile of errors in a part of the scene, as a multiple of the requested error.
 inline constexpr double kPartError = 2;
 
-// Statistics over points and channels of |shown - true| / max(true, 1 % of that channel's mean irradiance).
+// Statistics over points and channels of |shown - true| / max(true, kErrorFloor * the channel's mean
+// irradiance).
 struct RepresentationError {
   std::size_t points = 0;
   double max = 0, p99 = 0, p95 = 0, rms = 0;
-  // What the 99th percentile of all points may well be: a standard deviation more of the points lie above, or
-  // one point and a standard deviation fewer.
+  // Likely bounds of the true 99th percentile: the quantiles 0.99 + sigma and 0.99 - sigma - 1 / points,
+  // where sigma = sqrt(0.99 * 0.01 / points) is the standard deviation of the fraction of points above.
   double p99_at_most = 0, p99_at_least = 0;
-  std::int32_t worst_face = -1;     // where the largest error was seen, as users count faces
+  std::int32_t worst_face = -1;     // face with the largest error, in the user's numbering
   Vec3 worst_point = Vec3::Zero();  // [m]
 };
 
-// Light that is less than this is none, 1e-10 of what the strongest emitter sends out [W/m^2]: faces that lie
-// in one plane, but for the six decimals of their file, bend by 1e-6 and see some 1e-12 of each other.
+// The irradiance that counts as none: 1e-10 of the largest emittance [W/m^2]. Coplanar faces whose vertices
+// are rounded to six decimals in a file deviate by angles of 1e-6, and their form factors are about 1e-12.
 Rgb NoLight(const Scene& scene);
 
-// Point by point, the channels of a point in turn. The means are those of `truth`; where they are less than
-// `least`, that counts.
+// The relative errors: for each point, those of the three channels. An error is |shown - true| / max(true,
+// floor), where floor = max(kErrorFloor * the channel's mean over `truth`, `least`).
 std::vector<double> RelativeErrors(std::span<const Rgb> shown, std::span<const Rgb> truth,
                                    const Rgb& least = Rgb::Zero());
 
-// The value that the fraction q of them does not pass. REQUIRES: some.
+// The smallest of the values that a fraction q of them does not exceed. REQUIRES: there are values.
 double Quantile(std::vector<double> values, double q);
 
 // The error of one channel at one point.
@@ -53,44 +54,43 @@ struct ValueError {
   std::size_t point = 0;
 };
 
-// The same errors without those of channels that the surface of a point does not reflect
-// (ReflectingChannels).
+// The same errors, without the channels that the surface of a point does not reflect (ReflectingChannels).
 std::vector<ValueError> SeenErrors(const Scene& scene, std::span<const SurfacePoint> at,
                                    std::span<const Rgb> shown, std::span<const Rgb> truth);
-// 0 without values.
+// The same quantile of the errors; 0 without values.
 double Quantile(std::span<const ValueError> values, double q);
 
-// How one part of the scene (PartsOf) does.
+// The error in one part of the scene (PartsOf).
 struct PartError {
   std::string name;
-  std::size_t part = 0;  // of PartsOf()
+  std::size_t part = 0;  // index in PartsOf()
   RepresentationError whole;
 };
 
 struct MeasuredError {
-  RepresentationError interpolant;  // of the interpolants, against exact irradiance under the same sources
+  RepresentationError interpolant;  // interpolants compared with exact irradiance from the same sources
   RepresentationError
-      sources;  // of that, against exact irradiance under better sources, whichever differs more
-  RepresentationError whole;       // of the interpolants, against the latter
-  double above = 0;                // the share of the latter's values that are above `bound`
-  std::vector<PartError> by_part;  // of the latter: parts that are seen
+      sources;  // that irradiance compared with exact irradiance from better sources, whichever differs most
+  RepresentationError whole;       // interpolants compared with exact irradiance from better sources
+  double above = 0;                // fraction of the values of `whole` above `bound`
+  std::vector<PartError> by_part;  // `whole` for each part that is seen
 };
 
-// At which points errors are measured.
+// Where errors are measured.
 struct ErrorMeasurement {
   std::size_t points = 0;
   std::uint64_t seed = 0;
-  double bound = 0;  // of errors: MeasuredError::above counts what is above it
+  double bound = 0;  // of errors: MeasuredError::above counts larger ones
 };
 
-// Measures at so many random points that spread evenly by area over the fronts that are seen
-// (ReflectingAreas), and at further ones in each part of the scene, so that no large one speaks for a small
-// one. The same seed gives the same points. Points are offset from all interpolation nodes with probability
-// one. Without `better` sources the others are left empty.
+// Measures errors at `points` random points, distributed uniformly by area over the fronts that are seen
+// (ReflectingAreas), and at additional points in each part of the scene, so that a large part does not hide
+// the errors of a small part. The same seed gives the same points. With probability one, no point is an
+// interpolation node. Without `better` samplers, only MeasuredError::interpolant is filled in.
 MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
                            std::span<const IrradianceSampler> better, const ErrorMeasurement& measurement);
 
-// The first of these.
+// MeasuredError::interpolant of MeasureError().
 RepresentationError MeasureRepresentationError(const Scene& scene, const IrradianceMesh& mesh,
                                                const IrradianceSampler& sampler, std::size_t points,
                                                std::uint64_t seed);

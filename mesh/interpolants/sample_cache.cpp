@@ -8,7 +8,7 @@ std::size_t SampleCache::Hash::operator()(const Key& key) const {
   std::uint64_t h = static_cast<std::uint32_t>(key.patch);
   for (const Vec3* v : {&key.position, &key.approach})
     for (int i = 0; i < 3; ++i) {
-      // Adding 0 makes the two zeros one.
+      // Adding 0 gives both zeros the same bits.
       h ^= std::bit_cast<std::uint64_t>((*v)[i] + 0.0);
       h *= 0x9E3779B97F4A7C15ULL;
       h ^= h >> 29;

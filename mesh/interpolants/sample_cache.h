@@ -1,8 +1,8 @@
 // mesh/interpolants/sample_cache.h
 //
-// Irradiance samples that outlive a mesh: when leaves are divided, or lines added, most nodes stay where they
-// are. A sample is known by its patch and position, to the bit; where the side matters also by the direction
-// of approach, which names the sheet that it belongs to.
+// Irradiance samples that remain valid from one mesh to the next: most nodes keep their places when leaves
+// are divided or lines added. The key of a sample is its patch and its exact position. The key of a one-sided
+// sample also has the direction of approach, which identifies the sample's sheet.
 
 #pragma once
 
@@ -16,17 +16,17 @@ namespace penumbra {
 
 class SampleCache {
  public:
-  // The sample of that node; null if it is not known.
+  // The sample at this node; null if it is unknown.
   const PointIrradianceResult* Find(PatchId patch, const ReceiverPoint& at) const;
   void Insert(PatchId patch, const ReceiverPoint& at, const PointIrradianceResult& sample);
-  // Forgets all: the sources have changed.
+  // Removes all samples: for use after the sources have changed.
   void Clear();
   std::size_t size() const { return samples_.size(); }
 
  private:
   struct Key {
     PatchId patch = kNoPatch;
-    Vec3 position, approach;  // approach is zero for what does not depend on it
+    Vec3 position, approach;  // approach is zero for samples that do not depend on it
     bool operator==(const Key& other) const = default;
   };
   struct Hash {

@@ -24,7 +24,7 @@ std::vector<std::array<double, 2>> PlacesOfSamples(int samples) {
   std::vector<std::array<double, 2>> places;
   for (int row = 0; row < samples; ++row)
     for (int k = 0; k < 2 * (samples - row) - 1; ++k) {
-      // Upright pieces and, between two of them, one upside down.
+      // Upright pieces and, between each two of them, one upside down.
       const double third = k % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
       places.push_back({(k / 2 + third) / samples, (row + third) / samples});
     }
@@ -35,7 +35,7 @@ double TwiceArea(const IrradianceMesh& mesh, std::uint32_t t) {
   return (Corner(mesh, t, 1) - Corner(mesh, t, 0)).cross(Corner(mesh, t, 2) - Corner(mesh, t, 0)).norm();
 }
 
-// The gradient of the interpolant in space [W/m^3]: one row a channel.
+// The gradient of the interpolant in space [W/m^3]: one row per channel.
 Eigen::Matrix3d GradientAt(const IrradianceMesh& mesh, std::uint32_t t, double s, double u) {
   const QuadraticInterpolant& q = mesh.irradiance[t];
   const Rgb ds = 2 * q.a * s + q.b2 * u + q.c2, dt = q.b2 * s + 2 * q.d * u + q.e2;
@@ -100,7 +100,7 @@ MeasuredTriangles MeasureTriangles(const Scene& scene, const IrradianceMesh& mes
 
 std::vector<double> GuessTriangleErrors(const Scene& scene, const IrradianceMesh& mesh, const Rgb& mean) {
   std::vector<double> guess(mesh.triangles.size(), 0.0);
-  // By edge, the first triangle that has it and which of its edges it is.
+  // For each edge, the first triangle that has it, and the edge's number there.
   std::unordered_map<std::uint64_t, std::pair<std::uint32_t, int>> first;
   first.reserve(2 * mesh.triangles.size());
   constexpr double kPlace[3][2][2] = {{{0, 0}, {1, 0}}, {{1, 0}, {0, 1}}, {{0, 1}, {0, 0}}};
@@ -119,7 +119,7 @@ std::vector<double> GuessTriangleErrors(const Scene& scene, const IrradianceMesh
           along.cross(scene.patches[static_cast<std::size_t>(triangle.patch)].normal).normalized();
       for (int end = 0; end < 2; ++end) {
         const double* here = kPlace[k][end];
-        const double* there = kPlace[edge][1 - end];  // the other side runs the other way
+        const double* there = kPlace[edge][1 - end];  // the other triangle traverses the edge in reverse
         const Vec3 jump =
             (GradientAt(mesh, t, here[0], here[1]) - GradientAt(mesh, other, there[0], there[1])) * across;
         const Rgb value = mesh.irradiance[t].At(here[0], here[1]).max(kErrorFloor * mean);
@@ -127,7 +127,8 @@ std::vector<double> GuessTriangleErrors(const Scene& scene, const IrradianceMesh
           const Vec3 n = (Corner(mesh, side, 1) - Corner(mesh, side, 0))
                              .cross(Corner(mesh, side, 2) - Corner(mesh, side, 0));
           const double height = n.norm() / along.norm();
-          // A cubic x^3 with nodes at 0, h/2, h is h^3 sqrt(3)/36 off; its interpolants' slopes jump by h^2.
+          // The error of a cubic x^3 with nodes at 0, h/2 and h is h^3 sqrt(3)/36; the slopes of its
+          // interpolants jump by h^2.
           constexpr double kCubic = 0.048;
           for (int c = 0; c < 3; ++c)
             if (value[c] > 0)

@@ -1,7 +1,7 @@
 // mesh/interpolants/triangle_error.h
 //
-// How far a triangle's interpolant is from the irradiance: representation error (thesis 4.4.2), measured at
-// extra points of it.
+// Representation error (thesis 4.4.2): the difference between a triangle's interpolant and the irradiance,
+// measured at additional points of the triangle.
 
 #pragma once
 
@@ -15,38 +15,40 @@
 
 namespace penumbra {
 
-// Relative to max(true, 1 % of the channel's mean), over the extra points and the channels.
+// Errors relative to max(true, kErrorFloor * the channel's mean), over the additional points and the
+// channels.
 struct TriangleError {
   double max = 0, rms = 0;
 };
 
 struct MeasuredTriangles {
-  std::vector<TriangleError> errors;  // one a triangle of the mesh; zeros for those left out
+  std::vector<TriangleError> errors;  // one per triangle of the mesh; zero for triangles not measured
   std::size_t point_evaluations = 0;
 };
 
 struct TriangleSampling {
-  int samples = 1;  // along each side of a triangle
-  Rgb mean;         // the channels' mean irradiance [W/m^2]
+  int samples = 1;  // per side of a triangle
+  Rgb mean;         // mean irradiance of each channel [W/m^2]
 };
 
-// At samples x samples points of each triangle named: the centroids of what lines parallel to two of its
-// sides cut it into, each half of a parallelogram counted by its area (SAMPLES of the thesis, Appendix A).
-// Points that the cache knows are not evaluated again. REQUIRES: samples >= 1.
+// Measures the listed triangles at samples^2 points each: the centroids of the congruent pieces into which
+// lines parallel to the sides cut a triangle (SAMPLES of the thesis, Appendix A). Points in the cache are not
+// evaluated again. REQUIRES: samples >= 1.
 MeasuredTriangles MeasureTriangles(const Scene& scene, const IrradianceMesh& mesh,
                                    std::span<const std::uint32_t> triangles, const TriangleSampling& sampling,
                                    const IrradianceSampler& sampler, SampleCache* cache = nullptr);
 
-// What the interpolants alone tell, at no evaluation: where the irradiance is smooth its gradient is, too, so
-// that the jump of the interpolants' gradient across an edge tells how far they are off. In the units of
-// TriangleError::max; a guide to where to measure. Edges on discontinuities tell nothing.
+// Estimates of TriangleError::max from the interpolants alone, without evaluations. Where the irradiance is
+// smooth, so is its gradient; the jump of the interpolants' gradient across an edge therefore indicates their
+// error. The estimates show where to measure. Edges on discontinuities contribute nothing. `mean` is the
+// channels' mean irradiance [W/m^2].
 std::vector<double> GuessTriangleErrors(const Scene& scene, const IrradianceMesh& mesh, const Rgb& mean);
 
-// Of each patch the area of the triangles whose largest error is above that [m^2].
+// For each patch, the area of the triangles whose TriangleError::max is above `error` [m^2].
 std::vector<double> AreaAbove(const Scene& scene, const IrradianceMesh& mesh,
                               std::span<const TriangleError> errors, double error);
 
-// The area-weighted mean of the interpolants over the patches that are seen (ReflectingAreas), by channel
+// The area-weighted mean of the interpolants over the patches that are seen (ReflectingAreas), per channel
 // [W/m^2].
 Rgb MeanIrradiance(const Scene& scene, const IrradianceMesh& mesh);
 

@@ -1,7 +1,7 @@
 // mesh/interpolants/triangle_quality.h
 //
-// How well shaped the triangles of a mesh are. Slivers cost samples that tell little, and the quadratic of a
-// long triangle follows the irradiance along it no better than that of a short one.
+// The shapes of a mesh's triangles. Slivers need samples that add little information, and the quadratic of a
+// long triangle follows the irradiance along the triangle no better than the quadratic of a short one.
 
 #pragma once
 
@@ -11,14 +11,14 @@
 
 namespace penumbra {
 
-// Over the triangles of a mesh. The aspect of a triangle is its longest side over the height on that side, as
-// a multiple of an equilateral one's: 1 at best. All zero without triangles.
+// Statistics over the triangles of a mesh. The aspect of a triangle is (longest side / height on that side),
+// divided by the same ratio of an equilateral triangle; 1 is the best. All zero for an empty mesh.
 struct TriangleQuality {
-  double smallest_angle = 0;   // of all [degrees]
-  double median_angle = 0;     // of the triangles' smallest angles [degrees]
-  double below_5_degrees = 0;  // share of triangles with an angle below that
-  double slim_area = 0;        // their share of the area
-  // Shares of triangles whose smallest angle lies in [0, 10), [10, 20) ... [50, 60] degrees.
+  double smallest_angle = 0;   // of all triangles [degrees]
+  double median_angle = 0;     // median of the triangles' smallest angles [degrees]
+  double below_5_degrees = 0;  // fraction of triangles with an angle below 5 degrees
+  double slim_area = 0;        // area of these triangles / total area
+  // Fractions of triangles whose smallest angle lies in [0, 10), [10, 20) ... [50, 60] degrees.
   std::array<double, 6> angle_share = {};
   double median_aspect = 0, aspect_p95 = 0;
 };

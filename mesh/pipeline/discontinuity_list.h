@@ -1,6 +1,7 @@
 // mesh/pipeline/discontinuity_list.h
 //
-// All discontinuities of a solution in one list, to look at: the mesh finds them receiver by receiver.
+// All discontinuities of a solution in one list, for inspection. (The mesh finds discontinuities separately
+// for each receiver.)
 
 #pragma once
 
@@ -16,12 +17,12 @@
 namespace penumbra {
 
 struct DiscontinuityList {
-  std::vector<Discontinuity> all;         // by receiver
-  std::vector<std::array<Vec3, 2>> ends;  // of each, in space [m]
+  std::vector<Discontinuity> all;         // in the order of receivers
+  std::vector<std::array<Vec3, 2>> ends;  // of each discontinuity, in space [m]
 };
 
-// What may become an edge of the mesh, if only because refinement asks for it: what
-// DiscontinuityFinder::Find() finds on all patches, for the radiosities of the solution. None, if it was
+// The discontinuities on all patches that may become edges of the mesh, even if only because refinement
+// requests them: the results of DiscontinuityFinder::Find() for the solution's radiosities. Empty if
 // cancelled.
 DiscontinuityList ListDiscontinuities(const RadiositySolution& solution, const PatchVisibility& visibility,
                                       const DiscontinuityOptions& options, const ExecutionContext& context);

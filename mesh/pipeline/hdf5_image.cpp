@@ -13,27 +13,27 @@
 namespace penumbra {
 namespace {
 
-constexpr std::size_t kGrowth = std::size_t{1} << 20;            // of the image in memory [bytes]
-constexpr std::size_t kChunk = std::size_t{1} << 20;             // what is compressed at a time [bytes]
+constexpr std::size_t kGrowth = std::size_t{1} << 20;  // step by which the image in memory grows [bytes]
+constexpr std::size_t kChunk = std::size_t{1} << 20;   // unit of compression [bytes]
 constexpr std::size_t kWorthCompressing = std::size_t{1} << 12;  // [bytes]
-// Of an office of 13,551 triangles: 3.41 MB without, 1.60 in 0.04 s with level 1, 1.57 with 6, 1.56 in 0.25 s
-// with 9.
+// For an office of 13,551 triangles: 3.41 MB without compression, 1.60 MB in 0.04 s at level 1, 1.57 MB at
+// level 6, 1.56 MB in 0.25 s at level 9.
 constexpr unsigned kDeflateLevel = 1;
 
-// Held during every call of the library, which serves one thread at a time.
+// Every call of the library must hold this lock, because the library serves one thread at a time.
 std::unique_lock<std::recursive_mutex> HoldLibrary() {
   static std::recursive_mutex library;
   return std::unique_lock(library);
 }
 
-// For a file in memory. Of one name there is one file: to open it again is to share it. Called with the
-// library held.
+// A new name for a file in memory. Files with equal names would be shared. REQUIRES: the caller holds the
+// lock of the library.
 std::string NewName() {
   static std::uint64_t count = 0;
   return "solution " + std::to_string(count++);
 }
 
-// Whether what the library failed at last was to get memory.
+// True if the library's last failure was a failed allocation.
 bool MemoryEnded() {
   bool ended = false;
   H5Ewalk2(
@@ -48,13 +48,13 @@ bool MemoryEnded() {
   return ended;
 }
 
-// Throws Hdf5Error, or std::bad_alloc where that is the reason.
+// Throws std::bad_alloc after a failed allocation, otherwise Hdf5Error.
 [[noreturn]] void FailOver(const std::string& what) {
   if (MemoryEnded()) throw std::bad_alloc();
   throw Hdf5Error(what);
 }
 
-// An identifier of the library, closed when it goes out of scope.
+// An identifier of the library, closed at the end of its scope.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
@@ -81,7 +81,7 @@ void Succeed(herr_t status, const std::string& what) {
   if (status < 0) FailOver(what);
 }
 
-// The library prints its errors by itself unless told not to.
+// Stops the library from printing errors, which is its default.
 void Silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 hid_t FileType(ScalarType type) {
@@ -120,11 +120,11 @@ hid_t MemoryType(ScalarType type) {
   return H5I_INVALID_HID;
 }
 
-// Files that live in memory and are never written by the library.
+// Properties of files that exist in memory only.
 Handle MemoryAccess() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "no property list");
   Succeed(H5Pset_fapl_core(access, kGrowth, 0), "no file in memory");
-  // The oldest format: newer ones have checksums that H5Fget_file_image() spoils.
+  // The oldest format: newer formats have checksums, which H5Fget_file_image() makes invalid.
   Succeed(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18), "no such version of the format");
   return access;
 }
@@ -139,7 +139,7 @@ Handle WithoutTimes(hid_t kind) {
 
 struct Hdf5Writer::Impl {
   Handle file;
-  Handle links;  // how paths are made: with the groups on the way
+  Handle links;  // creates paths with all groups on the way
 
   void MakeGroups(const std::string& path) const {
     for (std::size_t at = path.find('/'); at != path.npos; at = path.find('/', at + 1)) {
@@ -216,7 +216,7 @@ std::string Hdf5Writer::Finish() {
 
 struct Hdf5Reader::Impl {
   Handle file;
-  std::size_t size;  // of the image [bytes]
+  std::size_t size;  // size of the image [bytes]
 
   Handle Open(const std::string& path) const {
     return Handle(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, path + " is missing");
@@ -227,7 +227,7 @@ Hdf5Reader::Hdf5Reader(std::string_view image) {
   const auto held = HoldLibrary();
   Silence();
   const Handle access = MemoryAccess();
-  // The library copies the image, and takes it as it is.
+  // The library copies the image and does not change it.
   Succeed(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()), "it cannot be read");
   impl_.reset(
       new Impl{Handle(H5Fopen(NewName().c_str(), H5F_ACC_RDONLY, access), H5Fclose, "it is no HDF5 file"),
@@ -248,8 +248,8 @@ ArrayShape Hdf5Reader::Shape(const std::string& path) const {
   std::vector<hsize_t> extent(static_cast<std::size_t>(dimensions));
   if (dimensions > 0 && H5Sget_simple_extent_dims(space, extent.data(), nullptr) != dimensions)
     throw Hdf5Error(path + " has no shape");
-  // Nobody makes room for rows that the file cannot hold.
-  constexpr double kMostDeflated = 1100;  // bytes that a byte may stand for; deflate reaches 1032
+  // Prevents the allocation of rows that the file cannot contain.
+  constexpr double kMostDeflated = 1100;  // upper bound of bytes per compressed byte; deflate reaches 1032
   double bytes = static_cast<double>(H5Tget_size(Handle(H5Dget_type(set), H5Tclose, path)));
   for (const hsize_t n : extent) bytes *= static_cast<double>(n);
   const double stored = static_cast<double>(std::min<hsize_t>(H5Dget_storage_size(set), impl_->size));

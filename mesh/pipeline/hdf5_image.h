@@ -1,8 +1,8 @@
 // mesh/pipeline/hdf5_image.h
 //
-// HDF5 files as bytes in memory: typed arrays under paths such as "mesh/positions". The same arrays, written
-// in the same order, give the same bytes; nothing in them tells of time or place. Several threads may write
-// and read at once, each its own file.
+// HDF5 files as bytes in memory: typed arrays at paths such as "mesh/positions". Equal arrays, written in the
+// same order, give equal bytes; a file contains no times and no file names. Several threads may write and
+// read at the same time, each its own file.
 
 #pragma once
 
@@ -16,13 +16,13 @@
 
 namespace penumbra {
 
-// What the library says against an image that it cannot read.
+// The library's message about an image that it cannot read.
 class Hdf5Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// What arrays hold; little-endian in the file.
+// The types of array elements; little-endian in the file.
 enum class ScalarType : std::uint8_t { kUint8, kInt32, kUint32, kUint64, kFloat, kDouble };
 
 template <class T>
@@ -61,11 +61,11 @@ class Hdf5Writer {
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
-  // An array in row-major order. Large ones are compressed without loss.
+  // Writes an array in row-major order. Large arrays are compressed without loss.
   void Write(const std::string& path, ScalarType type, const ArrayShape& shape, const void* data);
-  // A text, UTF-8, without zero bytes at its end.
+  // Writes a UTF-8 text, which must not end with zero bytes.
   void WriteText(const std::string& path, const std::string& text);
-  // The whole file. Nothing may be written afterwards.
+  // Returns the complete file. Nothing may be written afterwards.
   std::string Finish();
 
  private:
@@ -73,7 +73,7 @@ class Hdf5Writer {
   std::unique_ptr<Impl> impl_;
 };
 
-// All functions throw Hdf5Error where the image does not hold what is asked for.
+// All functions throw Hdf5Error if the image does not contain the requested array or text.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(std::string_view image);
@@ -82,7 +82,7 @@ class Hdf5Reader {
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
 
   ArrayShape Shape(const std::string& path) const;
-  // The array, which must be of just this type and shape.
+  // Reads the array. The array must have exactly this type and shape.
   void Read(const std::string& path, ScalarType type, const ArrayShape& shape, void* data) const;
   std::string ReadText(const std::string& path) const;
 

@@ -1,7 +1,7 @@
 // mesh/pipeline/link_options.h
 //
-// The options of a solve that say how links are made (SolveOption::links_depend). Whoever goes on from the
-// links of another solve keeps that one's.
+// The options of a solve that determine the links (SolveOption::links_depend). A solve that continues from
+// the links of another solve must use that solve's values.
 
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace penumbra {
 
-// Whether `name`, in the words of the command line without its dashes, is one of them.
+// True if `name` is one of these options. `name` is the option's name on the command line without dashes.
 bool IsLinkOption(std::string_view name);
 
-// Gives `to` these options of `from`.
+// Copies these options from `from` to `to`.
 void TakeLinkOptions(const PipelineOptions& from, PipelineOptions* to);
 
 }  // namespace penumbra

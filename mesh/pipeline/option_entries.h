@@ -8,7 +8,7 @@
 
 namespace penumbra {
 
-// What OptionTable() holds: ask that one.
+// The entries of OptionTable(). Other code calls OptionTable() instead.
 std::vector<SolveOption> OptionEntries();
 
 }  // namespace penumbra

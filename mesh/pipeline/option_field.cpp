@@ -12,7 +12,7 @@
 namespace penumbra {
 namespace {
 
-// The shortest text of the number, with exponents as people write them: 1e100, 1e-6.
+// The shortest text of the number, with short exponents: 1e100, 1e-6.
 std::string BoundText(double number) {
   std::array<char, 32> buffer;
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr;

@@ -1,7 +1,6 @@
 // mesh/pipeline/option_field.h
 //
-// One option of a solve: what kind of value it has, what the value may be, and where PipelineOptions holds
-// it.
+// One option of a solve: the type and range of its value, and the place of the value in PipelineOptions.
 
 #pragma once
 
@@ -21,42 +20,42 @@
 
 namespace penumbra {
 
-// The value of any option; a choice is a name.
+// The value of any option. The value of a choice is a name.
 using OptionValue = std::variant<bool, std::uint64_t, double, std::string>;
 
-// The alternatives of OptionValue, in their order.
+// The alternatives of OptionValue, in the same order.
 enum class OptionKind : std::uint8_t { kFlag, kInteger, kNumber, kChoice };
 
 struct OptionField {
   OptionKind kind = OptionKind::kFlag;
-  bool optional = false;                              // it may be left out, and then follows from others
-  NumberRange numbers;                                // what a number may be
-  IntegerRange integers;                              // what an integer may be
+  bool optional = false;  // may be omitted; its value then follows from other options
+  NumberRange numbers;    // range of a number
+  IntegerRange integers;  // range of an integer
   std::function<std::vector<std::string>()> choices;  // the names of a choice; the two words of a flag
-  // The value. Nothing where the option was left out, or where the chosen solver has no place for it.
+  // Returns the value; nothing if the option is omitted, or if the chosen solver has no place for the option.
   std::function<std::optional<OptionValue>(const PipelineOptions&)> get;
-  // Nothing leaves the option out. REQUIRES: the value is of the kind; it is there unless the option is
-  // optional; the chosen solver has a place for it.
+  // Sets the value; without a value, omits the option. REQUIRES: the value is of this kind; a value is given
+  // unless the option is optional; the chosen solver has a place for the option.
   std::function<void(const std::optional<OptionValue>&, PipelineOptions*)> set;
 };
 
-// What the value may be, in words that follow "is not": "a number from 1e-6 to 10".
+// A description of the allowed values that can follow "is not": "a number from 1e-6 to 10".
 std::string AllowedValues(const OptionField& field);
-// The value that the whole text is. Throws InputError, "'TEXT' is not a number from 1e-6 to 10", if it is
-// none or one that the option may not have.
+// The value of the complete text. Throws InputError, for example "'TEXT' is not a number from 1e-6 to 10", if
+// the text is not an allowed value.
 OptionValue ParseValue(const OptionField& field, std::string_view text);
-// The text that ParseValue() reads back as the value.
+// The text that ParseValue() converts back to the value.
 std::string ValueText(const OptionField& field, const OptionValue& value);
 
-// How fields are made. A `place` is a pointer to a member of PipelineOptions, or a function from
-// PipelineOptions& (const or not) to a reference: to a value, or to an optional one.
+// Functions that make fields. A `place` is a pointer to a member of PipelineOptions, or a function from
+// PipelineOptions& (const or not) to a reference to a value or to an optional value.
 
 template <class Type>
 inline constexpr bool kIsOptional = false;
 template <class Type>
 inline constexpr bool kIsOptional<std::optional<Type>> = true;
 
-// A field whose `to_value` and `from_value` turn what the place holds into an OptionValue and back.
+// A field with conversions from the type in the place to OptionValue and back.
 template <class Place, class ToValue, class FromValue>
 OptionField MakeField(OptionKind kind, Place place, ToValue to_value, FromValue from_value) {
   using Held = std::remove_cvref_t<std::invoke_result_t<Place, PipelineOptions&>>;
@@ -81,7 +80,7 @@ OptionField MakeField(OptionKind kind, Place place, ToValue to_value, FromValue 
   return field;
 }
 
-// Of a bool. `off` and `on` are the words of its values.
+// The field of a bool. `off` and `on` are the words for its values.
 template <class Place>
 OptionField FlagField(Place place, const char* off = "off", const char* on = "on") {
   OptionField field = MakeField(
@@ -91,7 +90,7 @@ OptionField FlagField(Place place, const char* off = "off", const char* on = "on
   return field;
 }
 
-// Of a double.
+// The field of a double.
 template <class Place>
 OptionField NumberField(Place place, NumberRange range) {
   OptionField field = MakeField(
@@ -101,7 +100,7 @@ OptionField NumberField(Place place, NumberRange range) {
   return field;
 }
 
-// Of an integer type, which holds the whole range.
+// The field of an integer. The type must hold the whole range.
 template <class Place>
 OptionField IntegerField(Place place, IntegerRange range) {
   using Held = std::remove_cvref_t<std::invoke_result_t<Place, PipelineOptions&>>;
@@ -112,11 +111,11 @@ OptionField IntegerField(Place place, IntegerRange range) {
   return field;
 }
 
-// The values of an enum with their names.
+// The values of an enum, with their names.
 template <class Enum>
 using NamedValues = std::vector<std::pair<std::string, Enum>>;
 
-// REQUIRES: the value has a name.
+// The name of the value. REQUIRES: the value has a name.
 template <class Enum>
 std::string NameAmong(const NamedValues<Enum>& values, Enum value) {
   for (const auto& [name, named] : values)
@@ -125,7 +124,7 @@ std::string NameAmong(const NamedValues<Enum>& values, Enum value) {
   return {};
 }
 
-// Throws InputError if there is no value of that name.
+// The value with this name. Throws InputError if there is none.
 template <class Enum>
 Enum ValueAmong(const NamedValues<Enum>& values, const std::string& name) {
   for (const auto& [other, named] : values)
@@ -133,7 +132,7 @@ Enum ValueAmong(const NamedValues<Enum>& values, const std::string& name) {
   throw InputError("no such choice: " + name);
 }
 
-// Of an enum.
+// The field of an enum.
 template <class Place, class Enum>
 OptionField ChoiceField(Place place, const NamedValues<Enum>& values) {
   OptionField field = MakeField(
@@ -147,7 +146,7 @@ OptionField ChoiceField(Place place, const NamedValues<Enum>& values) {
   return field;
 }
 
-// The name of a method in a registry, which must outlive the field.
+// The field of a method's name in a registry, which must outlive the field.
 template <class Place, class Methods>
 OptionField NameField(Place place, const Methods& methods) {
   OptionField field = MakeField(

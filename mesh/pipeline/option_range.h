@@ -1,6 +1,6 @@
 // mesh/pipeline/option_range.h
 //
-// The numbers that an option may have.
+// The ranges of numbers for options.
 
 #pragma once
 
@@ -8,17 +8,17 @@
 
 namespace penumbra {
 
-// Squares and products of numbers between these neither vanish nor overflow.
+// Squares and products of numbers between these bounds neither underflow to zero nor overflow.
 inline constexpr double kTiniestOption = 1e-100, kLargestOption = 1e100;
 
-// The numbers from `low` to `high`, and 0 as well if `or_zero`.
+// The numbers from `low` to `high`; also 0 if `or_zero`.
 struct NumberRange {
   double low = 0, high = 0;
   bool or_zero = false;
   bool Holds(double x) const { return (x >= low && x <= high) || (or_zero && x == 0); }
 };
 
-// The integers from `low` to `high`; of these the powers of two alone if `powers_of_two`.
+// The integers from `low` to `high`; only powers of two if `powers_of_two`.
 struct IntegerRange {
   std::uint64_t low = 0, high = 0;
   bool powers_of_two = false;

@@ -16,7 +16,7 @@ void SetFromFile(const SolveOption& option, const std::optional<OptionValue>& to
     option.field.set(told, options);
   else if (option.in_older_files)
     option.field.set(option.in_older_files(*options), options);
-  else if (!option.field.optional || option.resolved)  // what came to a value is told
+  else if (!option.field.optional || option.resolved)  // files contain every option with a value
     throw InputError(fmt::format("'{}' is missing", OptionKey(option)));
 }
 
@@ -88,7 +88,7 @@ std::vector<std::pair<const SolveOption*, OptionValue>> UsedOptions(const Pipeli
 PipelineOptions OptionsToldBy(
     const std::function<std::optional<OptionValue>(const SolveOption& option)>& told) {
   PipelineOptions options;
-  // The others depend on it.
+  // The other options depend on the solver.
   const SolveOption& solver = *FindOption("solver");
   SetFromFile(solver, told(solver), &options);
   for (const SolveOption& option : OptionTable())

@@ -1,8 +1,8 @@
 // mesh/pipeline/option_table.h
 //
-// Everything that a user may set of a solve, in one table. The command line and its help, reports, solution
-// files, the window's panel and the checks of a restart are made from it. A new option is a field of
-// PipelineOptions and an entry of the table (option_entries.cpp).
+// A table of all options that a user can set for a solve. Command line, help, reports, solution files, the
+// window's panel and the checks of a restart all use this table. A new option is a member of PipelineOptions
+// and an entry of the table (option_entries.cpp).
 
 #pragma once
 
@@ -19,8 +19,8 @@
 
 namespace penumbra {
 
-// Where help lists an option, in the order of help. Those for studies are there to be compared with, and help
-// lists them last.
+// The groups of options in the help, in the order of the help. The options for studies serve comparisons
+// only, and come last.
 enum class OptionGroup : std::uint8_t { kRunning, kSolving, kHierarchical, kDense, kMesh, kStudies };
 
 // The group's title.
@@ -42,7 +42,7 @@ constexpr const char* GroupTitle(OptionGroup group) {
   return "For studies";
 }
 
-// A choice that only studies make, which help lists among the options for studies.
+// A value of a choice that only studies use; the help lists it among the options for studies.
 struct StudyChoice {
   std::string name, help;
 };
@@ -50,55 +50,56 @@ struct StudyChoice {
 struct SolveOption {
   const char* name = "";  // as in --NAME
   OptionField field = {};
-  const char* unit = "";  // of a number; empty: it has none
+  const char* unit = "";  // of a number; empty: none
   OptionGroup group = OptionGroup::kSolving;
-  std::string solver = {};  // the only solver that obeys it, by LightSolvers(); empty: all solvers do
+  std::string solver = {};  // the only solver that uses it, by its name in LightSolvers(); empty: all use it
   bool links_depend =
-      false;  // links are made by it: whoever goes on from given links keeps the value of those
-  bool measures_only = false;  // it says what is measured of light and mesh, which do not depend on it
+      false;  // links depend on it: a solve over another solve's links keeps that solve's value
+  bool measures_only = false;  // determines only which measurements are made of light and mesh
   bool tiny_distance = false;  // at most a thousandth of the scene's diagonal
-  bool flag_clears = false;    // the flag is --no-NAME, and turns off what is on by default
-  const char* otherwise = "";  // of an optional one: what holds where it is left out
+  bool flag_clears = false;    // the option is --no-NAME, and sets a flag that is on by default to off
+  const char* otherwise = "";  // optional options: a description of the default
   const char* help = "";       // a sentence for --help, without unit, range and default
   std::vector<StudyChoice> study_choices = {};
-  // Of an optional one that follows from others: the value that the solve works with.
+  // Optional options whose default follows from other options: the value that the solve uses.
   std::function<OptionValue(const ResolvedOptions&)> resolved = {};
-  // The value that held in the time before solution files told this option, where the options that stand
-  // before it in the table are as the file says. Empty: every file tells it.
+  // The value for older solution files, which do not contain this option. `before` holds the values that the
+  // file has for the options before this one in the table. Empty if all files contain the option.
   std::function<OptionValue(const PipelineOptions& before)> in_older_files = {};
   const char* label = "";    // a few words for the window's panel, without the unit
-  const char* setting = "";  // its name in the window, where that is not NAME
+  const char* setting = "";  // the name in the window, if different from NAME
 };
 
-// In the order of reports and solution files.
+// All options, in the order of reports and solution files.
 const std::vector<SolveOption>& OptionTable();
-// Null if there is none of that name.
+// The option with this name; null if there is none.
 const SolveOption* FindOption(std::string_view name);
 
-// The name with '_' for '-': the option's key in reports and solution files.
+// The option's key in reports and solution files: the name with '_' instead of '-'.
 std::string OptionKey(const SolveOption& option);
-// As it is given: --NAME, or --no-NAME.
+// The option as on the command line: --NAME, or --no-NAME.
 std::string CommandLineName(const SolveOption& option);
-// Its name in the window.
+// The option's name in the window.
 std::string SettingName(const SolveOption& option);
 
-// The names of a choice that help lists at the option itself.
+// The names of a choice that the help lists with the option, without those for studies.
 std::vector<std::string> UsualChoices(const SolveOption& option);
-// The sentence of help with unit, range, and what holds where the option is left out.
+// The help's sentence, with unit, range and the description of the default.
 std::string OptionHelp(const SolveOption& option);
-// The value that holds where the user says nothing; nothing if it follows from others.
+// The default; nothing if the default follows from other options.
 std::optional<OptionValue> DefaultValue(const SolveOption& option);
 
-// Whether the chosen solver obeys the option.
+// True if the chosen solver uses the option.
 bool IsObeyed(const SolveOption& option, const PipelineOptions& options);
 
-// The options that a solve obeys and the values that it works with, in the order of the table: what reports
-// and solution files tell.
+// The options that a solve uses, with their values, in the order of the table: the contents of reports and
+// solution files.
 std::vector<std::pair<const SolveOption*, OptionValue>> UsedOptions(const PipelineOptions& options,
                                                                     const ResolvedOptions& resolved);
-// The options of a solve of which a file tells: `told` gives the value, or nothing where the file has none.
-// UsedOptions() of these, resolved, are what the file tells. Throws InputError if the file lacks an option
-// that every file has, or names a choice that there is not.
+// The options of a solve from the contents of a file. `told` returns the value of an option in the file, or
+// nothing if the file lacks the option. UsedOptions() of the result, resolved, equals the contents of the
+// file. Throws InputError if the file lacks an option that every file has, or contains the name of a choice
+// that does not exist.
 PipelineOptions OptionsToldBy(
     const std::function<std::optional<OptionValue>(const SolveOption& option)>& told);
 

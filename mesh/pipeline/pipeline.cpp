@@ -18,19 +18,21 @@
 namespace penumbra {
 namespace {
 
-// What samples that measure may leave out of their sources' detail, as a share of the error: it moves the
-// figures by no more.
+// The tolerance of samples in measurements for details of their sources, as a fraction of the error. The
+// tolerance changes results by at most this.
 constexpr double kMeasuredShare = 0.02;
-// Random points that measure the sources. More do where the share of values that err by more than was asked
-// is between these: where so few cannot tell whether it is 1 %.
+// The number of random points that measure the sources. If the fraction of values above the requested error
+// lies between kClearlyMet and kClearlyMissed, more points are used, because these few cannot tell whether it
+// is 1 %.
 constexpr std::size_t kFewSourcePoints = 400;
 constexpr double kClearlyMet = 0.0025, kClearlyMissed = 0.025;
-// Rays that measure the energy balance, and those from each patch that look for open sides.
+// Rays for the energy balance, and rays from each patch that search for open sides.
 constexpr std::size_t kEnergyRays = std::size_t{1} << 18, kViewRays = 64;
-// Random points of a glance, which take 1 % of the time of a solve: what so few can feign is not told.
+// Random points of CheckErrorRoughly(), which takes 1 % of the time of a solve. The result must be clear for
+// so few points.
 constexpr std::size_t kGlancePoints = 200;
 
-// The part whose 99th percentile is most beyond the bound; null if none is.
+// The part whose 99th percentile is farthest above the bound; null if none is above.
 const PartError* WorstPart(std::span<const PartError> parts, double bound) {
   const PartError* worst = nullptr;
   for (const PartError& part : parts)
@@ -38,7 +40,7 @@ const PartError* WorstPart(std::span<const PartError> parts, double bound) {
   return worst;
 }
 
-// One line that says by how much the error that was asked for is missed; `worst` may be null.
+// One line about the missed error; `worst` may be null.
 std::string MissedError(const PipelineReport& report, const PartError* worst) {
   const RepresentationError& whole = report.whole_error;
   const double shown = std::max(report.interpolant_error.p99, whole.p99);
@@ -69,22 +71,22 @@ struct Pipeline::Impl {
   ResolvedOptions resolved;
   PatchVisibility visibility;
   std::unique_ptr<LightSolver> solver;                // null until Link()
-  std::optional<RunLimits::Clock::time_point> begun;  // when Solve() did: its limits count from there
-  std::optional<RadiositySolution> stored;            // that another one made, until a step begins anew
-  std::optional<MeshKind> mesh_kind;                  // of a mesh of the present solution
-  bool mesh_unrefined = false;                        // for that was not asked for then
-  bool light_refined = false;                         // RefineLight() came to its end with this light
+  std::optional<RunLimits::Clock::time_point> begun;  // start of Solve(), from which its limits count
+  std::optional<RadiositySolution> stored;            // another pipeline's result, until a step restarts
+  std::optional<MeshKind> mesh_kind;                  // of the mesh of the present solution
+  bool mesh_unrefined = false;                        // because refinement was not requested
+  bool light_refined = false;                         // RefineLight() has been completed for this light
   std::unique_ptr<MeshLocator> locator;
   PipelineReport report;
   CurrentIrradiance irradiance;  // from the present solution
   ShownMesh shown;
 
-  // Makes the solver, which goes on from a solution if there is one.
+  // Makes the solver, which continues from a solution if one is given.
   void MakeSolver(RadiositySolution* from, const ExecutionContext& context) {
     const Stopwatch stopwatch;
     solver = LightSolvers().Make(options.solver, {scene, visibility, from}, {resolved.solver, options.dense},
                                  context);
-    // What is solved as it is made has no steps left.
+    // A solver that solves in its constructor has no steps left.
     AddPhase(solver->Ready() && !solver->Next() ? "iterate" : "link", stopwatch.Seconds());
     TakeReport();
     Count();
@@ -95,7 +97,7 @@ struct Pipeline::Impl {
     report.dense = solver->report().dense;
   }
 
-  // Adds to the phase of that name.
+  // Adds the seconds to the phase of this name.
   void AddPhase(const std::string& name, double seconds) {
     const auto phase = std::find_if(report.phases.begin(), report.phases.end(),
                                     [&](const Phase& p) { return p.name == name; });
@@ -110,7 +112,7 @@ struct Pipeline::Impl {
     return stored ? *stored : solver->solution();
   }
 
-  // Null if it was cancelled.
+  // Null if cancelled.
   std::unique_ptr<const PointIrradiance> MakeIrradiance(const ExecutionContext& context) {
     const std::shared_ptr<const LeafVisibility> leaves = solver ? solver->SeenFromLeaves(context) : nullptr;
     if (solver && !leaves) return nullptr;
@@ -120,14 +122,14 @@ struct Pipeline::Impl {
   }
 
   void BeginLimits() { begun = options.limits_from.value_or(RunLimits::Clock::now()); }
-  // What is left of the limits to Solve(); none without it.
+  // The rest of Solve()'s limits; no limits without Solve().
   RunLimits LimitsSinceSolve(const ExecutionContext& context) const {
     return RunLimits(context, begun ? options.time_limit : std::nullopt,
                      begun ? options.memory_limit : std::nullopt, begun.value_or(RunLimits::Clock::now()),
                      options.memory_kept);
   }
 
-  // Whether measuring was ended: what was not measured to the end is not told.
+  // True if the measurement was ended early; then removes incomplete results from the report.
   bool EndedMeasuring(const RunLimits& limits) {
     if (!limits.context().Cancelled()) return false;
     report.interpolant_error = report.whole_error = {};
@@ -150,8 +152,8 @@ struct Pipeline::Impl {
     return mesh_options;
   }
 
-  // Makes the mesh of that kind, from the solution as it is; of interpolants refines the leaves, unless that
-  // is cancelled or not asked for. False if it was cancelled before there was a mesh.
+  // Makes the mesh of this kind from the present solution. Refines the leaves of kInterpolant, unless
+  // cancelled or not requested. False if cancelled before there was a mesh.
   bool MakeMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is) {
     const bool refines =
         kind == MeshKind::kInterpolant && solver && options.refine != RefineBy::kTransport && !as_it_is;
@@ -159,8 +161,8 @@ struct Pipeline::Impl {
                    : shown.Make(Solution(), OptionsOf(kind), context);
   }
 
-  // After a step of the solver, or of what is left of one, that took so many seconds: what was made of the
-  // light before is dropped, if the light `changed`.
+  // Ends a complete or incomplete step of the solver that took `seconds`. If the light `changed`, discards
+  // the results from the earlier light.
   void EndStep(double seconds, bool changed) {
     if (changed) Forget();
     AddPhase("iterate", seconds);
@@ -168,7 +170,7 @@ struct Pipeline::Impl {
     Count();
   }
 
-  // Says what the iterations left undone.
+  // Reports what the iterations have not achieved.
   void TellUnmetIterations() {
     if (solver->report().full)
       report.unmet.push_back(
@@ -180,7 +182,7 @@ struct Pipeline::Impl {
                                          report.iterations.size(), residual));
   }
 
-  // The time that meshes took since this was last called.
+  // Adds the time for meshes since the last call.
   void AddMeshPhases() {
     const MeshSeconds seconds = shown.TakeSeconds();
     if (seconds.sources > 0) AddPhase("iterate", seconds.sources);
@@ -189,12 +191,12 @@ struct Pipeline::Impl {
     AddPhase("interpolate", seconds.mesh.interpolate);
   }
 
-  // What was missed before is told again if it is missed again.
+  // Removes the stage's earlier messages; a repeated failure is reported again.
   void DropUnmet(std::string_view stage) {
     std::erase_if(report.unmet, [&](const std::string& line) { return line.starts_with(stage); });
   }
 
-  // What was made of a solution that is no more.
+  // Discards the results from an earlier solution.
   void Forget() {
     irradiance.Reset();
     shown.Forget();
@@ -202,7 +204,8 @@ struct Pipeline::Impl {
     light_refined = false;
   }
 
-  // The solution that another one made, which a step begins with or drops; what that one told is gone.
+  // Returns the other pipeline's solution, for a step that continues from it or discards it, and clears the
+  // report.
   RadiositySolution TakeStored() {
     RadiositySolution solution = std::move(*stored);
     stored.reset();
@@ -251,7 +254,7 @@ void Pipeline::Link(const ExecutionContext& context) {
   const Stopwatch linking;
   if (impl_->stored) impl_->TakeStored();
   impl_->shown.ForgetVisibility();
-  if (impl_->solver) impl_->Forget();  // of a linking that was cancelled
+  if (impl_->solver) impl_->Forget();  // of a cancelled linking
   impl_->visibility = PatchVisibility(impl_->scene, context);
   impl_->AddPhase("link", linking.Seconds());
   impl_->MakeSolver(nullptr, context);
@@ -261,7 +264,7 @@ bool Pipeline::Step(SolverStep step, const ExecutionContext& context) {
   Link(context);
   const Stopwatch stopwatch;
   const bool done = impl_->solver->Step(step, context);
-  // Of corrections that were cancelled some passes may have been made.
+  // A cancelled correction may have made some passes.
   impl_->EndStep(stopwatch.Seconds(), done || step == SolverStep::kCorrect);
   return done;
 }
@@ -353,7 +356,7 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context, bool as
   const RunLimits limits = impl_->LimitsSinceSolve(context);
   if (!impl_->stored)
     for (const char* stage : {"mesh: ", "discontinuities: ", "interpolants: "}) impl_->DropUnmet(stage);
-  // What needs no irradiance at points is quick, and made whatever the limits say.
+  // A mesh without irradiance at points is quick to make, so that limits do not apply.
   const bool flat = kind == MeshKind::kFlat;
   MeshKind made = kind;
   if (!impl_->MakeMesh(kind, flat ? context : limits.context(), as_it_is) && !flat && !context.Cancelled()) {
@@ -399,7 +402,7 @@ void Pipeline::Diagnose(const ExecutionContext& context) {
   report.quality = MeasureQuality(impl_->shown.mesh());
   if (impl_->solver) report.bounces = impl_->solver->MeanIrradianceByBounce(impl_->options.bounces);
   report.warnings.clear();
-  // A scene that is turned as a whole is told when it is read.
+  // For a scene that is turned inside out as a whole, the reader has already warned.
   if (!report.views.reversed_faces.empty() && !FindLitSides(impl_->scene).TurnedInsideOut())
     report.warnings.push_back(fmt::format(
         "{}: warning: the fronts of {} faces see nothing but backs, the first is face {} (counted "

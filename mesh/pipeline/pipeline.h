@@ -1,7 +1,7 @@
 // mesh/pipeline/pipeline.h
 //
-// The offline half from a scene to its irradiance mesh, as stages that the command line, the viewer and the
-// experiments drive alike: visibility, links, iterations, discontinuities, triangulations, interpolants.
+// The offline half, from a scene to its irradiance mesh, as stages: visibility, links, iterations,
+// discontinuities, triangulations, interpolants. Command line, viewer and experiments use these stages.
 
 #pragma once
 
@@ -30,23 +30,24 @@
 
 namespace penumbra {
 
-// What refinement goes by (thesis 4.4).
+// The error that refinement reduces (thesis 4.4).
 enum class RefineBy : std::uint8_t {
-  kTransport,       // the error of links alone; the mesh has the solution's leaves
-  kRepresentation,  // the error of what is shown, over a coarse solution
+  kTransport,       // the error of links only; the mesh has the solution's leaves
+  kRepresentation,  // the error of the shown mesh, over a coarse solution
   kBoth,
 };
 
-// What a user may set. Everything left out follows from `error` and the scene.
+// The options of a user. Omitted values follow from `error` and the scene.
 struct PipelineOptions {
-  double error = 0.02;  // asked for: 99th percentile of |shown - true| / max(true, 1 % of the channel's mean)
+  double error = 0.02;  // requested 99th percentile of |shown - true| / max(true, 1 % of the channel's mean)
   std::optional<double> eps;                       // [W/m^2] thesis, Appendix A, 1
   std::optional<double> min_area;                  // [m^2] Appendix A, 2
   std::optional<double> min_discontinuity_weight;  // [W/m^2] Appendix A, 4
   std::optional<double> min_wanted_weight;         // [W/m^2] DiscontinuityOptions::min_wanted_weight
   int max_leaf_dsets = 10;                         // Appendix A, 5
-  // Which discontinuities the mesh gets. The weight is the thesis's where its minimum is given, for that is
-  // on its scale; else the irradiance weight.
+  // The choice of discontinuities. Without a value, `weight` is the thesis's weight if
+  // min_discontinuity_weight is given, because that value is on the thesis's scale; otherwise the irradiance
+  // weight.
   std::string discontinuities = "ranked";  // DiscontinuityOptions::choice
   std::optional<DiscontinuityWeight> weight;
   bool keep_hidden_discontinuities = false;
@@ -56,46 +57,47 @@ struct PipelineOptions {
   int error_samples = 1;                  // Appendix A, 8: MeasureTriangles()
   RefineBy refine = RefineBy::kBoth;
   int max_corrections = 2;  // SolverOptions::max_corrections
-  // SolverOptions::source_error. Where it is given, sources are not cut by the interpolants.
+  // SolverOptions::source_error. If given, the interpolants do not cut the sources.
   std::optional<double> source_error;
   int max_iterations = 100;
-  // SolverOptions of these names.
+  // See the members of SolverOptions with these names.
   std::string form_factors = "cubature";
   IterationScheme scheme = IterationScheme::kJacobi;
   Acceleration acceleration = Acceleration::kAnderson;
   std::string oracle = "transport";
   bool multigrid = false;
-  // Limits to Solve(), which then ends with the last whole step: in the dark, where that was not even
-  // linking. They go on for BuildMesh(), which leaves out refining by what is shown, or where there was no
-  // time for interpolants shows the mean of each leaf, and for Measure(), which leaves out the rest.
+  // Limits of Solve(). At a limit, Solve() ends with the last complete step; if not even linking is complete,
+  // the scene is dark apart from emission. The limits also hold for BuildMesh() and Measure(). At a limit,
+  // BuildMesh() omits representation-based refinement or, without time for interpolants, shows the mean of
+  // each leaf; Measure() omits the remaining measurements.
   std::optional<double> time_limit;    // [s]
   std::optional<double> memory_limit;  // [bytes] of the whole process
-  // The share of that which is kept for what is made of a solution that a limit has ended: a mesh of its
+  // The fraction of memory_limit reserved for the stages after a Solve() that ends at a limit: a mesh of the
   // leaves, and a file.
   double memory_kept = 0.1;
-  // When that time began, reading included; left out, it begins with Solve().
+  // The start of the time limit, for example before the scene is read; if omitted, the call of Solve().
   std::optional<std::chrono::steady_clock::time_point> limits_from;
-  int bounces = 0;                  // whose mean irradiance is reported
+  int bounces = 0;                  // number of bounces whose mean irradiance is reported
   PointIrradianceOptions point;     // Appendix A, 9 and 10
-  std::size_t error_points = 1000;  // random points that measure the interpolants' error; 0 leaves it out
+  std::size_t error_points = 1000;  // random points for the interpolants' error; 0: not measured
   std::uint64_t seed = 1;
-  std::string solver = "hierarchical";  // its name in LightSolvers()
-  DenseOptions dense;                   // of the solver `dense`
+  std::string solver = "hierarchical";  // a name in LightSolvers()
+  DenseOptions dense;                   // for the solver `dense`
 };
 
-// The values that a solve works with.
+// The values that a solve uses.
 struct ResolvedOptions {
   SolverOptions solver;
   DiscontinuityOptions discontinuities;
-  // Interpolants, once they are made of a solution, refine its light where the solver lets them
-  // (Pipeline::RefinesLight). What --refine transport asks for stays as the links made it, and corrections by
-  // --source-error stay as they cut it.
+  // If the solver allows, the interpolants of a mesh refine the light of the solution
+  // (Pipeline::RefinesLight). False with --refine transport, where links alone determine the light, and with
+  // --source-error, where the corrections cut the sources.
   bool refine_light = true;
 };
-// Throws InputError if a method is named that does not exist.
+// Throws InputError if an option is the name of a method that does not exist.
 ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options);
 
-// How the interpolants of a mesh are made.
+// The kinds of meshes and interpolants.
 enum class MeshKind {
   kFlat,         // quadtree leaves, the constant basis
   kGouraud,      // quadtree leaves, exact irradiance at the vertices, linear
@@ -122,20 +124,20 @@ struct PipelineReport {
   LinkDiagnostics links;
   ViewDiagnostics views;
   TriangleQuality quality;
-  std::vector<Rgb> bounces;  // mean irradiance by bounce, if it was asked for [W/m^2]
+  std::vector<Rgb> bounces;  // mean irradiance by bounce [W/m^2]; empty unless requested
   RepresentationError interpolant_error;
-  // The 99th percentile of the relative error of irradiance, exact but for 2 % of the error asked for, from
-  // the solution's sources against that from the interpolants as sources.
+  // The 99th percentile of the relative error of irradiance from the solution's sources, compared with
+  // irradiance from the interpolants as sources. Both are exact up to 2 % of the requested error.
   double solution_error_estimate = 0;
-  RepresentationError whole_error;     // of the interpolants, against the latter
-  std::vector<PartError> part_errors;  // the same for each part of the scene that is seen
+  RepresentationError whole_error;  // interpolants, compared with irradiance from the interpolants as sources
+  std::vector<PartError> part_errors;  // whole_error of each part of the scene that is seen
   double error_asked = 0;
   bool error_met = false;
-  std::vector<std::string> unmet;     // what missed the target, and why; one line each
-  std::vector<std::string> warnings;  // what looks wrong in the scene; one line each
+  std::vector<std::string> unmet;     // which targets were missed, and why; one line each
+  std::vector<std::string> warnings;  // probable errors in the scene; one line each
 };
 
-// What the stages made, apart from what is quickly made anew.
+// The results of the stages, without those that are quick to recompute.
 struct PipelineState {
   PatchVisibility visibility;
   RadiositySolution solution;
@@ -144,12 +146,13 @@ struct PipelineState {
   PipelineReport report;
 };
 
-// Runs the stages and keeps what they made. The scene must outlive it.
+// Runs the stages and holds their results. The scene must outlive the pipeline.
 class Pipeline {
  public:
   Pipeline(const Scene& scene, const PipelineOptions& options);
-  // Shows what another one, with this scene and these options, had solved and meshed. BuildMesh() makes other
-  // kinds of it; Relight() goes on from it; other steps of the solver drop it, and begin anew.
+  // Starts with the results of another pipeline for the same scene and options. BuildMesh() makes other kinds
+  // of meshes from the solution, and Relight() continues from it. The solver's other steps discard the
+  // results and start from the beginning.
   Pipeline(const Scene& scene, const PipelineOptions& options, PipelineState state);
   ~Pipeline();
 
@@ -157,79 +160,78 @@ class Pipeline {
   const PipelineOptions& options() const;
   const ResolvedOptions& resolved() const;
 
-  // Stages link and iterate: Link(), and the solver's steps until it has none left (SolveStepByStep). Goes on
-  // from wherever the steps below have led. Cancelled, it leaves the solution of the last whole step. The
-  // observer, if any, is told of each step. Throws InputError if a dense system is too large.
+  // The stages link and iterate: Link(), then the solver's steps until none is left (SolveStepByStep).
+  // Continues from the present step. If cancelled, keeps the solution of the last complete step. Calls the
+  // observer, if any, after each step. Throws InputError if a dense system is too large.
   void Solve(const ExecutionContext& context, const StepObserver& observer = {});
 
-  // The same step by step, for who wants to look at what each one made. A step that is cancelled leaves
-  // solution and report as they were before it, unless it says otherwise.
+  // The same stages step by step, for inspection of each step's result. Unless stated otherwise, a cancelled
+  // step leaves solution and report unchanged.
   //
-  // What sees what, and the links between the roots: dark but for what surfaces emit. The other steps begin
-  // with this one where it was left out, or was cancelled, which leaves that darkness without links.
+  // Link() computes the visibility between patches, and the links between roots; the scene is dark apart from
+  // emission. The other steps call Link() first if it has not been completed. If cancelled, Link() leaves the
+  // dark scene without links.
   void Link(const ExecutionContext& context);
-  // LightSolver::Step(). False if it was cancelled.
+  // LightSolver::Step(). False if cancelled.
   bool Step(SolverStep step, const ExecutionContext& context);
-  // One iteration: gather until the light settles, refine, gather. Nothing if it was cancelled, or if the
-  // solver makes none.
+  // One iteration: gathers until the light settles, refines, gathers. Nothing if cancelled, or if the solver
+  // has no iterations.
   std::optional<IterationReport> Iterate(const ExecutionContext& context);
-  // The last iteration refined nothing and left a residual below the cut-off.
+  // True if the last iteration refined nothing and left a residual below the cut-off.
   bool Converged() const;
-  // The step that would come next; nothing before Link(), or if the solver has come to its end.
+  // The next step; nothing before Link(), or if the solver has no step left.
   std::optional<SolverStep> NextStep() const;
-  // The passes of exact irradiance over the leaves, as many as the options say. False if it was cancelled,
-  // which keeps the passes that were made.
+  // The passes of exact irradiance over the leaves, as many as the options request. If cancelled, returns
+  // false and keeps the complete passes.
   bool Correct(const ExecutionContext& context) { return Step(SolverStep::kCorrect, context); }
-  // Lights the scene anew after its emittances or reflectances were changed, over the links there are, those
-  // of a state that the pipeline began with too. Takes corrections back. Nothing if it was cancelled.
+  // Computes the light after a change of emittances or reflectances, over the existing links, which may be
+  // those of the initial state. Discards corrections. Nothing if cancelled.
   std::optional<IterationReport> Relight(const ExecutionContext& context);
-  // Relight() and Correct(), within the same limits as Solve(): the light of other materials without new form
-  // factors. No link is judged or refined.
+  // Relight() and Correct(), within the limits of Solve(): the light for other materials without new form
+  // factors. The function neither tests nor refines links.
   void SolveOverLinks(const ExecutionContext& context);
 
-  // Whether RefineLight() would do anything: the options ask for it, and the solver takes light.
+  // True if RefineLight() has an effect: the options request it, and the solver takes light.
   bool RefinesLight() const;
-  // Stage refine light: a first mesh shows the light, whose sources are cut by what it shows and get its
-  // means, in turns, until the light stands still. This is the last correction, and the only stage after the
-  // solver that changes the solution. Nothing where RefinesLight() is false. REQUIRES: Link() or what begins
-  // with it.
+  // The stage refine light. Alternates until the light settles: a mesh shows the light; the sources are cut
+  // by what the mesh shows, and get the means of the interpolants. The stage is the last correction, and the
+  // only stage after the solver that changes the solution. No effect if RefinesLight() is false. REQUIRES:
+  // Link() or a step that calls it.
   void RefineLight(const ExecutionContext& context);
 
-  // Stages discontinuities, triangulate, interpolate, for what a display mode needs, from the solution as it
-  // is, which they leave so. For interpolants, unless transport alone is asked for, they then refine the mesh
-  // (RefineMesh) until the error asked for is met; not where the mesh is to stay `as_it_is`, after a step
-  // that is to be looked at. Nothing is done where it is there already. REQUIRES: Link() or what begins with
-  // it.
+  // The stages discontinuities, triangulate and interpolate, as far as the kind of mesh needs them. The
+  // stages do not change the solution. For kInterpolant, unless the option `refine` is kTransport, the stages
+  // also refine the mesh (RefineMesh) until the mesh meets the requested error; `as_it_is` prevents this
+  // refinement, for inspection of a single step. No effect if the mesh exists already. REQUIRES: Link() or a
+  // step that calls it.
   void BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is = false);
-  // The limits of what is done from here on begin anew, as Solve() begins them: for those who do its steps.
+  // Restarts the limits now, as Solve() does, for callers that make the steps of Solve() themselves.
   void CountLimits();
-  // Measures the energy balance, and the soundness of scene, links and triangles: nothing, if it was
-  // cancelled. REQUIRES: BuildMesh() after
-  // the last step.
+  // Measures the energy balance, and checks scene, links and triangles. No effect if cancelled. REQUIRES:
+  // BuildMesh() after the last step.
   void Diagnose(const ExecutionContext& context = ExecutionContext());
-  // That, and the error at random points. REQUIRES: the same; the mesh was made here.
+  // Diagnose(), and the error at random points. REQUIRES: as for Diagnose(); this pipeline made the mesh.
   void Measure(const ExecutionContext& context);
-  // Tells in the report what was missed, if so few random points as cost no time to speak of show clearly
-  // that the error asked for is; nothing else is measured. REQUIRES: BuildMesh() after the last step.
+  // Adds a line to PipelineReport::unmet if a few random points, which take negligible time, clearly show
+  // that the requested error is missed. Measures nothing else. REQUIRES: BuildMesh() after the last step.
   void CheckErrorRoughly(const ExecutionContext& context);
-  // PipelineOptions::error_points of what is measured from here on.
+  // Sets PipelineOptions::error_points for later measurements.
   void SetErrorPoints(std::size_t points);
 
   const RadiositySolution& solution() const;  // REQUIRES: Link()
   const PatchVisibility& visibility() const;
-  const PointIrradiance& irradiance() const;  // exact, from the solution's leaves; until the next step
+  const PointIrradiance& irradiance() const;  // exact, from the solution's leaves; valid until the next step
   const IrradianceMesh& mesh() const;         // REQUIRES: BuildMesh()
-  std::optional<MeshKind> mesh_kind() const;  // of mesh(); nothing if that is not of the present solution
-  // One a triangle of the mesh, zero where there was no reason to measure; empty without refinement by it.
+  std::optional<MeshKind> mesh_kind() const;  // of mesh(); nothing if it shows an earlier solution
+  // One per triangle of the mesh, zero where there was no reason to measure; empty if the mesh was not
+  // refined.
   std::span<const TriangleError> triangle_errors() const;
 
-  // The interpolant's irradiance at a point of a patch, or at most `reach` [m] beside it, not
-  // below 0 [W/m^2]. REQUIRES:
-  // BuildMesh().
+  // The interpolants' irradiance, at least 0 [W/m^2], at a point of the patch or at most `reach` [m] beside
+  // it; nothing elsewhere. REQUIRES: BuildMesh().
   std::optional<Rgb> Interpolated(PatchId patch, const Vec3& point, double reach = 0) const;
 
-  // The discontinuities that there are, for a file (ListDiscontinuities); none where a limit does not leave
-  // the time to find them.
+  // The discontinuities for a file (ListDiscontinuities); empty if a limit leaves no time to find them.
   DiscontinuityList Discontinuities() const;
 
   const PipelineReport& report() const;

@@ -1,4 +1,4 @@
-// What follows from the one number that a user names.
+// Options that follow from the requested error.
 
 #include <algorithm>
 
@@ -10,22 +10,24 @@
 namespace penumbra {
 namespace {
 
-// What follows from the error asked for. Measured on closed boxes and furnished rooms: with these the 99th
-// percentile stays at or below the error asked for where the interpolants are not limited by weak
-// discontinuities.
+// Factors of options that follow from the requested error, measured on closed boxes and furnished rooms. With
+// these factors, the 99th percentile stays at or below the requested error where weak discontinuities do not
+// limit the interpolants.
 constexpr double kEpsOfMeanIrradiance = 2;  // eps = this x error x mean irradiance
 constexpr double kWeightOfStrongest = 5;    // minimum weight = this x error x largest emittance, at most ...
 constexpr double kLargestWeight = 0.25;     // ... this x largest emittance
-// In the irradiance weight: what an edge left out may cost, root mean square over leaves that lack others
-// too, as a part of error x mean irradiance.
+// With the irradiance weight: the allowed cost of an omitted edge, root mean square over leaves that also
+// lack other edges, as a fraction of error x mean irradiance.
 constexpr double kWeightOfMeanIrradiance = 0.15;
-// The lightest that refinement by what is shown may ask for.
+// The weight of the lightest discontinuity that representation-based refinement may request, as the same
+// fraction.
 constexpr double kWantedWeight = 0.05;
 constexpr int kCrowdedSplits = 3;         // DiscontinuityOptions::crowded_splits
 constexpr double kMinAreaOfScene = 1e-7;  // of the fronts' total area
 constexpr double kCutoffOfError = 0.005;
 constexpr double kCorrectionOfError = 0.04;  // SolverOptions::correction_tolerance
-// With representation refinement alone links are refined to this times the eps of transport.
+// With representation-based refinement alone, links are refined to this times the eps of transport-based
+// refinement.
 constexpr double kCoarseEps = 4;
 
 struct SceneTotals {
@@ -52,7 +54,7 @@ SceneTotals Total(const Scene& scene) {
 
 ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   const SceneTotals totals = Total(scene);
-  // What the walls would receive if all light stayed in and spread evenly.
+  // The mean irradiance if no light escapes and the light spreads evenly.
   const double mean = totals.area > 0 ? totals.flux / totals.area / (1 - totals.reflectance) : 0;
   ResolvedOptions resolved;
   const double coarse = options.refine == RefineBy::kRepresentation ? kCoarseEps : 1;

@@ -8,7 +8,7 @@
 namespace penumbra {
 namespace {
 
-// How often limits are looked at.
+// The interval between checks of the limits.
 constexpr std::chrono::milliseconds kInterval{2};
 
 }  // namespace

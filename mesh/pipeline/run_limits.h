@@ -1,6 +1,6 @@
 // mesh/pipeline/run_limits.h
 //
-// Limits on time and memory that end a run as if someone had cancelled it.
+// Limits on time and memory. A run that reaches a limit ends as if it were cancelled.
 
 #pragma once
 
@@ -15,26 +15,28 @@
 
 namespace penumbra {
 
-// The memory that this process has in use now [bytes]; 0 where that cannot be told.
+// The memory that this process uses now [bytes]; 0 if unknown.
 std::uint64_t ResidentBytes();
 
-// Watches a run from a thread of its own, while it lives. Without limits it only passes the context on.
+// Watches a run, from its own thread, until destruction. Without limits, the object only forwards the
+// context.
 class RunLimits {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // `seconds` from `begin` on; `bytes` that the whole process may take, of which this share is kept for what
-  // comes after the run.
+  // The time limit is `seconds` after `begin`. The memory limit is (1 - kept) * bytes for the whole process;
+  // the rest is reserved for what follows the run.
   RunLimits(const ExecutionContext& outer, std::optional<double> seconds, std::optional<double> bytes,
             Clock::time_point begin = Clock::now(), double kept = 0);
   ~RunLimits();
   RunLimits(const RunLimits&) = delete;
   RunLimits& operator=(const RunLimits&) = delete;
 
-  // To run with: it reports to the outer one, and is cancelled with it or when a limit is reached.
+  // The context for the run. The context forwards progress to the outer context, and is cancelled with the
+  // outer context or at a limit.
   const ExecutionContext& context() const { return watched() ? inner_ : outer_; }
 
-  // Which limit was reached, in words; nothing if none was.
+  // A description of the limit that was reached; nothing if none was.
   std::optional<std::string> Exceeded() const;
 
  private:

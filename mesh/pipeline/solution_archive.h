@@ -1,7 +1,7 @@
 // mesh/pipeline/solution_archive.h
 //
-// Tables between the solver's structures and the arrays of a solution file: a column an array, whatever lies
-// in a member of the rows. Described once, a table is written and read by the same lines.
+// Tables between the solver's data structures and the arrays of a solution file. Each column, a member of all
+// rows, is one array. The same description of a table serves writing and reading.
 
 #pragma once
 
@@ -24,7 +24,7 @@
 
 namespace penumbra {
 
-// How a value lies in a row of an array: `Scalar`s in the shape `Shape()`, kCount in all.
+// The layout of a value in a row of an array: kCount values of type Scalar, in the shape Shape().
 template <class Value>
 struct Packed {
   static_assert(std::is_arithmetic_v<Value>);
@@ -35,7 +35,7 @@ struct Packed {
   static void Unpack(const Scalar* in, Value& value) { value = *in; }
 };
 
-// Values below kLimit, a byte each.
+// Values below kLimit, one byte each.
 template <class Value, std::uint8_t kLimit>
 struct PackedByte {
   using Scalar = std::uint8_t;
@@ -129,16 +129,16 @@ ArrayShape ShapeOfRows(std::size_t rows) {
   return shape;
 }
 
-// Writes tables. Its twin below reads what it wrote.
+// Writes tables. ArchiveReader has the same functions.
 class ArchiveWriter {
  public:
   explicit ArchiveWriter(Hdf5Writer* file) : file_(file) {}
 
-  // The reader counts the rows.
+  // Only the reader counts rows.
   template <class Row>
   void CountRows(const std::string&, const std::vector<Row>&, std::size_t = 0) {}
 
-  // One value of every row: access(row) refers to it.
+  // Writes one value of each row: the value to which access(row) refers.
   template <class Row, class Access>
   void Column(const std::string& path, const std::vector<Row>& rows, const Access& access) {
     using Value = std::remove_cvref_t<std::invoke_result_t<Access, const Row&>>;
@@ -149,7 +149,8 @@ class ArchiveWriter {
     file_->Write(path, ScalarTypeOf<Scalar>::value, ShapeOfRows<Value>(rows.size()), values.data());
   }
 
-  // A list in every row, one after another; PATH_first says where each begins, and where the last ends.
+  // A list per row, one after another in one array. PATH_first holds the start of each list, and the end of
+  // the last.
   template <class Row, class Access>
   void Lists(const std::string& path, const std::vector<Row>& rows, const Access& access) {
     using Value = typename std::remove_cvref_t<std::invoke_result_t<Access, const Row&>>::value_type;
@@ -174,7 +175,7 @@ class ArchiveReader {
  public:
   explicit ArchiveReader(const Hdf5Reader* file) : file_(file) {}
 
-  // As many rows as the array has, less `more`.
+  // Sets the number of rows to the number of the array's rows, minus `more`.
   template <class Row>
   void CountRows(const std::string& path, std::vector<Row>& rows, std::size_t more = 0) {
     const ArrayShape shape = file_->Shape(path);
@@ -213,7 +214,7 @@ class ArchiveReader {
   const Hdf5Reader* file_;
 };
 
-// The columns of one table below a common path; the first one that is named counts the rows.
+// The columns of one table, below a common path. The first column determines the number of rows.
 template <class Archive, class Rows>
 class Table {
  public:

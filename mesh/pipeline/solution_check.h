@@ -1,7 +1,7 @@
 // mesh/pipeline/solution_check.h
 //
-// Whether what was read from a solution file makes sense: every index in its range, every number finite,
-// every tree a tree. Nothing that the stages take for granted is taken for granted of a file.
+// Checks of data from a solution file: all indices are in range, all numbers are finite, all trees are trees.
+// The checks cover every property on which the stages rely.
 
 #pragma once
 
@@ -14,11 +14,11 @@
 
 namespace penumbra {
 
-// All throw Hdf5Error with what is wrong.
+// All functions throw Hdf5Error with a description of the fault.
 
 void CheckScene(const Scene& scene);
 void CheckVisibility(const Scene& scene, const PatchVisibility::Rows& rows);
-// The forest with just these elements: subdividing the roots gives them back.
+// The forest with exactly these elements, obtained by subdivision of the roots.
 ElementForest RestoreForest(const Scene& scene, std::span<const Element> elements);
 void CheckLight(const RadiositySolution& solution);
 void CheckMesh(const Scene& scene, const IrradianceMesh& mesh);

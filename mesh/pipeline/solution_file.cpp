@@ -19,12 +19,12 @@
 namespace penumbra {
 namespace {
 
-// The first byte is no text, and line ends that a transfer as text would change follow.
+// The first byte is not text; line ends follow that a transfer in text mode would change.
 constexpr std::string_view kMagic = "\x89Penumbra solution\r\n\x1a\n";
 constexpr std::string_view kHdf5Magic = "\x89HDF\r\n\x1a\n";
 constexpr std::size_t kDigestSize = 64;
 
-// The block before the HDF5 file: the magic, lines of text, zeros.
+// The header in front of the HDF5 image: the magic, lines of text, zeros.
 std::string Header(int schema, const std::string& version, std::size_t length, const std::string& digest) {
   std::string header =
       fmt::format("{}schema {}\nversion {}\nlength {}\nsha256 {}\n", kMagic, schema, version, length, digest);
@@ -33,14 +33,14 @@ std::string Header(int schema, const std::string& version, std::size_t length, c
   return header;
 }
 
-// Of the whole file, its own digits as zeros.
+// The digest of the whole file, with zeros in place of the digest's own digits.
 std::string Digest(std::string_view header, std::size_t digest_at, std::string_view rest) {
   Sha256 digest;
   digest.Update(header.substr(0, digest_at)).Update(std::string(kDigestSize, '0'));
   return digest.Update(header.substr(digest_at + kDigestSize)).Update(rest).Finish();
 }
 
-// The value of a line "KEY VALUE" in the text, which is left to begin behind it.
+// The value of the text's first line "KEY VALUE"; removes the line from the text.
 std::optional<std::string_view> TakeLine(std::string_view& text, std::string_view key) {
   const std::size_t end = text.find('\n');
   if (end == text.npos || !text.starts_with(key)) return std::nullopt;
@@ -59,10 +59,10 @@ std::optional<std::uint64_t> Number(std::optional<std::string_view> digits) {
 
 struct Envelope {
   std::string version;
-  std::string_view image;  // the HDF5 file
+  std::string_view image;  // the HDF5 image
 };
 
-// What lies within whole bytes. Throws Hdf5Error.
+// The parts of a complete file. Throws Hdf5Error.
 Envelope Open(std::string_view bytes) {
   constexpr const char* kDamaged =
       "the file is damaged or cut off; take a copy that is whole, or solve again";
@@ -128,8 +128,8 @@ StoredSolution Read(const Envelope& envelope) {
   return stored;
 }
 
-// Throws InputError for what Read() would refuse: a file that cannot be read must not take the place of one
-// that can.
+// Throws InputError if Read() would reject the file, so that an unreadable file does not replace a readable
+// one.
 void CheckKept(const Pipeline& pipeline) {
   try {
     CheckScene(pipeline.scene());
@@ -177,7 +177,7 @@ std::string EncodeSolution(const Pipeline& pipeline, const std::string& options,
 }
 
 StoredSolution DecodeSolution(std::string_view bytes, const std::string& file) {
-  constexpr std::size_t kLongestMessage = 200;  // [bytes]: it may quote the file
+  constexpr std::size_t kLongestMessage = 200;  // [bytes]: the message may quote the file
   try {
     return Read(Open(bytes));
   } catch (const Hdf5Error& error) {

@@ -1,8 +1,9 @@
 // mesh/pipeline/solution_file.h
 //
-// Solved scenes as files: HDF5 behind a block of 512 bytes that says what the file is and holds a digest of
-// all of it, so that damage is found before anything is read. thesis_notes/solution_file.md describes what
-// lies where. A file knows no times: the same solution gives the same bytes.
+// Solved scenes as files. A file is a header of 512 bytes and an HDF5 image. The header identifies the file
+// and contains a digest of the whole file, so that damage is detected before anything is read.
+// thesis_notes/solution_file.md describes the contents. A file contains no times: the same solution gives the
+// same bytes.
 
 #pragma once
 
@@ -17,32 +18,33 @@
 
 namespace penumbra {
 
-// Counted up whenever what lies where changes; files of another schema are refused.
+// The version of the file's layout, incremented with every change. Files with another version are rejected.
 inline constexpr int kSolutionSchema = 3;
 
-// What was read from a file.
+// The contents of a file.
 struct StoredSolution {
   std::unique_ptr<const Scene> scene;
-  PipelineState state;  // refers to *scene; its report is empty
-  std::string options;  // with which it was solved, and
-  std::string report;   // what came out: texts of the writer's choice
-  std::string version;  // of the program that wrote it
+  PipelineState state;  // refers to *scene; the report in it is empty
+  std::string options;  // the options of the solve, and
+  std::string report;   // its results: texts of the writer's choice
+  std::string version;  // of the program that wrote the file
 };
 
 inline constexpr std::size_t kSolutionHeaderSize =
-    512;  // bytes before the HDF5 file: it looks for itself there
+    512;  // bytes before the HDF5 image; HDF5 libraries look for an image at this offset
 
-// Whether the bytes at a file's beginning, kSolutionHeaderSize or all there are, are those of a solution file
-// or of something else that is no text: then DecodeSolution() says what is wrong with it.
+// True if the bytes are the start of a solution file, or of another file that is not text; DecodeSolution()
+// then reports what is wrong. `beginning` holds the first kSolutionHeaderSize bytes, or the whole file if it
+// is shorter.
 bool LooksLikeSolution(std::string_view beginning);
 
-// The bytes of a solution file. REQUIRES: the pipeline is solved and has a mesh of interpolants, or a flat
-// one where a limit ended it before there were any.
+// The bytes of a solution file. REQUIRES: the pipeline is solved and has a mesh of kind kInterpolant, or of
+// kind kFlat if a limit ended the run before there were interpolants.
 std::string EncodeSolution(const Pipeline& pipeline, const std::string& options, const std::string& report,
                            const std::string& version);
 
-// The solution that the bytes hold. Throws InputError, "FILE: error: …", unless they are whole, of this
-// schema, and make sense.
+// The solution in the bytes. Throws InputError, "FILE: error: …", unless the bytes are complete, have this
+// version of the layout, and pass all checks.
 StoredSolution DecodeSolution(std::string_view bytes, const std::string& file);
 
 }  // namespace penumbra

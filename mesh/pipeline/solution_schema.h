@@ -1,7 +1,7 @@
 // mesh/pipeline/solution_schema.h
 //
-// What lies where in a solution file, for writing and for reading: the archive decides which
-// (solution_archive.h). Whoever changes anything here counts kSolutionSchema (solution_file.h) up.
+// The layout of a solution file, for writing and for reading; the type of the archive determines which
+// (solution_archive.h). Every change in this header must increment kSolutionSchema (solution_file.h).
 
 #pragma once
 
@@ -56,7 +56,7 @@ void DescribeVisibility(Archive& archive, Rows& rows) {
   Table(archive, "visibility/blockers", rows.blockers).Column("patch", std::identity());
 }
 
-// The elements' positions follow from their patches and corners.
+// The positions of elements follow from their patches and corners.
 template <class Archive, class Elements>
 void DescribeElements(Archive& archive, Elements& elements) {
   Table(archive, "elements", elements)
@@ -67,7 +67,7 @@ void DescribeElements(Archive& archive, Elements& elements) {
       .Column("corners", &Element::corner);
 }
 
-// Everything of a solution but its elements.
+// All parts of a solution except its elements.
 template <class Archive, class Solution>
 void DescribeLight(Archive& archive, Solution& solution) {
   Table(archive, "elements", solution.irradiance).Column("irradiance", std::identity());
@@ -105,7 +105,7 @@ void DescribeMesh(Archive& archive, Mesh& mesh, Kind& kind) {
   Table(archive, "mesh/triangles", mesh.irradiance).Column("interpolant", std::identity());
 }
 
-// For others to read: Penumbra finds them anew.
+// For other programs: Penumbra does not read discontinuities, but finds them again.
 inline void DescribeDiscontinuities(ArchiveWriter& archive, const DiscontinuityList& list) {
   Table(archive, "discontinuities", list.ends).Column("ends", std::identity());
   Table(archive, "discontinuities", list.all)

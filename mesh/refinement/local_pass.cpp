@@ -24,7 +24,8 @@ std::vector<double> SourceStrengths(const RadiositySolution& solution) {
 
 namespace {
 
-// Splits the crowded leaves of the patch, and what balance asks for. Returns how many were crowded.
+// Splits the crowded leaves of the patch, and balances its quadtree. Returns the number of crowded leaves
+// that were split.
 std::size_t SplitCrowded(ElementForest& forest, PatchId patch, std::span<const ElementId> crowded,
                          double min_area) {
   std::size_t split = 0;
@@ -52,12 +53,12 @@ MeshPlan BeginPlan(const PatchVisibility& visibility, const RadiositySolution& s
   return plan;
 }
 
-// What one call of Triangulate() works on.
+// The data of one call of Triangulate().
 struct PatchTriangulator::Work {
   const MeshPlan& plan;
   MeshReport& report;
   DiscontinuityOptions activating;
-  ElementForest forest;                           // crowded leaves are split in quadtrees of the mesh's own
+  ElementForest forest;  // the plan's forest, in which crowded leaves are split for the mesh only
   std::vector<std::vector<Discontinuity>> found;  // by patch
   std::vector<PatchDSets> dsets;                  // by patch
 };
@@ -73,7 +74,7 @@ PatchTriangulator::PatchTriangulator(const PatchVisibility& visibility, const Ra
       light_(solution, options.weight),
       strength_(SourceStrengths(solution)) {}
 
-// The discontinuities on the patch that may become edges, those of the plan marked.
+// The discontinuities on the patch that may become edges, with those of the plan marked as wanted.
 std::vector<Discontinuity> PatchTriangulator::FindOn(PatchId patch, const MeshPlan& plan) const {
   std::vector<Discontinuity> found =
       cache_.discontinuities.Find(patch, strength_, light_.ToFindOn(patch, options_), context_);
@@ -109,7 +110,7 @@ PatchDSets PatchTriangulator::Activate(const Work& work, std::size_t p, LeafIrra
   return ActivateDiscontinuities(forest, patch, work.found[p], work.activating, {filter, scale, at_place});
 }
 
-// Activates on all patches, and again where crowded leaves were split.
+// Activates on all patches, and again on patches where crowded leaves were split.
 void PatchTriangulator::ActivateAll(Work& work) const {
   std::vector<std::size_t> patches_to_do(work.dsets.size());
   std::iota(patches_to_do.begin(), patches_to_do.end(), std::size_t{0});
@@ -130,7 +131,8 @@ void PatchTriangulator::ActivateAll(Work& work) const {
   }
 }
 
-// Where some were refused, it matters which: those in the dark count most.
+// Repeats the activation where discontinuities were refused, now with the irradiance at their places: those
+// in the dark count most.
 void PatchTriangulator::ActivateByPlaces(Work& work) const {
   if (!sampler_ || !*sampler_ || !work.activating.ranks_by_error()) return;
   std::vector<std::size_t> evaluations(work.dsets.size());
@@ -188,7 +190,7 @@ std::vector<PatchTriangulation> PatchTriangulator::Triangulate(const MeshPlan& p
   Work work{plan, report, options_, plan.forest, {}, {}};
   work.found.resize(count);
   work.dsets.resize(count);
-  if (!omitted) work.activating.min_wanted_weight = options_.min_weight;  // nobody asks what was left out
+  if (!omitted) work.activating.min_wanted_weight = options_.min_weight;  // no caller needs the omitted ones
   FindAll(work);
   ActivateAll(work);
   ActivateByPlaces(work);

@@ -1,8 +1,8 @@
 // mesh/refinement/local_pass.h
 //
-// The second half of the offline computation (Lischinski, Tampieri and Greenberg's local pass): from the
-// solution of the global pass to the irradiance mesh. Discontinuities, DSets, leaf triangulation,
-// interpolants.
+// The local pass (Lischinski, Tampieri and Greenberg), the second half of the offline computation: from the
+// solution of the global pass to the irradiance mesh, by way of discontinuities, DSets, the triangulation of
+// leaves, and interpolants.
 
 #pragma once
 
@@ -25,24 +25,24 @@
 
 namespace penumbra {
 
-// What a mesh is made of beyond the solution and its options: that which refinement asked for.
+// The inputs of a mesh besides the solution and its options. Refinement adds to the plan.
 struct MeshPlan {
-  ElementForest forest;                            // the solution's, or one that was grown from it
-  std::vector<std::vector<Discontinuity>> wanted;  // per patch; none where it is shorter
+  ElementForest forest;                            // the solution's, or grown from it
+  std::vector<std::vector<Discontinuity>> wanted;  // per patch; patches beyond its end have none
 };
 
 struct MeshResult {
   IrradianceMesh mesh;
   MeshPlan plan;
-  std::vector<PatchTriangulation> triangulations;  // that the mesh was made of
+  std::vector<PatchTriangulation> triangulations;  // the source of the mesh
   MeshReport report;
 };
 
-// What a local pass leaves for the next one over the same scene, after an iteration or a division of leaves.
-// It changes no result.
+// Data that one local pass leaves for the next one over the same scene, for example after an iteration or
+// after a division of leaves. The cache changes no result.
 class LocalPassCache {
  public:
-  // Both must outlive the cache.
+  // Scene and visibility must outlive the cache.
   LocalPassCache(const Scene& scene, const PatchVisibility& visibility)
       : discontinuities(scene, visibility), leaves(scene.patches.size()) {}
 
@@ -50,34 +50,36 @@ class LocalPassCache {
   std::vector<LeafMeshCache> leaves;  // per patch
 };
 
-// The largest radiosity of each patch, over its leaves and the channels [W/m^2].
+// The largest radiosity of each patch, over the patch's leaves and the channels [W/m^2].
 std::vector<double> SourceStrengths(const RadiositySolution& solution);
 
-// Which discontinuities of a patch a mesh goes without, though they weigh enough to be asked for.
+// The discontinuities of a patch that are no edges of the mesh, although refinement may request them.
 struct OmittedOfPatch {
   std::vector<Discontinuity> found;
   std::vector<OmittedDiscontinuity> omitted;
 };
 
-// The solution's leaves, divided towards the ends of contacts as often as the options say.
+// The plan of a first mesh: the solution's leaves, divided towards the ends of contacts
+// options.corner_divisions times.
 MeshPlan BeginPlan(const PatchVisibility& visibility, const RadiositySolution& solution,
                    const DiscontinuityOptions& options);
 
-// Triangulates the patches of a scene, as often as leaves are divided.
+// Triangulates the patches of a scene. One object serves repeated divisions of leaves.
 class PatchTriangulator {
  public:
-  // Everything must outlive the object. Without a cache it has one of its own.
+  // All arguments must outlive the object. Without `cache`, the object uses its own cache.
   PatchTriangulator(const PatchVisibility& visibility, const RadiositySolution& solution,
                     const DiscontinuityOptions& options, const ExecutionContext& context,
                     LocalPassCache* cache = nullptr);
 
-  // From here on ranking by the irradiance weight asks the sampler how dark it is where discontinuities
-  // compete for the room in a leaf (LeafIrradianceSamples). The sampler must outlive the object.
+  // After this call, ranking by the irradiance weight uses the sampler to find the irradiance at places where
+  // discontinuities compete for the room in a leaf (LeafIrradianceSamples). The sampler must outlive the
+  // object.
   void RankWith(const IrradianceSampler& sampler) { sampler_ = &sampler; }
 
-  // Triangulates all patches along the leaves of the plan; counts and seconds are added to the report. The
-  // mesh may split leaves further: the `leaves` of a triangulation name for each of its leaves that of the
-  // plan that it is part of. `omitted`, if it is asked for, gets one for each patch, unless this was
+  // Triangulates all patches along the leaves of the plan, and adds counts and seconds to `report`. The mesh
+  // may split leaves further: `leaves` of a triangulation names the leaf of the plan that contains each of
+  // the triangulation's leaves. `omitted`, if not null, gets one entry per patch unless the run was
   // cancelled. REQUIRES: the quadtrees are balanced.
   std::vector<PatchTriangulation> Triangulate(const MeshPlan& plan, MeshReport& report,
                                               std::vector<OmittedOfPatch>* omitted = nullptr);
@@ -104,8 +106,8 @@ class PatchTriangulator {
   std::vector<double> strength_;  // SourceStrengths()
 };
 
-// The whole local pass. The sampler is not called for constant interpolants. A cancelled run returns an empty
-// mesh. REQUIRES: the quadtrees are balanced.
+// The complete local pass. For constant interpolants, the function does not call the sampler. If cancelled,
+// the function returns an empty mesh. REQUIRES: the quadtrees are balanced.
 MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySolution& solution,
                         const IrradianceSampler& sampler, const MeshOptions& options,
                         const ExecutionContext& context, LocalPassCache* cache = nullptr);

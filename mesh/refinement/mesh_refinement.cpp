@@ -17,14 +17,13 @@
 namespace penumbra {
 namespace {
 
-// Triangles whose gradients jump by less than what leads to this share of the error asked for are not
-// measured.
+// Triangles with an estimated error below this fraction of the requested error are not measured.
 constexpr double kSuspicion = 0.3;
-// Beyond this, a triangle that was found good is looked at once more, at finer points.
+// Above this fraction, a triangle whose measured error is small is measured once more, at finer points.
 constexpr double kDoubt = 1;
 
-// Measures the triangles' errors where the interpolants' gradients give reason to. Returns how many points
-// were evaluated.
+// Measures the errors of triangles for which the interpolants' gradients give reason. Returns the number of
+// evaluations.
 std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& options,
                             const IrradianceSampler& sampler, SampleCache* samples, RefinedMesh* refined) {
   const Rgb mean = MeanIrradiance(scene, refined->mesh).max(NoLight(scene) / kErrorFloor);
@@ -45,15 +44,16 @@ std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& opt
   return measured.point_evaluations + finer.point_evaluations;
 }
 
-// Patches whose errors are weighed together: all but kShareAbove of their area shall keep to `error`.
+// Patches with a common error target: `error` must hold for all but kShareAbove of their area.
 struct Population {
   std::vector<char> has;  // by patch
   double area = 0;        // [m^2]
   double error = 0;
 };
 
-// What is seen, what is not (nobody's eyes vote for the irradiance of a black wall, but who probes it may
-// want it), and the parts of what is seen, lest a large one outvote a small one.
+// The populations are the patches that are seen, those that are not (no picture shows the irradiance of a
+// black wall, but a user may probe it), and each part of the former, so that a large part does not hide the
+// errors of a small part.
 std::vector<Population> FindPopulations(const Scene& scene, double error) {
   const std::vector<double> seen = ReflectingAreas(scene);
   const std::size_t count = scene.patches.size();
@@ -77,14 +77,14 @@ std::vector<Population> FindPopulations(const Scene& scene, double error) {
   return populations;
 }
 
-// The area of the population that errs by more than it shall [m^2], of areas by patch.
+// The area of the population with errors above its target [m^2], from the areas of patches.
 double AreaOf(const Population& population, std::span<const double> areas) {
   double sum = 0;
   for (std::size_t p = 0; p < areas.size(); ++p) sum += population.has[p] ? areas[p] : 0;
   return sum;
 }
 
-// What can be done about errors above that. Leaves that are too small to be divided are unmet.
+// The steps that reduce errors above `error`. `unmet` gets the leaves that are too small to be divided.
 std::vector<RefinementStep> FindSteps(const Scene& scene, std::span<const OmittedOfPatch> omitted,
                                       const MeshRefinementOptions& options, double error,
                                       const RefinedMesh& refined, std::vector<ElementId>* unmet) {
@@ -104,8 +104,8 @@ std::vector<RefinementStep> FindSteps(const Scene& scene, std::span<const Omitte
   return steps;
 }
 
-// Steps that bring all populations to their errors, the first that promise most for what they cost; each
-// once. Those who have the same error follow each other.
+// The steps that make all populations meet their targets, those with the largest benefit / cost first, each
+// step once. REQUIRES: populations with equal targets are consecutive.
 std::vector<RefinementStep> ChooseSteps(const Scene& scene, std::span<const Population> populations,
                                         std::span<const OmittedOfPatch> omitted,
                                         const MeshRefinementOptions& options, RefinedMesh* refined) {
@@ -133,7 +133,7 @@ std::vector<RefinementStep> ChooseSteps(const Scene& scene, std::span<const Popu
   return chosen;
 }
 
-// Does it: leaves are divided, discontinuities wanted from now on.
+// Applies the steps: divides leaves, and marks discontinuities as wanted.
 void Take(std::span<const RefinementStep> chosen, std::span<const OmittedOfPatch> omitted, MeshPlan* plan) {
   plan->wanted.resize(omitted.size());
   std::vector<PatchId> divided;
@@ -160,7 +160,7 @@ RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options
   const std::vector<Population> populations = FindPopulations(scene, options.error);
   SampleCache own_samples;
   SampleCache* const samples = memory.samples ? memory.samples : &own_samples;
-  std::optional<LocalPassCache> own;  // from round to round
+  std::optional<LocalPassCache> own;  // from one round to the next
   LocalPassCache* const local_pass =
       memory.local_pass ? memory.local_pass : &own.emplace(scene, light.visibility);
   PatchTriangulator triangulator(light.visibility, light.solution, mesh_options.discontinuities, context,

@@ -1,8 +1,8 @@
 // mesh/refinement/mesh_refinement.h
 //
-// Representation-based refinement (thesis 4.4.2) of what is shown: leaves on which the interpolants are too
-// far from the irradiance are divided or get further edges, for the mesh only. The sources and their links
-// stay as they are, so that a finer picture costs samples and nothing else.
+// Representation-based refinement (thesis 4.4.2) of the shown mesh. Leaves where the error of the
+// interpolants is too large are divided or get more edges, for the mesh only. Sources and links remain
+// unchanged, so that a finer picture costs nothing but samples.
 
 #pragma once
 
@@ -25,47 +25,48 @@
 namespace penumbra {
 
 struct MeshRefinementOptions {
-  // The relative error that all but kShareAbove of the area shall keep to, of the fronts that are seen and of
-  // those that are not; of each part of the scene (PartsOf) kPartError times that.
+  // The relative error that a fraction 1 - kShareAbove of the area must meet, both of the fronts that are
+  // seen and of those that are not. Each part of the scene (PartsOf) must meet kPartError * error.
   double error = 0.02;
-  double min_area = 0;  // no leaf becomes smaller [m^2]
-  int samples = 1;      // a triangle is measured at samples x samples points (thesis, Appendix A)
+  double min_area = 0;  // no leaf becomes smaller than this [m^2]
+  int samples = 1;      // per side of a triangle: samples^2 points measure it (thesis, Appendix A)
   int max_rounds = 8;
-  std::size_t max_triangles = 2'000'000;  // no round begins with more: some 2 GB with their samples
+  std::size_t max_triangles = 2'000'000;  // no round starts with more: about 2 GB with their samples
 };
 
-// Of the fronts' area: what the 99th percentile leaves, less what measuring at single points overlooks.
+// The fraction of the fronts' area that may exceed the error: the 1 % above a 99th percentile, minus an
+// allowance for errors that measurements at single points overlook.
 inline constexpr double kShareAbove = 0.006;
 
 struct RefinedMesh {
-  MeshPlan plan;  // the leaves that were divided for the mesh, and the discontinuities that it wants
+  MeshPlan plan;  // with the leaves divided, and the discontinuities wanted, for the mesh
   std::vector<PatchTriangulation> triangulations;
   IrradianceMesh mesh;
-  // One a triangle; zero where the interpolants' gradients give no reason to measure.
+  // One per triangle; zero where the interpolants' gradients gave no reason to measure.
   std::vector<TriangleError> errors;
   MeshReport report;
-  double share_above = 0;        // of the area that is seen, on triangles found to err by more than asked
-  std::vector<ElementId> unmet;  // leaves that err by more than asked and cannot be divided
+  double share_above = 0;        // fraction of the seen area on triangles with errors above `error`
+  std::vector<ElementId> unmet;  // leaves with errors above `error` that cannot be divided
 };
 
-// The light that a mesh is to show.
+// The light that a mesh shows.
 struct LightToShow {
   const PatchVisibility& visibility;
   const RadiositySolution& solution;
   IrradianceSampler sampler;
 };
 
-// What refinement takes over from an earlier one, as far as there is any.
+// Data from an earlier refinement; each member may be null.
 struct RefinementMemory {
   LocalPassCache* local_pass = nullptr;
-  const MeshPlan* start = nullptr;  // what it begins with; BeginPlan() if it is null
-  SampleCache* samples = nullptr;   // what was evaluated, with the same sampler
+  const MeshPlan* start = nullptr;  // the initial plan; BeginPlan() if null
+  SampleCache* samples = nullptr;   // samples of the same sampler
 };
 
-// Refines until the share is small enough, nothing is left to do, or the most rounds are done. A round takes
-// those steps that promise most for what they cost, and no more than it takes: leaves are divided, and
-// discontinuities too light for the mesh become edges. Cancelled, it returns an empty mesh.
-// REQUIRES: the leaves are balanced.
+// Refines until at most kShareAbove of the area exceeds the error, no step helps, or max_rounds have been
+// done. A round takes the steps with the largest benefit / cost, as few as suffice. A step divides a leaf, or
+// makes an edge of a discontinuity that was too light for the mesh. If cancelled, the function returns an
+// empty mesh. REQUIRES: the leaves are balanced.
 RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options,
                        const MeshRefinementOptions& options, const ExecutionContext& context,
                        const RefinementMemory& memory = {});

@@ -9,14 +9,16 @@
 namespace penumbra {
 namespace {
 
-// What halving the size makes of the error where the irradiance is smooth, and across a bend without an edge.
+// The factor by which halving a leaf reduces the error, where the irradiance is smooth, and across a bend
+// without an edge.
 constexpr double kSmoothGain = 8, kBentGain = 4;
-// A discontinuity helps a triangle if its jumps alone lead to at least this share of the error: estimates of
-// jumps are good to a factor of two, and others may add to them.
+// A discontinuity helps a triangle if its jumps alone explain at least this fraction of the error. Estimates
+// of jumps are accurate to a factor of two, and other jumps may add to them.
 constexpr double kTelling = 0.35;
-// Triangles that dividing a leaf adds to those that it makes anew, and that an edge adds to a leaf.
+// Triangles that the division of a leaf adds to those that it makes anew, and triangles that an edge adds to
+// a leaf.
 constexpr double kDivisionCost = 6, kEdgeCost = 2;
-// A step for which others have left less than this share of what it mends is put off.
+// A step is postponed if other steps have left less than this fraction of the area that it would mend.
 constexpr double kWorthTaking = 0.5;
 
 using Corners = std::array<Vec2, 3>;
@@ -28,7 +30,7 @@ Corners CornersOf(const PatchTriangulation& patch, std::size_t t) {
 
 double Area(const Corners& c) { return 0.5 * Cross2(c[1] - c[0], c[2] - c[0]); }
 
-// True if the segment runs through the inside of the triangle.
+// True if the segment crosses the interior of the triangle.
 bool Crosses(const OmittedPart& part, const Corners& corners) {
   const double length = (part.to - part.from).norm();
   const LineInterval inside =
@@ -36,7 +38,7 @@ bool Crosses(const OmittedPart& part, const Corners& corners) {
   return std::max(inside.t0, 0.0) < std::min(inside.t1, length);
 }
 
-// The steps of one patch, whose triangles begin at `base`.
+// The steps of one patch, whose first triangle has the number `base`.
 class StepFinder {
  public:
   StepFinder(const IrradianceMesh& mesh, const PatchTriangulation& patch, std::size_t base,
@@ -45,7 +47,7 @@ class StepFinder {
     told_.resize(patch.triangles.size());
   }
 
-  // REQUIRES: called before AddDivisions(), which heeds what discontinuities cross.
+  // REQUIRES: called before AddDivisions(), which depends on the triangles that discontinuities cross.
   void AddDiscontinuities(const OmittedOfPatch& omitted, std::vector<RefinementStep>& steps) {
     for (const OmittedDiscontinuity& d : omitted.omitted) {
       RefinementStep step;
@@ -71,13 +73,13 @@ class StepFinder {
       RefinementStep step;
       step.patch = patch_.patch;
       step.leaf = patch_.leaves[i];
-      // A leaf that was crowded has been split for the triangulation.
+      // The triangulation has split a leaf that was crowded.
       const std::size_t first = i;
       while (i + 1 < patch_.leaves.size() && patch_.leaves[i + 1] == step.leaf) ++i;
       const std::uint32_t begin = patch_.first_triangle[first], end = patch_.first_triangle[i + 1];
       for (std::uint32_t t = begin; t < end; ++t) {
         if (!Errs(t)) continue;
-        // What is not mended at once is mended on half the area.
+        // Half the area counts for triangles that one division does not mend.
         const bool at_once = errors_[base_ + t].max <= (told_[t] ? kBentGain : kSmoothGain) * error_;
         step.mended.push_back(
             {static_cast<std::uint32_t>(base_ + t), (at_once ? 1 : 0.5) * Area(CornersOf(patch_, t))});
@@ -89,7 +91,7 @@ class StepFinder {
 
  private:
   bool Errs(std::size_t t) const { return errors_[base_ + t].max > error_; }
-  // Jumps are those of the brightest channel, and so is what they are compared with.
+  // Jumps are those of the brightest channel; therefore this is the irradiance of the brightest channel.
   double Brightness(std::size_t t) const {
     return std::max(mesh_.irradiance[base_ + t].At(1.0 / 3, 1.0 / 3).maxCoeff(), floor_);
   }
@@ -99,7 +101,7 @@ class StepFinder {
   const std::size_t base_;
   const std::span<const TriangleError> errors_;
   const double floor_, error_;
-  std::vector<bool> told_;  // triangles whose error a discontinuity tells
+  std::vector<bool> told_;  // triangles whose error a discontinuity explains
 };
 
 double Unmended(const RefinementStep& step, const std::unordered_set<std::uint32_t>& taken) {

@@ -14,30 +14,32 @@
 namespace penumbra {
 namespace {
 
-// The shares of the error that the interpolants and their sources may make, each at its 99th percentile:
-// seldom both at one point, nor with the most that samples may leave out.
+// The fractions of the error for the interpolants and for their sources, each for a 99th percentile. Both
+// rarely reach their limits at one point, together with the largest error of near samples.
 constexpr double kInterpolantShare = 0.65, kSourceShare = 0.25;
-// What interpolants' samples may leave out of their sources' detail, as a share of the error. Those of the
-// looks before the last keep to SolverOptions::correction_tolerance: their means correct the sources' light,
-// so that what is off in all of them grows from bounce to bounce.
+// The tolerance of the interpolants' samples for details of their sources, as a fraction of the error.
+// Samples before the last mesh use SolverOptions::correction_tolerance: their means correct the light of the
+// sources, so that a common error grows from bounce to bounce.
 constexpr double kNearShare = 0.2;
-// Refinement that may ask for edges begins with those of this times the least weight; looks before the last,
-// which only sources are made of, with those of this times as much.
+// Factors of the minimum weight. Refinement that may request edges starts with edges of kWeightToBegin times
+// the minimum weight; earlier meshes, which only determine sources, multiply that by kFirstWeight.
 constexpr double kWeightToBegin = 2, kFirstWeight = 2;
-// Sources are refined again while their means will change by more than this share of the error, so many
-// times: two to four in most rooms, and twenty in a narrow slot between white walls, where light goes to and
-// fro. They end sooner where two passes leave more than this of a change. The first choose how finely.
+// Sources are refined again while the means would still change by more than kSettledShare of the error, at
+// most kMostSourcePasses times. Most rooms need two to four passes; a narrow slot between white walls, where
+// light bounces many times, needs twenty. The passes end earlier if two passes leave more than kStill of a
+// change. The first kCutChoices passes choose the resolution of the sources.
 constexpr double kSettledShare = 0.6, kStill = 0.95;
 constexpr int kMostSourcePasses = 40, kCutChoices = 2;
-// Centroids can overlook what random points see. Once the mesh is refined these look, one for so many
-// evaluations of the refinement, and while one in a hundred may err by more than this share of the error it
-// is refined on, towards as much less as they see more, within limits.
+// Measurements at centroids can overlook errors that random points show. Random points therefore test the
+// refined mesh, one per kEvaluationsALook evaluations of the refinement. While the 99th percentile may be
+// above kOverlooked times the error, the mesh is refined further; the new target is smaller by the ratio of
+// the two, within limits.
 constexpr std::size_t kEvaluationsALook = 20, kFewestLooks = 1000, kMostLooks = 3000;
 constexpr double kOverlooked = 0.9, kLeastOnward = 0.5, kMostOnward = 0.9;
 constexpr int kMostTurns = 3;
-// Cells of sources are divided while their score is above this times the error.
+// Cells of sources are divided while their score is above this factor times the error.
 constexpr double kFinestScore = 1;
-// Random points that choose the sources.
+// The number of random points that choose the sources.
 constexpr std::size_t kCutPoints = 300;
 
 }  // namespace
@@ -61,14 +63,14 @@ bool ShownMesh::Make(const RadiositySolution& solution, const MeshOptions& optio
 
 namespace {
 
-// What the leaves are shown with at first, before refinement asks for lighter edges.
+// The options of the first mesh of the leaves, before refinement requests lighter edges.
 MeshOptions ToBeginWith(const MeshOptions& options) {
   MeshOptions last = options;
   if (options.discontinuities.can_want()) last.discontinuities.min_weight *= kWeightToBegin;
   return last;
 }
 
-// What looks before the last one are made with.
+// The options of the meshes before the last one.
 MeshOptions ForSources(const MeshOptions& options) {
   MeshOptions first = ToBeginWith(options);
   first.discontinuities.min_weight *= kFirstWeight;
@@ -143,7 +145,7 @@ LocalPassCache& ShownMesh::LocalPass() {
   return *local_pass_;
 }
 
-// What the latest mesh has replaces what was counted; work adds up.
+// Replaces the counts by those of the latest mesh, and adds up the work.
 void ShownMesh::Add(MeshReport latest) {
   latest.counts.point_evaluations += report_.counts.point_evaluations;
   latest.seconds.discontinuities += report_.seconds.discontinuities;
@@ -152,7 +154,7 @@ void ShownMesh::Add(MeshReport latest) {
   report_ = latest;
 }
 
-// Makes a mesh of the solution's leaves. False if it was cancelled.
+// Makes a mesh of the solution's leaves. False if cancelled.
 bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& options, double tolerance,
                           const ExecutionContext& context) {
   IrradianceSampler sampler;
@@ -172,19 +174,19 @@ bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& 
   return true;
 }
 
-// Refines the sources by what they show and shows them anew, in turns, until the light stands still: what
-// is left to change comes back by the bounces between walls that face each other. False if it was cancelled.
+// Alternately refines the sources by what they show, and shows them again, until the light settles: remaining
+// changes return by the bounces between walls that face each other. False if cancelled.
 bool ShownMesh::SettleSources(LightSolver& solver, const MeshOptions& options,
                               const ExecutionContext& context) {
   std::optional<double> score;
-  double before = 0, ratio_before = 0;  // the change of the last pass, and what it left of the one before
+  double before = 0, ratio_before = 0;  // change of the last pass, and its ratio to the change before
   for (int pass = 1;; ++pass) {
     if (pass <= kCutChoices) score.reset();
     const std::optional<double> change = RefineSources(solver, score, context);
     if (!change) return false;
     const double ratio = before > 0 ? *change / before : 1;
     if (pass == 2) ratio_before = ratio;
-    // Two factors take turns, since what one wall sends another sends back.
+    // Two factors alternate, because walls that face each other return each other's light.
     const double by_two = ratio * ratio_before, next = *change * std::max(ratio, ratio_before);
     const bool still = pass > kCutChoices + 1 && by_two > kStill;
     const bool settled = by_two < 1 && next / (1 - std::sqrt(by_two)) <= kSettledShare * options_.error;
@@ -197,9 +199,9 @@ bool ShownMesh::SettleSources(LightSolver& solver, const MeshOptions& options,
   }
 }
 
-// Gives the leaves the means of the interpolants, and cuts those whose light varies too much for where it
-// arrives: by the score, which is chosen where there is none. Returns how far the means were from the
-// leaves' (SourceCells::Change); nothing if it was cancelled.
+// Gives the means of the interpolants to the leaves, and cuts leaves whose light varies too much for the
+// places where it arrives: by the score, which is chosen if there is none. Returns the change of the leaves'
+// irradiance (SourceCells::Change); nothing if cancelled.
 std::optional<double> ShownMesh::RefineSources(LightSolver& solver, std::optional<double>& score,
                                                const ExecutionContext& context) {
   const Stopwatch stopwatch;
@@ -220,8 +222,8 @@ std::optional<double> ShownMesh::RefineSources(LightSolver& solver, std::optiona
   return done ? std::optional(change) : std::nullopt;
 }
 
-// Refines the leaves until they show no more than the error asked for, at their centroids and to random
-// points.
+// Refines the leaves until the error at their triangles' centroids and at random points is at most the
+// requested error.
 void ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOptions& options,
                              const ExecutionContext& context) {
   const double error = kInterpolantShare * options_.error, tolerance = kNearShare * options_.error;
@@ -238,7 +240,7 @@ void ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOption
     onward *= std::clamp(kOverlooked * options_.error / seen, kLeastOnward, kMostOnward);
     refined = Refine(solution, options, onward, tolerance, &samples, context);
   }
-  if (!refined || onward < error) return;  // what is left is measured
+  if (!refined || onward < error) return;  // measurements report the rest
   double area = 0;
   for (const ElementId leaf : refined->unmet) area += plan_.forest[leaf].area;
   unmet_ = fmt::format(
@@ -247,7 +249,7 @@ void ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOption
       refined->share_above, error, refined->unmet.size(), area);
 }
 
-// The 99th percentile of the interpolants' error as so many random points see it, at most.
+// An upper bound of the 99th percentile of the interpolants' error, from `points` random points.
 double ShownMesh::LookAround(std::size_t points, std::uint64_t seed, double tolerance,
                              const ExecutionContext& context) {
   const Stopwatch stopwatch;
@@ -258,14 +260,14 @@ double ShownMesh::LookAround(std::size_t points, std::uint64_t seed, double tole
   return seen.p99_at_most;
 }
 
-// Refines the leaves of the present mesh until their interpolants err by no more than `error`, and makes it
-// anew. `samples` are those of the same sources and tolerance, or null. What is returned has given its mesh
-// away; nothing if it was cancelled.
+// Refines the leaves of the present mesh until the interpolants' error is at most `error`, and replaces the
+// mesh. `samples` belong to the same sources and tolerance, or are null. Nothing if cancelled; the mesh of
+// the result has been moved from.
 std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, const MeshOptions& options,
                                              double error, double tolerance, SampleCache* samples,
                                              const ExecutionContext& context) {
   const Stopwatch stopwatch;
-  if (!irradiance_.Get(context)) return std::nullopt;  // of the sources as they have become
+  if (!irradiance_.Get(context)) return std::nullopt;  // from the present sources
   seconds_of_sources_ += stopwatch.Seconds();
   MeshRefinementOptions refinement;
   refinement.error = error;

@@ -1,8 +1,8 @@
 // mesh/refinement/shown_mesh.h
 //
-// The mesh of a solution as it is shown, and its refinement by what it shows (thesis 4.4.2): of the sources,
-// which take their light from the interpolants, then of the leaves, until the interpolants err by no more
-// than was asked.
+// The mesh that shows a solution, and its refinement by the error of what it shows (thesis 4.4.2). First the
+// sources are refined, whose light comes from the interpolants; then the leaves, until the interpolants meet
+// the requested error.
 
 #pragma once
 
@@ -31,12 +31,12 @@ namespace penumbra {
 
 struct ShownMeshOptions {
   double error = 0.02;    // PipelineOptions::error
-  int error_samples = 1;  // MeasureTriangles()
+  int error_samples = 1;  // see MeasureTriangles()
   std::uint64_t seed = 1;
-  SolverOptions solver;  // those that the solution was made with
+  SolverOptions solver;  // the options of the solution
 };
 
-// What was spent on sources, and on meshes.
+// Seconds spent on sources and on meshes.
 struct MeshSeconds {
   double sources = 0;
   MeshReport::Seconds mesh;
@@ -44,49 +44,53 @@ struct MeshSeconds {
 
 class ShownMesh {
  public:
-  // All must outlive it. `irradiance` is that of the solutions that meshes are made of.
+  // All arguments must outlive the object. `irradiance` belongs to the solutions that are passed to the
+  // functions below.
   ShownMesh(const Scene& scene, const PatchVisibility& visibility, CurrentIrradiance& irradiance,
             const ShownMeshOptions& options);
 
-  // Makes the mesh of the solution's leaves. False if it was cancelled, which leaves the mesh before.
+  // Makes the mesh of the solution's leaves. If cancelled, returns false and keeps the previous mesh.
   bool Make(const RadiositySolution& solution, const MeshOptions& options, const ExecutionContext& context);
-  // Refines the light of a solver: makes a first mesh of its leaves, cuts its sources by what that shows, and
-  // gives them the means of the interpolants, in turns, until the light stands still. False if it was
-  // cancelled, which leaves the last whole light. REQUIRES: solver.TakesLight().
+  // Refines the light of a solver. Makes a first mesh of the solver's leaves, then alternates until the light
+  // settles: cuts the sources by what the mesh shows, gives the means of the interpolants to the sources, and
+  // refines the mesh. If cancelled, returns false and leaves the last complete light. REQUIRES:
+  // solver.TakesLight().
   bool RefineLight(LightSolver& solver, const MeshOptions& options, const ExecutionContext& context);
-  // Makes the mesh of the solution's leaves, or begins with that of RefineLight(), and refines the leaves.
-  // What is cancelled once there is a mesh leaves the last whole one, and true. False if it was cancelled
-  // before that.
+  // Refines the leaves of a mesh: of the mesh of RefineLight() if there is one, otherwise of a new mesh of
+  // the solution's leaves. If cancelled before there is a mesh, returns false. If cancelled later, keeps the
+  // last complete mesh and returns true.
   bool MakeRefined(const RadiositySolution& solution, const MeshOptions& options,
                    const ExecutionContext& context);
-  // The light has changed: the mesh of RefineLight() is no beginning any more.
+  // For use after a change of the light: MakeRefined() will not start from the mesh of RefineLight().
   void Forget() { has_looked_ = false; }
-  // Shows a mesh that was made elsewhere.
+  // Shows a mesh from elsewhere.
   void Take(IrradianceMesh mesh);
-  // After another PatchVisibility has taken the place of the present one.
+  // For use after another PatchVisibility has replaced the present one.
   void ForgetVisibility() { local_pass_.reset(); }
 
-  // Exact irradiance from the finest sources that the interpolants give, with the bounces over the links of
-  // what these differ by: between walls that face each other a difference comes back many times. Null if it
-  // was cancelled.
+  // Exact irradiance from the finest sources that the interpolants provide. The sources include, over the
+  // links, the bounces of the difference from the solution's sources: between walls that face each other, a
+  // difference returns many times. Null if cancelled.
   std::unique_ptr<const PointIrradiance> BetterIrradiance(const RadiositySolution& solution,
                                                           const ExecutionContext& context);
-  // The same without those bounces: what one more bounce makes of the light that is shown, past all links.
-  // Where links carry light that should not be there, this does not bring it back.
+  // The same without these bounces: one more bounce of the shown light, independent of all links. Where links
+  // transport light that should not exist, this result does not contain the bounces of that light. Null if
+  // cancelled.
   std::unique_ptr<const PointIrradiance> ShownIrradiance(const RadiositySolution& solution,
                                                          const ExecutionContext& context);
 
   const IrradianceMesh& mesh() const { return mesh_; }
-  // What it was made of; empty if it was made elsewhere.
+  // The triangulations of mesh(); empty if the mesh is from elsewhere.
   std::span<const PatchTriangulation> triangulations() const { return triangulations_; }
-  // One a triangle of the mesh, where they were measured.
+  // One per triangle of the mesh, if the triangles were measured.
   std::span<const TriangleError> triangle_errors() const { return triangle_errors_; }
 
-  // Of what the last of the above made: counts are the mesh's, work is that of all that led to it.
+  // The report of the last of the functions above: the counts of the mesh, and the total work (evaluations
+  // and seconds) that led to the mesh.
   const MeshReport& report() const { return report_; }
-  // The seconds that were spent since this was last called.
+  // Returns the seconds since the last call.
   MeshSeconds TakeSeconds();
-  // What refinement could not reach; one line.
+  // One line that says which errors refinement could not reach.
   const std::optional<std::string>& unmet() const { return unmet_; }
 
  private:
@@ -115,12 +119,12 @@ class ShownMesh {
 
   IrradianceMesh mesh_;
   std::vector<PatchTriangulation> triangulations_;
-  MeshPlan plan_;  // that they were made of
+  MeshPlan plan_;  // the plan of triangulations_
   std::vector<TriangleError> triangle_errors_;
-  std::unique_ptr<LocalPassCache> local_pass_;  // of the present visibility
+  std::unique_ptr<LocalPassCache> local_pass_;  // for the present visibility
   MeshReport report_;
   double seconds_of_sources_ = 0;
-  bool has_looked_ = false;  // the mesh is that of RefineLight(), of the present light
+  bool has_looked_ = false;  // mesh_ is RefineLight()'s, for the present light
   std::optional<std::string> unmet_;
 };
 

@@ -15,12 +15,13 @@
 namespace penumbra {
 namespace {
 
-// How often a mesh triangle is quartered at most.
+// The largest number of successive quarterings of a mesh triangle.
 constexpr int kMostQuartered = 3;
-// Deviations count relative to the radiosity around; in dark places to this share of the scene's mean.
+// Deviations are relative to the radiosity of the cell, or to this fraction of the scene's mean if the cell
+// is darker.
 constexpr double kDark = 0.05;
-// Of Change(): the share of the area that may have changed by more, and of the mean irradiance that counts as
-// dark.
+// For Change(): the fraction of the area that may change by more, and the fraction of the mean irradiance
+// that bounds the denominator.
 constexpr double kChangedArea = 0.01, kDarkestShare = 0.01;
 
 using Triangle3 = std::array<Vec3, 3>;
@@ -30,7 +31,7 @@ struct QuadraticPiece {
   Triangle3 corner;
   std::array<Rgb, 6> sample;
 
-  // The midpoints' rule is exact for quadratics.
+  // The midpoint rule is exact for quadratics.
   Rgb Mean() const { return (sample[1] + sample[3] + sample[5]) / 3; }
 };
 
@@ -59,7 +60,7 @@ std::array<QuadraticPiece, 4> Quarters(const QuadraticPiece& piece) {
   return quarters;
 }
 
-// Whether a contact edge runs between two of the triangles.
+// True if a contact edge lies between two of the triangles.
 bool DividedByContacts(std::span<const PatchTriangulation::Triangle> triangles) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const PatchTriangulation::Triangle& triangle : triangles)
@@ -69,14 +70,14 @@ bool DividedByContacts(std::span<const PatchTriangulation::Triangle> triangles) 
   return std::adjacent_find(edges.begin(), edges.end()) != edges.end();
 }
 
-// Divides the leaves of one patch.
+// Divides the leaves of one patch into cells.
 class CellDivider {
  public:
   CellDivider(const RadiositySolution& solution, const IrradianceMesh& mesh, const Rgb& mean_radiosity,
               double finest, std::vector<SourceCell>& cells)
       : solution_(solution), mesh_(mesh), mean_radiosity_(mean_radiosity), finest_(finest), cells_(cells) {}
 
-  // `divided`: something stands on the leaf, and each side has light of its own.
+  // `divided` is true if something stands on the leaf, so that each side has its own light.
   void AddLeaf(ElementId leaf, std::uint32_t first, std::uint32_t end, bool divided,
                std::span<const PatchPair> seen) {
     const Element& element = solution_.forest[leaf];
@@ -93,7 +94,7 @@ class CellDivider {
       mean += a * pieces.back().Mean();
       area += a;
     }
-    // A leaf too narrow for its points has triangles without area, or none.
+    // A leaf that is too narrow for its points has triangles of zero area, or none.
     if (area > 0)
       mean /= area;
     else
@@ -144,7 +145,7 @@ class CellDivider {
       cells_[at].score = std::max(cells_[at].score, cells_[i].score);
   }
 
-  // The patches that may come within reach of a part of the leaf.
+  // Collects the patches that may be the closest to a part of the leaf.
   void FindNeighbours(const Element& element, std::span<const PatchPair> seen) {
     const Vec3 centre = Centroid(element.Vertices());
     const double size = Diameter(element.Vertices());
@@ -163,8 +164,9 @@ class CellDivider {
     return DistanceToPolygon(other.Vertices(), other.normal, x);
   }
 
-  // About the largest form factor of the polygon to a point of another patch, with what comes back from there
-  // time after time; of a polygon whose light averages out, which falls with one more power of the distance.
+  // The approximate largest form factor of the polygon to a point of another patch, including light that
+  // returns repeatedly from there. The deviations of the polygon's light average out, so that their effect
+  // falls with one more power of the distance.
   double ShareOfView(std::span<const Vec3> polygon) const {
     const Scene& scene = solution_.forest.scene();
     const Vec3 centre = Centroid(polygon);
@@ -173,7 +175,7 @@ class CellDivider {
     for (const auto& [distance, id] : neighbours_) {
       const Patch& patch = scene.patches[static_cast<std::size_t>(id)];
       const double gap = 1 + std::max(0.0, Distance(id, centre) / size - 0.5);
-      // Of half-planes that meet at this angle, beside their edge.
+      // For half-planes that meet at this angle, next to their common edge.
       const double wedge = 0.5 * (1 - normal_.dot(patch.normal));
       const double factor = wedge / (gap * gap * gap);
       const double returned = (reflectance_ * scene.MaterialOf(id).reflectance).maxCoeff() * factor * factor;
@@ -187,7 +189,7 @@ class CellDivider {
   const Rgb mean_radiosity_;
   const double finest_;
   std::vector<SourceCell>& cells_;
-  // Of the leaf's patch.
+  // For the present leaf.
   Vec3 normal_ = Vec3::Zero();
   Rgb reflectance_ = Rgb::Zero();
   std::vector<std::pair<double, PatchId>> neighbours_;
@@ -226,7 +228,7 @@ SourceCells::SourceCells(const RadiositySolution& solution, const MeshWithLeaves
   Collect(by_patch);
 }
 
-// Puts the cells of all patches into one list, their leaves ascending.
+// Joins the cells of all patches in one list, in ascending order of leaves.
 void SourceCells::Collect(const std::vector<std::vector<SourceCell>>& by_patch) {
   struct Range {
     ElementId leaf;
@@ -261,7 +263,7 @@ double SourceCells::Change() const {
     mean += cells_[i].area * cells_[i].irradiance;
     area += cells_[i].area;
   }
-  std::vector<std::pair<double, double>> changes;  // each with the area that has it
+  std::vector<std::pair<double, double>> changes;  // each with its area
   for (std::size_t i = 0; i < cells_.size(); i += static_cast<std::size_t>(cells_[i].skip)) {
     const Rgb& was = solution_.irradiance[static_cast<std::size_t>(cells_[i].leaf)];
     const Rgb scale =

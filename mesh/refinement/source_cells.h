@@ -1,12 +1,14 @@
 // mesh/refinement/source_cells.h
 //
-// Finer sources than the solution's leaves, out of the interpolants: each leaf that reflects is a tree of
-// cells, its mesh triangles and their quarters, with the exact mean of the interpolant on each. They need no
-// links. A cut through the trees is a set of fragments (RadiositySolution).
+// Sources that are finer than the solution's leaves, derived from the interpolants. Each leaf that reflects
+// is the root of a tree of cells: the leaf's mesh triangles, and quarters of triangles. Each cell has the
+// exact mean of the interpolant over the cell. Cells need no links. A cut through the trees gives a set of
+// fragments (RadiositySolution).
 //
-// A cell's score says what its constant radiosity may cost where its light arrives: how far the interpolant
-// deviates from its mean, relative to the light around, times how much of its view it can fill for the
-// nearest patch that sees it. It is a measure to compare cells by; SourceCut finds what scores are worth.
+// A cell's score estimates the error that the cell's constant radiosity causes where its light arrives:
+// (deviation of the interpolant from its mean, relative to the light around) * (largest fraction of the view
+// that the cell fills from the nearest patch that sees it). Scores only compare cells with each other;
+// SourceCut determines the error for a given score.
 
 #pragma once
 
@@ -26,43 +28,45 @@ namespace penumbra {
 struct SourceCell {
   ElementId leaf = kNoElement;   // of the solution
   std::array<Vec3, 4> vertex;    // [m]
-  std::int32_t size = 0;         // corners: 3 or 4
-  std::int32_t parent = -1;      // in the list; -1: the cell is the whole leaf
-  std::int32_t skip = 1;         // cells in this subtree, this one counted
+  std::int32_t size = 0;         // number of corners: 3 or 4
+  std::int32_t parent = -1;      // index in the list; -1: the cell is the whole leaf
+  std::int32_t skip = 1;         // number of cells in this subtree, including this cell
   double area = 0;               // [m^2]
-  Rgb irradiance = Rgb::Zero();  // its mean [W/m^2]
-  double score = 0;              // [1]; none below it has a larger one
+  Rgb irradiance = Rgb::Zero();  // mean over the cell [W/m^2]
+  double score = 0;              // [1]; at least the scores of all cells below
 };
 
-// A mesh, and what it was made of.
+// A mesh, and the leaves and triangulations of the mesh.
 struct MeshWithLeaves {
-  const ElementForest& forest;  // to which the leaves of the patches belong
+  const ElementForest& forest;  // the forest of the patches' leaves
   std::span<const PatchTriangulation> patches;
   const IrradianceMesh& mesh;
 };
 
 class SourceCells {
  public:
-  // From a mesh whose leaves are the solution's or lie below them. Cells are divided while their score is
-  // above `finest`, a few levels at most. `exact` tells who sees whom. Of no use if it was cancelled.
-  // REQUIRES: the mesh's forest is the solution's or was grown from it.
+  // Divides cells while their score is above `finest`, a few levels at most. `exact` tells which patches a
+  // leaf sees. If cancelled, the object is incomplete. REQUIRES: the mesh's forest is the solution's or grown
+  // from it.
   SourceCells(const RadiositySolution& solution, const MeshWithLeaves& shown, const PointIrradiance& exact,
               double finest, const ExecutionContext& context = ExecutionContext());
 
-  // Depth first, leaf after leaf, leaves ascending.
+  // In the order of leaves, and depth first for each leaf.
   std::span<const SourceCell> cells() const { return cells_; }
 
-  // The mean irradiance of each leaf by the interpolants, indexed by element; that of the solution for leaves
-  // that do not reflect [W/m^2].
+  // The irradiance of each element [W/m^2]: for leaves that reflect, the mean of the interpolants; otherwise
+  // the solution's irradiance.
   std::vector<Rgb> LeafIrradiance() const;
 
-  // How far the leaves' means are from these: what 1 % of the area that reflects exceeds, relative to these
-  // or to 1 % of their mean, in any channel.
+  // The change of the leaves' irradiance from the solution to the means of the interpolants: the value that 1
+  // % of the reflecting area exceeds. Changes are relative to max(mean of the leaf, 1 % of the mean over all
+  // leaves), the largest over the channels.
   double Change() const;
 
-  // The cells with a score of at most `score` whose parents have more, and those that have no parts.
+  // The indices of the first cells, on the way down from each leaf, that have a score of at most `score` or
+  // no children.
   std::vector<std::int32_t> Cut(double score) const;
-  // They as fragments, without those that are whole leaves unless these are asked for.
+  // The cells of a cut as fragments. Cells that are whole leaves are included only if `whole_leaves` is true.
   std::vector<Fragment> Fragments(std::span<const std::int32_t> cut, bool whole_leaves) const;
 
  private:

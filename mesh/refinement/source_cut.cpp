@@ -15,20 +15,21 @@ namespace penumbra {
 namespace {
 
 constexpr std::size_t kPointGrain = 4;
-// Scores that are tried: the finest times powers of this.
+// The scores that are tried are the finest times powers of this.
 constexpr double kStep = 1.189207115002721;
 constexpr std::size_t kSteps = 36;
 
-// Scores from the finest on, in steps of kStep.
+// The scores from the finest upwards, in steps of kStep.
 std::vector<double> ScoresFrom(double finest) {
   std::vector<double> scores;
   for (std::size_t j = 0; j < kSteps; ++j) scores.push_back(finest * std::pow(kStep, static_cast<double>(j)));
   return scores;
 }
 
-// What a point gets from each cell: its form factor, and its light if each is as bright as its finest parts.
+// The contributions of cells at a point: each cell's form factor, and its light if its finest parts have
+// their own irradiance.
 struct LightByCell {
-  std::vector<double> leaf_factor;  // by leaf of the finest sources
+  std::vector<double> leaf_factor;  // indexed by leaf of the finest sources
   std::vector<double> factor;
   std::vector<Rgb> light;
 
@@ -39,7 +40,7 @@ struct LightByCell {
   }
 };
 
-// What points would get from the cuts that the scores make.
+// The irradiance at points from the cuts of all scores.
 class CutTrial {
  public:
   CutTrial(const RadiositySolution& solution, const SourceCells& cells, const PointIrradiance& exact,
@@ -51,7 +52,7 @@ class CutTrial {
         scene_(solution.forest.scene()),
         accepted_at_(cells_.size()),
         reflectance_(cells_.size()) {
-    const auto step_of = [&](double score) {  // the first that accepts it
+    const auto step_of = [&](double score) {  // the first step that accepts it
       return static_cast<std::size_t>(std::lower_bound(scores.begin(), scores.end(), score) - scores.begin());
     };
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -62,7 +63,7 @@ class CutTrial {
 
   struct Irradiance {
     Rgb truth;                      // from the finest sources
-    std::array<Rgb, kSteps> shown;  // from the cut of each score, with what comes back of its error
+    std::array<Rgb, kSteps> shown;  // from the cut of each score, including the return of its error
   };
   Irradiance At(const SurfacePoint& at) const;
 
@@ -74,11 +75,12 @@ class CutTrial {
   std::vector<std::int32_t> fine_cut_;
   PointIrradiance fine_;
   const Scene& scene_;
-  std::vector<std::size_t> accepted_at_;  // by cell: the first step whose cut takes it whole
+  std::vector<std::size_t> accepted_at_;  // by cell: the first step whose cut contains the whole cell
   std::vector<Rgb> reflectance_;          // by cell
 };
 
-// Returns the irradiance from the finest sources; `cells` gets its parts, by the cells of the finest cut.
+// Returns the irradiance from the finest sources, and fills `cells` with its parts for the cells of the
+// finest cut.
 Rgb CutTrial::LookAtCells(PatchId patch, const ReceiverPoint& receiver, LightByCell& cells) const {
   const SourceSet& sources = fine_.sources();
   cells.leaf_factor.resize(sources.LeafRadiosities().size());
@@ -95,7 +97,8 @@ Rgb CutTrial::LookAtCells(PatchId patch, const ReceiverPoint& receiver, LightByC
   return irradiance;
 }
 
-// How the irradiance changes from one score to the next. Adds to the cells what their children have.
+// The change of the irradiance from each score to the next. Adds the contributions of children to their
+// parents.
 std::array<Rgb, kSteps + 1> CutTrial::Changes(LightByCell& cells) const {
   std::array<Rgb, kSteps + 1> change;
   change.fill(Rgb::Zero());

@@ -1,6 +1,6 @@
 // mesh/refinement/source_cut.h
 //
-// How fine the sources must be for the light that they send to be right.
+// The resolution of sources that makes the light they send sufficiently accurate.
 
 #pragma once
 
@@ -15,23 +15,24 @@
 namespace penumbra {
 
 struct SourceCutOptions {
-  double finest = 0;       // the smallest score that is tried
-  double error = 0;        // the largest 99th percentile of the relative error that will do
-  std::size_t points = 0;  // at which the error is measured
-  std::uint64_t seed = 0;  // of these points
+  double finest = 0;       // smallest score that is tried
+  double error = 0;        // largest acceptable 99th percentile of the relative error
+  std::size_t points = 0;  // number of points that measure the error
+  std::uint64_t seed = 0;  // seed of these points
 };
 
 struct SourceCut {
-  double score = 0;  // of SourceCells::Cut()
-  // The 99th percentile of the relative error that sources of these cells make, against all that the trees
-  // have (RelativeErrors), each as often as it comes back (PointIrradiance::Reverberation).
+  double score = 0;  // argument of SourceCells::Cut()
+  // The 99th percentile of the relative error of the cut's cells as sources, compared with the finest cells
+  // (RelativeErrors). Each error is multiplied by PointIrradiance::Reverberation, which accounts for its
+  // repeated return.
   double p99 = 0;
 };
 
-// The coarsest cut by score whose p99 is at most the error asked for, at random points that spread evenly
-// over the fronts; the finest there is if none is good enough. Every point is looked at once, with the finest
-// sources: what coarser ones would make of it follows from the same form factors. Of no use if it was
-// cancelled.
+// The coarsest cut by score whose p99 is at most options.error, at random points that are distributed
+// uniformly over the reflecting fronts; if no cut is good enough, the finest cut. The function evaluates
+// every point once, with the finest sources, and computes the irradiance from coarser sources from the same
+// form factors. If cancelled, the result is meaningless.
 SourceCut ChooseSourceCut(const RadiositySolution& solution, const SourceCells& cells,
                           const PointIrradiance& exact, const SourceCutOptions& options,
                           const ExecutionContext& context = ExecutionContext());

@@ -7,12 +7,12 @@
 namespace penumbra {
 namespace {
 
-// Triangulates the part of the outline from `first` to `last`, which lies beyond the chord between them: its
-// triangle at the chord has the corner that sees the chord under the largest angle.
+// Triangulates the part of the outline from `first` to `last`, which lies beyond the chord between them. The
+// third corner of the triangle at the chord is the corner that sees the chord under the largest angle.
 void TriangulateBeyond(std::span<const Vec2> outline, std::int32_t first, std::int32_t last,
                        std::vector<std::array<std::int32_t, 3>>& triangles) {
   if (last - first < 2) return;
-  // Cotangents that differ by less are a tie: corners on one circle.
+  // Cotangents with a smaller difference are equal: the corners lie on one circle.
   constexpr double kTie = 1e-12;
   double smallest = std::numeric_limits<double>::infinity();
   std::int32_t apex = -1;
@@ -25,7 +25,7 @@ void TriangulateBeyond(std::span<const Vec2> outline, std::int32_t first, std::i
     smallest = cotangent;
     apex = k;
   }
-  // Only rounding can leave a chord without a corner beyond it: any corner does then.
+  // Only rounding errors can leave a chord without a corner beyond it; any corner is acceptable then.
   if (apex < 0) apex = (first + last) / 2;
   triangles.push_back({first, apex, last});
   TriangulateBeyond(outline, first, apex, triangles);

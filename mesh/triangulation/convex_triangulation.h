@@ -1,6 +1,6 @@
 // mesh/triangulation/convex_triangulation.h
 //
-// The Delaunay triangulation of points on the outline of a convex polygon, for leaves that nothing crosses.
+// The Delaunay triangulation of the vertices of a convex polygon, for leaves that no line crosses.
 
 #pragma once
 
@@ -13,9 +13,9 @@
 
 namespace penumbra {
 
-// Triangles, counter-clockwise, as indices in `outline`: counter-clockwise, of at least three points, convex
-// to rounding; points within a side are welcome. Of two diagonals that serve equally well the one from the
-// lower index is taken. Cost: quadratic in the number of points.
+// Appends counter-clockwise triangles, as indices in `outline`. The outline has at least three points in
+// counter-clockwise order and is convex up to rounding; points in the interior of a side are allowed. Ties
+// between diagonals are resolved by the lower index. The time is quadratic in the number of points.
 void TriangulateConvex(std::span<const Vec2> outline, std::vector<std::array<std::int32_t, 3>>& triangles);
 
 }  // namespace penumbra

@@ -14,14 +14,14 @@ namespace {
 
 using VertexId = PatchBorders::VertexId;
 
-// What a task makes of a leaf.
+// The result of a task for one leaf.
 struct MadeLeaf {
   std::shared_ptr<const LeafMesh> mesh;
-  std::vector<double> key;  // with a cache, of a leaf with lines
-  bool kept = false;        // it was in the cache
+  std::vector<double> key;  // only with a cache, for a leaf with lines
+  bool kept = false;        // found in the cache
 };
 
-// Makes leaves one after the other. One object a task.
+// Triangulates one leaf after another. Each task has its own object.
 class LeafMaker {
  public:
   LeafMaker(const ElementForest& forest, const PatchBorders& borders, const PatchDSets& dsets,
@@ -115,7 +115,8 @@ PatchTriangulation TriangulateLeaves(const ElementForest& forest, PatchId patch,
 }
 
 void PatchTriangulation::Validate(const Patch& outline) const {
-  // The sum over triangles of areas whose error is some roundings of the patch's.
+  // Each triangle's area has an error of a few roundings of the patch's area; this bounds the error of the
+  // sum.
   constexpr double kAreaError = 1e-9;
   std::map<std::pair<VertexId, VertexId>, std::size_t> directed;
   double area = 0;

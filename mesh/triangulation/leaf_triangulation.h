@@ -1,11 +1,10 @@
 // mesh/triangulation/leaf_triangulation.h
 //
-// The triangles of a patch: every leaf of its quadtree, triangulated along its active discontinuities
-// (thesis 5.2, 5.5), without a T-vertex inside the patch (3.6, cases A and B).
+// The triangles of a patch: every leaf of the quadtree is triangulated along its active discontinuities
+// (thesis 5.2, 5.5). The interior of the patch has no T-vertex (3.6, cases A and B).
 //
-// How neighbouring leaves come to agree: the vertices on their common border are decided once, for the patch
-// (PatchBorders). Inside a leaf nothing has to agree with anybody; there it is enough to keep away from the
-// border (leaf_margins.h).
+// Neighbouring leaves agree because PatchBorders determines the vertices on their common border once per
+// patch. Vertices inside a leaf concern no other leaf, and keep a distance from the border (leaf_margins.h).
 
 #pragma once
 
@@ -24,10 +23,10 @@ namespace penumbra {
 
 struct PatchTriangulation {
   struct Triangle {
-    std::array<std::uint32_t, 3> vertex;  // counter-clockwise from the front
+    std::array<std::uint32_t, 3> vertex;  // counter-clockwise as seen from the front
     // Edge k runs from vertex k to vertex k + 1.
-    std::array<std::int32_t, 3> line = {kNoLine, kNoLine, kNoLine};  // the PatchDSets::lines that it lies on
-    std::array<bool, 3> contact = {false, false, false};             // the irradiance jumps across it (D0)
+    std::array<std::int32_t, 3> line = {kNoLine, kNoLine, kNoLine};  // index in PatchDSets::lines
+    std::array<bool, 3> contact = {false, false, false};  // edge k is a contact: the irradiance jumps (D0)
   };
 
   PatchId patch = kNoPatch;
@@ -35,22 +34,22 @@ struct PatchTriangulation {
   std::vector<Vec2> in_plane;                 // the same in the patch's frame [m]
   std::vector<Triangle> triangles;            // leaf by leaf, depth first
   std::vector<ElementId> leaves;              // depth first
-  std::vector<std::uint32_t> first_triangle;  // per leaf, and the end
-  std::size_t dropped_segments = 0;  // discontinuity edges within rounding of a leaf's border, left out
+  std::vector<std::uint32_t> first_triangle;  // per leaf, and past the last
+  std::size_t dropped_segments = 0;  // omitted discontinuity edges, within rounding of a leaf's border
   std::size_t leaves_made = 0;       // leaves with lines that were triangulated
-  std::size_t leaves_kept = 0;       // and those whose triangles were there already
+  std::size_t leaves_kept = 0;       // leaves with lines whose triangles were in the cache
 
-  // Checks that every triangle runs counter-clockwise, that the areas add up to the patch's, and that the
-  // mesh conforms: each edge has one triangle on either side, or lies on the patch's outline.
+  // Stops the program unless every triangle is counter-clockwise, the areas add up to the patch's area, and
+  // the mesh conforms: each edge has one triangle on either side, or lies on the patch's outline.
   void Validate(const Patch& outline) const;
 };
 
-// Triangulates the leaves of dsets.leaves, in parallel. The same input gives the same bytes, with a cache or
-// without. REQUIRES: the quadtree is balanced, and has not changed since `dsets` were made.
+// Triangulates the leaves of dsets.leaves, in parallel. The same input gives the same bytes, with or without
+// a cache. REQUIRES: the quadtree is balanced, and has not changed since `dsets` were computed.
 PatchTriangulation TriangulateLeaves(const ElementForest& forest, PatchId patch, const PatchDSets& dsets);
-// The same with borders that were made before from the same arguments, and may have been welded to those of
-// other patches. Of the cache, which holds the leaves of this patch, those are used whose borders and lines
-// are the same; afterwards it holds the leaves as they are now.
+// The same with given borders, constructed from the same arguments and possibly welded to the borders of
+// other patches. The cache must hold leaves of this patch. The function reuses the cached leaves with equal
+// borders and lines; afterwards, the cache holds exactly the present leaves.
 PatchTriangulation TriangulateLeaves(const ElementForest& forest, PatchId patch, const PatchDSets& dsets,
                                      PatchBorders borders, LeafMeshCache* cache = nullptr);
 

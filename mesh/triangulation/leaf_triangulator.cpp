@@ -20,7 +20,7 @@ void LeafShape::Reset(std::span<const Vec2> border, Polygon2 outline, double sna
 }
 
 void LeafShape::AddLine(const DiscontinuityLine& line) {
-  // Every vertex of the border that counts as one of the line lies within.
+  // The clipped line contains every border vertex that counts as lying on the line.
   const LineInterval near = ClipLine(line.origin, line.direction, outline_, -2 * kLeafReach * snap_);
   const auto cut = [&](std::span<const LineInterval> intervals) {
     for (const LineInterval& i : intervals) {
@@ -76,12 +76,12 @@ LeafMesh LeafTriangulator::Triangulate(const LeafShape& shape) {
 
 double LeafTriangulator::Reach() const { return kLeafReach * shape_->snap(); }
 
-// The DSet's edge within the leaf: the hull of its discontinuities there (thesis 5.5.7).
+// Adds the DSet's edge within the leaf: the hull of its discontinuities there (thesis 5.5.7).
 void LeafTriangulator::AddSegment(std::int32_t number) {
   const Line& line = shape_->lines()[number];
   const double snap = shape_->snap();
   const LineInterval inner = ClipLine(line.origin, line.direction, shape_->outline(), kLeafMargin * snap);
-  LineInterval hull = {0, 0}, reach = {0, 0};  // within the leaf; as far as its outer discontinuities go
+  LineInterval hull = {0, 0}, reach = {0, 0};  // within the leaf; to the ends of the outer discontinuities
   bool any = false;
   for (const LineInterval& i : shape_->Cover(line)) {
     const LineInterval part = {std::max(i.t0, inner.t0), std::min(i.t1, inner.t1)};
@@ -100,7 +100,8 @@ void LeafTriangulator::AddSegment(std::int32_t number) {
   std::int32_t to = to_border ? BorderVertexOn(line, hull.t1, reach.t1, false) : -1;
   if (from < 0) from = AddPoint(line.At(hull.t0));
   if (to < 0) to = AddPoint(line.At(hull.t1));
-  // A contact that ends on the way gets a vertex, so that each edge jumps along its whole length or nowhere.
+  // A contact that ends on the way gets a vertex, so that the irradiance jumps along a whole edge or nowhere
+  // on it.
   for (const LineInterval& i : shape_->Contact(line))
     for (const double end : {i.t0, i.t1}) {
       if (end <= hull.t0 + snap || end >= hull.t1 - snap) continue;
@@ -115,8 +116,8 @@ void LeafTriangulator::PushSegment(std::int32_t from, std::int32_t to, std::int3
   if (from != to) segments_.push_back({from, to, line});
 }
 
-// The border vertex on the line between t0 and t1, or within reach outside, that is next to the leaf's
-// inside: the last one if `last`, else the first; -1 if there is none.
+// The border vertex on the line between t0 and t1, or within reach outside, that is closest to the leaf's
+// interior: the last vertex if `last`, otherwise the first; -1 if there is none.
 std::int32_t LeafTriangulator::BorderVertexOn(const Line& line, double t0, double t1, bool last) const {
   std::int32_t best = -1;
   double best_at = 0;
@@ -133,7 +134,7 @@ std::int32_t LeafTriangulator::BorderVertexOn(const Line& line, double t0, doubl
   return best;
 }
 
-// The end of a segment inside the leaf; ends within the snap distance of each other are one.
+// Adds the end of a segment inside the leaf. Ends within the snap distance of each other become one point.
 std::int32_t LeafTriangulator::AddPoint(const Vec2& p) {
   for (auto k = static_cast<std::size_t>(border_size_); k < points_.size(); ++k)
     if ((points_[k] - p).norm() <= shape_->snap()) return static_cast<std::int32_t>(k);
@@ -153,7 +154,7 @@ void LeafTriangulator::TriangulateOutline(LeafMesh& mesh) {
 }
 
 void LeafTriangulator::TriangulateSegments(LeafMesh& mesh) {
-  // A border that is split would leave a T-vertex: rather go without the weakest of the segments.
+  // A split border would cause a T-vertex. The weakest segments are omitted instead.
   while (!Split()) {
     const std::int32_t weakest = segments_.back().line;
     while (!segments_.empty() && segments_.back().line == weakest) segments_.pop_back();
@@ -187,14 +188,14 @@ void LeafTriangulator::TriangulateSegments(LeafMesh& mesh) {
   }
 }
 
-// Splits border and segments where they meet; false if that would split or bend the border.
+// Splits border and segments at their intersections. Returns false if that would split or bend the border.
 bool LeafTriangulator::Split() {
   split_points_ = points_;
   pieces_.clear();
   for (std::int32_t k = 0; k < border_size_; ++k) pieces_.push_back({k, (k + 1) % border_size_, k});
   used_.assign(points_.size(), false);
   std::fill(used_.begin(), used_.begin() + border_size_, true);
-  // Points of a segment that was given up take no part.
+  // Points of omitted segments do not take part.
   for (std::size_t s = 0; s < segments_.size(); ++s) {
     const Segment& segment = segments_[s];
     pieces_.push_back({segment.from, segment.to, border_size_ + static_cast<std::int32_t>(s)});
@@ -208,7 +209,7 @@ bool LeafTriangulator::Split() {
   return border_pieces == border_size_;
 }
 
-// Marks the border edges along the line. They need no segment.
+// Marks the border edges along the line. Such edges need no segment.
 void LeafTriangulator::MarkBorder(std::int32_t number, LeafMesh& mesh) const {
   const Line& line = shape_->lines()[number];
   const double snap = shape_->snap();
@@ -230,7 +231,7 @@ void LeafTriangulator::MarkBorder(std::int32_t number, LeafMesh& mesh) const {
 std::size_t LeafMeshCache::Hash::operator()(const std::vector<double>& key) const {
   std::uint64_t h = key.size();
   for (const double x : key) {
-    h ^= std::bit_cast<std::uint64_t>(x + 0.0);  // the two zeros are equal
+    h ^= std::bit_cast<std::uint64_t>(x + 0.0);  // equal bits for both zeros
     h *= 0x9E3779B97F4A7C15ULL;
     h ^= h >> 29;
   }

@@ -1,7 +1,7 @@
 // mesh/triangulation/leaf_triangulator.h
 //
-// The triangles of one leaf, from its border and its lines alone: what leaves of the same shape with the same
-// lines have once been given, they need not be given again.
+// The triangles of one leaf, which depend only on the leaf's border and lines. Leaves with equal borders and
+// lines can therefore share triangles.
 
 #pragma once
 
@@ -19,16 +19,16 @@
 
 namespace penumbra {
 
-// All that the triangles of a leaf depend on, in the plane of the patch.
+// All data that determine the triangles of a leaf, in the plane of the patch.
 class LeafShape {
  public:
-  // A line, cut down to what can matter in the leaf.
+  // A line, clipped to the neighbourhood of the leaf.
   struct Line : DirectedLine {
-    std::size_t first = 0, first_contact = 0, end = 0;  // its range in intervals()
+    std::size_t first = 0, first_contact = 0, end = 0;  // range in intervals_
   };
 
-  // Begins anew: the vertices around the border and the corners of the leaf, both counter-clockwise; the
-  // patch's snap distance [m].
+  // Starts a new leaf: `border` holds the vertices around the leaf, `outline` its corners, both
+  // counter-clockwise; `snap` is the patch's snap distance [m].
   void Reset(std::span<const Vec2> border, Polygon2 outline, double snap);
   void AddLine(const DiscontinuityLine& line);
 
@@ -43,7 +43,7 @@ class LeafShape {
     return std::span(intervals_).subspan(line.first_contact, line.end - line.first_contact);
   }
 
-  // All of it as numbers: equal ones give equal triangles.
+  // The shape as a list of numbers. Equal lists have equal triangles.
   void Encode(std::vector<double>* key) const;
 
  private:
@@ -56,8 +56,8 @@ class LeafShape {
 
 inline constexpr std::int32_t kNoLine = -1;
 
-// The triangles of a leaf. A vertex below border_size is that place around the border, others are of
-// `inside`. Lines are those of the LeafShape by their number there.
+// The triangles of a leaf. A vertex number below border_size is the index of a border vertex; the number
+// border_size + i is inside[i]. The numbers of lines are indices in LeafShape::lines().
 struct LeafMesh {
   struct Triangle {
     std::array<std::uint32_t, 3> vertex;  // counter-clockwise
@@ -69,14 +69,14 @@ struct LeafMesh {
   std::uint32_t border_size = 0;
   std::vector<Vec2> inside;
   std::vector<Triangle> triangles;
-  std::size_t dropped_segments = 0;  // too near to the border to be edges
+  std::size_t dropped_segments = 0;  // too close to the border to be edges
 };
 
-// Triangulates leaves one after the other. One object a thread.
+// Triangulates one leaf after the other. Each thread needs its own object.
 class LeafTriangulator {
  public:
-  // Each line gives the leaf at most one edge, the hull of its cover there; a piece of border that lies on a
-  // line is marked. The border is never split or moved.
+  // Each line gives the leaf at most one edge: the hull of the line's cover inside the leaf. Pieces of the
+  // border that lie on a line are marked. The function never splits or moves the border.
   LeafMesh Triangulate(const LeafShape& shape);
 
  private:
@@ -96,7 +96,7 @@ class LeafTriangulator {
   void MarkBorder(std::int32_t number, LeafMesh& mesh) const;
 
   const LeafShape* shape_ = nullptr;
-  std::vector<Vec2> points_;  // around the border, then the ends of segments inside
+  std::vector<Vec2> points_;  // border vertices, then the ends of segments inside
   std::int32_t border_size_ = 0;
   std::vector<Segment> segments_;
   std::vector<Vec2> split_points_;
@@ -108,11 +108,11 @@ class LeafTriangulator {
   ConstrainedTriangulator triangulator_;
 };
 
-// The meshes of one patch's leaves that lines run through or along, as they were when the patch was last
-// triangulated. Others are made faster than found.
+// The meshes of one patch's leaves that lines cross or touch, from the patch's latest triangulation. Leaves
+// without lines are not cached, because triangulating them takes less time than the search.
 class LeafMeshCache {
  public:
-  // The mesh that was made of a shape with this key; null if there is none.
+  // The mesh of the shape with this key (LeafShape::Encode); null if there is none.
   std::shared_ptr<const LeafMesh> Find(const std::vector<double>& key) const;
   void Clear() { meshes_.clear(); }
   void Insert(std::vector<double> key, std::shared_ptr<const LeafMesh> mesh) {

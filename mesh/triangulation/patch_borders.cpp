@@ -23,7 +23,7 @@ struct StretchKeyHash {
 
 }  // namespace
 
-// Fills in the borders of one patch.
+// Computes the borders of one patch.
 class PatchBorders::Builder {
  public:
   Builder(const ElementForest& forest, const Patch& patch, const PatchDSets& dsets, PatchBorders& borders)
@@ -70,8 +70,8 @@ class PatchBorders::Builder {
     return {place->second, reversed};
   }
 
-  // Notes where the line crosses the stretch, or where discontinuities end that run along it. A corner within
-  // the snap distance of the line lies on it.
+  // Records where the line crosses the stretch, or where discontinuities that run along the stretch end. A
+  // corner within the snap distance of the line lies on the line.
   void Cross(Stretch& stretch, std::int32_t number) const {
     const DiscontinuityLine& line = dsets_.lines[number];
     const Vec2 &a = to_.in_plane[stretch.a], &b = to_.in_plane[stretch.b];
@@ -85,8 +85,8 @@ class PatchBorders::Builder {
       stretch.crossings.push_back({fraction, number});
   }
 
-  // The stretch lies on the line: what ends within it needs a vertex there, or its edge would be marked too
-  // far.
+  // For a stretch on the line: each end of a discontinuity within the stretch needs a vertex, because the
+  // marked edge would be too long otherwise.
   void NoteEnds(Stretch& stretch, std::int32_t number) const {
     const DiscontinuityLine& line = dsets_.lines[number];
     const double a = line.Along(to_.in_plane[stretch.a]), b = line.Along(to_.in_plane[stretch.b]);
@@ -141,7 +141,8 @@ std::vector<Vec3> PatchBorders::OutlineVertices() const {
   std::vector<Vec3> vertices;
   for (const Stretch& stretch : stretches_) {
     if (stretch.uses != 1) continue;
-    // Each corner of the outline is an end of two stretches: both are told, which costs nothing.
+    // Each corner of the outline is an end of two stretches. The list contains such a corner twice, without
+    // harm.
     vertices.push_back(positions[stretch.a]);
     vertices.push_back(positions[stretch.b]);
     for (const VertexId v : stretch.inner) vertices.push_back(positions[v]);
@@ -163,7 +164,7 @@ void PatchBorders::WeldTo(Stretch& stretch, const Vec3& point) {
   const Vec2 p = frame.ToPlane(point), a = in_plane[stretch.a], b = in_plane[stretch.b];
   const double length = (b - a).norm();
   if ((frame.FromPlane(p) - point).norm() > snap || std::abs(Cross2(b - a, p - a)) > snap * length) return;
-  // What lies within the snap distance of a vertex is that vertex.
+  // A point within the snap distance of a vertex is that vertex.
   const auto is_near = [&](VertexId v) { return (in_plane[v] - p).norm() <= snap; };
   for (const VertexId end : {stretch.a, stretch.b})
     if (is_near(end)) {
@@ -187,7 +188,7 @@ void PatchBorders::WeldTo(Stretch& stretch, const Vec3& point) {
 }
 
 PatchBorders::VertexId PatchBorders::AddBetween(const Stretch& stretch, double fraction) {
-  // Copies: the vectors grow.
+  // Copies, because the vectors grow.
   const Vec3 a = positions[stretch.a], b = positions[stretch.b];
   const Vec2 a2 = in_plane[stretch.a], b2 = in_plane[stretch.b];
   positions.push_back((1 - fraction) * a + fraction * b);

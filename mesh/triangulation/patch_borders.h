@@ -1,8 +1,8 @@
 // mesh/triangulation/patch_borders.h
 //
-// The vertices on the borders of a patch's leaves: the corners of leaves (hanging ones as well) and, on each
-// stretch between two of these, the crossings with the lines that are active in either leaf. Each has one
-// position, whoever asks (thesis 3.6, cases A and B).
+// The vertices on the borders of a patch's leaves: the corners of leaves, including hanging corners, and the
+// crossings of each stretch between two corners with the lines that are active in either leaf. Each vertex
+// has one position, which both leaves use (thesis 3.6, cases A and B).
 
 #pragma once
 
@@ -22,16 +22,17 @@ class PatchBorders {
   using VertexId = std::uint32_t;
 
   PatchBorders() = default;
-  // REQUIRES: the quadtree is balanced, and has not changed since `dsets` were made.
+  // REQUIRES: the quadtree is balanced, and has not changed since `dsets` were computed.
   PatchBorders(const ElementForest& forest, PatchId patch, const PatchDSets& dsets);
 
-  // The vertices around a leaf, by its number in PatchDSets::leaves, counter-clockwise.
+  // Replaces `loop` by the vertices around a leaf, counter-clockwise. `leaf` is an index in
+  // PatchDSets::leaves.
   void Around(std::size_t leaf, std::vector<VertexId>& loop) const;
 
   // The positions of the vertices on the patch's outline [m].
   std::vector<Vec3> OutlineVertices() const;
-  // Makes the points vertices of the outline where they lie on it: a vertex within the snap distance of one
-  // takes its position. Others are left alone.
+  // Adds to the outline those of the points that lie on it. A vertex within the snap distance of such a point
+  // moves to the point. Other vertices stay in place.
   void Weld(std::span<const Vec3> points);
 
   std::vector<Vec3> positions;  // [m], by VertexId
@@ -40,12 +41,13 @@ class PatchBorders {
   double snap = 0;  // [m]
 
  private:
-  // A stretch of leaves' borders between neighbouring lattice vertices. Leaves on both sides refer to it.
+  // A part of a border between neighbouring lattice vertices. The leaves on both sides refer to the same
+  // stretch.
   struct Stretch {
-    VertexId a, b;                                           // ascending lattice points
+    VertexId a, b;                                           // vertices at ascending lattice points
     std::vector<std::pair<double, std::int32_t>> crossings;  // (fraction from a to b, line)
-    std::vector<VertexId> inner;                             // vertices between a and b, from a
-    int uses = 0;                                            // leaves beside it: one on the outline
+    std::vector<VertexId> inner;                             // vertices between a and b, in order from a
+    int uses = 0;  // number of leaves along it; 1 on the patch's outline
   };
   struct StretchUse {
     std::uint32_t stretch;

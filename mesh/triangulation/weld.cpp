@@ -14,10 +14,10 @@ namespace {
 struct OutlineEdge {
   PatchId patch;
   Vec3 a, b;
-  Vec3 low, high;  // of a box around it
+  Vec3 low, high;  // of the bounding box
 };
 
-// True if the segments lie on one line, or within `tolerance` of it, and share more than an end.
+// True if the segments lie within `tolerance` of one line, and share more than an end.
 bool Overlap(const OutlineEdge& e, const OutlineEdge& f, double tolerance) {
   const Vec3 along = (e.b - e.a).normalized();
   const auto off = [&](const Vec3& p) { return (p - e.a - along.dot(p - e.a) * along).norm(); };
@@ -26,7 +26,7 @@ bool Overlap(const OutlineEdge& e, const OutlineEdge& f, double tolerance) {
   return std::max(fa, fb) > tolerance && std::min(fa, fb) < length - tolerance;
 }
 
-// For each patch, the others with an edge along one of its own: ascending.
+// For each patch, the other patches with an edge along one of its edges, ascending.
 std::vector<std::vector<PatchId>> Neighbours(const Scene& scene, std::span<const PatchBorders> borders) {
   std::vector<OutlineEdge> edges;
   for (std::size_t p = 0; p < scene.patches.size(); ++p) {
@@ -58,7 +58,7 @@ std::vector<std::vector<PatchId>> Neighbours(const Scene& scene, std::span<const
   return neighbours;
 }
 
-// Gives vertices within the snap distance of each other the position of the lowest patch's.
+// Gives vertices within the snap distance of each other the position of the patch with the lowest number.
 class Positions {
  public:
   Vec3 Of(const Vec3& p, double snap) {
@@ -70,7 +70,8 @@ class Positions {
   }
 
  private:
-  // A unit vector that no edge of a scene is likely to be at right angles to: then few points share a key.
+  // A unit vector that is unlikely to be perpendicular to an edge of a scene, so that few points have equal
+  // keys.
   static inline const Vec3 kDirection = Vec3(0.5366, 0.6243, 0.5679).normalized();
   std::multimap<double, Vec3> known_;
 };

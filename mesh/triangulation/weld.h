@@ -1,7 +1,7 @@
 // mesh/triangulation/weld.h
 //
-// One set of vertices on the edges that patches share, so that no T-vertex is left between patches
-// (thesis 3.6, case C).
+// Common vertices on the edges that patches share, so that no T-vertex remains between patches (thesis 3.6,
+// case C).
 
 #pragma once
 
@@ -12,9 +12,9 @@
 
 namespace penumbra {
 
-// Gives each patch the vertices that others have on its outline. Where two have one within the snap distance
-// of each other, both take the position of the lower patch, to the bit. REQUIRES: borders[i] are those of
-// patch i.
+// Adds to each patch's outline the vertices that other patches have there. Where two patches have vertices
+// within the snap distance of each other, both get the exact position of the patch with the lower number.
+// REQUIRES: borders[i] are the borders of patch i.
 void WeldOutlines(const Scene& scene, std::span<PatchBorders> borders);
 
 }  // namespace penumbra

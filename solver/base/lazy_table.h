@@ -1,6 +1,6 @@
 // solver/base/lazy_table.h
 //
-// A table whose entries are computed when they are first asked for.
+// A table whose entries are computed on the first request.
 
 #pragma once
 
@@ -12,11 +12,11 @@
 
 namespace penumbra {
 
-// Entries have numbers from 0. Forgetting all of them takes the same short time however many there are.
+// Entries are numbered from 0. The time to remove all entries is short and does not depend on their number.
 template <class T>
 class LazyTable {
  public:
-  // Forgets all entries. Numbers are below `count` from here on.
+  // Removes all entries, and allows numbers below `count`.
   void Begin(std::size_t count) {
     if (stamp_.size() < count) {
       stamp_.resize(count, 0);
@@ -25,7 +25,7 @@ class LazyTable {
     Clear();
   }
 
-  // Forgets all entries.
+  // Removes all entries.
   void Clear() {
     if (++now_ == 0) {
       std::fill(stamp_.begin(), stamp_.end(), 0U);
@@ -33,7 +33,8 @@ class LazyTable {
     }
   }
 
-  // The entry, and whether the caller must compute it now: it was not asked for since all were forgotten.
+  // The entry, and true if the caller must compute the entry: this is the first request since the last
+  // removal.
   std::pair<T&, bool> operator[](std::int32_t number) {
     const auto i = static_cast<std::size_t>(number);
     const bool is_new = stamp_[i] != now_;
@@ -42,7 +43,7 @@ class LazyTable {
   }
 
  private:
-  std::vector<std::uint32_t> stamp_;  // of an entry: now_ when it was asked for last
+  std::vector<std::uint32_t> stamp_;  // per entry: value of now_ at the last request
   std::vector<T> value_;
   std::uint32_t now_ = 0;
 };

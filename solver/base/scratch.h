@@ -1,7 +1,7 @@
 // solver/base/scratch.h
 //
-// Working memory that outlives its use, so that inner loops need not ask for memory again and again. This is
-// the only place of the project that keeps anything a thread.
+// Working memory that outlives its use, so that inner loops do not allocate again and again. No other file of
+// the project keeps data per thread.
 
 #pragma once
 
@@ -16,7 +16,7 @@ namespace penumbra {
 
 namespace internal {
 
-// The objects of one type that a thread has made and that nobody uses at the moment.
+// The objects of one type that a thread has created and does not use at present.
 template <class T>
 struct ScratchPool {
   std::vector<std::unique_ptr<T>> idle;
@@ -38,15 +38,15 @@ void ClearScratch(T& object) {
 
 }  // namespace internal
 
-// A lease of an object of type T, for as long as the lease lives. The object is one that an earlier lease of
-// this thread has given back, cleared but with the memory that it had, or a new one. Two leases that live at
-// the same time never share an object, however they are nested: not in recursion, and not where a thread that
-// waits for a parallel loop begins another piece of work. T has clear() or Clear(), after which it must
-// behave like a new object.
+// A lease of an object of type T, for the life of the lease. The object is new, or an earlier lease of the
+// same thread has returned it; a returned object is cleared but keeps its memory. Two leases that live at the
+// same time never share an object, even in recursion, or when a thread that waits for a parallel loop runs
+// other work. REQUIRES: T has clear() or Clear(), and behaves like a new object afterwards.
 //
-// A lease belongs to the thread that made it, and ends before that thread does: a local variable, or a member
-// of one. PENUMBRA_DCHECK tells where another thread uses it. A lease costs some nanoseconds: take one for an
-// evaluation of irradiance, and pass the object on to what works on single polygons.
+// A lease belongs to the thread that created it, and must end before the thread ends: a lease is a local
+// variable, or a member of one. PENUMBRA_DCHECK detects use by another thread. A lease costs a few
+// nanoseconds: take one lease per evaluation of irradiance, and pass the object on to functions for single
+// polygons.
 template <class T>
 class Scratch {
  public:

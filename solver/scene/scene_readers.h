@@ -6,10 +6,10 @@
 
 namespace penumbra {
 
-// Every reader there is. The first one reads the files that no other recognises.
+// The registry of all scene readers. The first reader reads the files that no reader recognises.
 SceneReaderRegistry& SceneReaders();
 
-// Whether the path has the ending of a file that one of them reads.
+// True if the path has the ending of a file that one of the readers reads.
 bool HasSceneEnding(const std::string& path);
 
 }  // namespace penumbra

@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// Every format that scenes are written in.
+// The registry of all formats of scenes.
 SceneWriterRegistry& SceneWriters();
 
 }  // namespace penumbra
