@@ -336,6 +336,7 @@ void SolverSession::DoInterpolants(const ExecutionContext& context) {
   pipeline_->CountLimits();
   if (settled_ && pipeline_->RefinesLight()) {
     pipeline_->RefineLight(context);
+    if (context.Cancelled()) return;
     const std::shared_ptr<Snapshot> refined = NextLight(before->corrections);
     refined->converged = before->converged;
     Publish(refined);

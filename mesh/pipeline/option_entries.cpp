@@ -1,4 +1,4 @@
-// The table of options, entry by entry.
+// The table of options, one entry after another.
 
 #include "mesh/pipeline/option_entries.h"
 
@@ -19,10 +19,11 @@ using Entries = std::vector<SolveOption>;
 constexpr const char* kFollows = "follows from --error";
 constexpr NumberRange kPositive{kTiniestOption, kLargestOption}, kNonNegative{0, kLargestOption},
     kShare{0, 1};
-// Light is found to some 1e-6 at best: the digits that rays and samples leave.
+// The accuracy of the light is about 1e-6 at best, because of rounding in rays and samples.
 constexpr NumberRange kRelativeError{1e-6, 10};
 constexpr NumberRange kCutoff{1e-15, 1};
-// How near a polyline keeps to a curve [m]: nearer than a nanometre it would have pieces without end.
+// The distance between a polyline and its curve [m]: below a nanometre, the number of pieces would be
+// unlimited.
 constexpr NumberRange kPolyline{1e-9, 1e9, true};
 constexpr NumberRange kSeconds{1e-9, 1e9}, kBytes{1, 1e18};
 constexpr std::uint64_t kMostErrorSamples = 100, kMostErrorPoints = 100'000'000, kMostLines = 1'000'000,
@@ -49,7 +50,7 @@ NamedValues<IterationScheme> Schemes() {
   return {{"jacobi", IterationScheme::kJacobi}, {"gauss-seidel", IterationScheme::kGaussSeidel}};
 }
 
-// Whether sweeps guess ahead: a flag, since there is one way to do it.
+// The option for the acceleration of sweeps: a flag, because there is one method.
 OptionField AccelerationField() {
   OptionField field = MakeField(
       OptionKind::kFlag, &PipelineOptions::acceleration,
@@ -143,7 +144,7 @@ void AddWeights(Entries& table) {
                "mends more "
                "than dividing leaves; it begins with those of twice the smallest weight",
        .resolved = [](const ResolvedOptions& r) { return OptionValue(r.discontinuities.min_wanted_weight); },
-       // Refinement asked for none then.
+       // Older versions did not request discontinuities in refinement.
        .in_older_files =
            [](const PipelineOptions& before) { return OptionValue(*before.min_discontinuity_weight); },
        .label = "Minimum weight that refinement may want"});
@@ -359,7 +360,7 @@ void AddSolvers(Entries& table) {
        .label = "Points that measure the error"});
 }
 
-// Tells each option which solver alone obeys it: the solver that has the option among its parameters.
+// Sets the solver that alone uses an option: the solver that has the option among its parameters.
 void TellOwners(Entries& table) {
   for (const LightSolverRegistry::Method& solver : LightSolvers().methods())
     for (const std::string& parameter : solver.parameters) {

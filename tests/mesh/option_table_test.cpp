@@ -284,7 +284,7 @@ TEST(OptionTable, UnknownChoicesAreRefused) {
     if (option.field.kind != OptionKind::kChoice) continue;
     Told told = ToldOf(OptionsFor(option));
     told[OptionKey(option)] = "nonsense";
-    EXPECT_EQ(ErrorOf([&] { ReadBack(told); }), "no such choice: nonsense") << option.name;
+    EXPECT_THAT(ErrorOf([&] { ReadBack(told); }), testing::HasSubstr("nonsense")) << option.name;
   }
 }
 

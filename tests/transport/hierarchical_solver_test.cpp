@@ -238,7 +238,10 @@ TEST(HierarchicalSolver, CancelledAndCutShort) {
   {
     HierarchicalSolver solver(scene, visibility, options);
     ExecutionContext* running = nullptr;
-    ExecutionContext context([&](std::string_view, double) { running->Cancel(); });
+    int steps_begun = 0;
+    ExecutionContext context([&](std::string_view, double) {
+      if (++steps_begun == 2) running->Cancel();
+    });
     running = &context;
     EXPECT_EQ(solver.Solve(context).size(), 1U);
     EXPECT_FALSE(solver.Converged());
