@@ -58,15 +58,9 @@ using PlaceScale = std::function<double(ElementId, const Vec2&)>;
 
 // Additions of the caller to the weights of discontinuities. Each may be empty.
 struct ActivationRules {
-<<<<<<< HEAD
   LeafFilter filter = {};    // of the method of choice (DiscontinuityChoiceMethod::FilterOf)
-  ErrorScale scale = {};     // on each leaf
-  PlaceScale at_place = {};  // in leaves that have room for fewer lines than weigh enough
-=======
-  LeafFilter filter;    // of the method of choice (DiscontinuityChoiceMethod::FilterOf)
-  ErrorScale scale;     // factor of errors on each leaf
-  PlaceScale at_place;  // factor in leaves where more lines of sufficient weight compete than have room
->>>>>>> h_g
+  ErrorScale scale = {};     // factor of errors on each leaf
+  PlaceScale at_place = {};  // factor in leaves where more lines of sufficient weight compete than have room
 };
 
 // Activates the discontinuities in the order of their weights, contacts first. A discontinuity becomes active
