@@ -3,14 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "mesh/interpolants/representation_error.h"
+#include "solver/transport/sources/error_floors.h"
 
 namespace penumbra {
-namespace {
-
-constexpr double kDarkest = 0.05;  // of the mean: the lower bound for leaves, whose dark places are unknown
-
-}  // namespace
 
 ReferenceIrradiance::ReferenceIrradiance(const RadiositySolution& solution, DiscontinuityWeight weight)
     : solution_(solution),
@@ -32,13 +27,13 @@ ReferenceIrradiance::ReferenceIrradiance(const RadiositySolution& solution, Disc
 double ReferenceIrradiance::ScaleOf(const ElementForest& forest, ElementId leaf) const {
   if (mean_ == 0) return 1;
   while (static_cast<std::size_t>(leaf) >= solution_.irradiance.size()) leaf = forest[leaf].parent;
-  return Scale(solution_.irradiance[static_cast<std::size_t>(leaf)].maxCoeff(), kDarkest);
+  return Scale(solution_.irradiance[static_cast<std::size_t>(leaf)].maxCoeff(), kLeafFloor);
 }
 
 double ReferenceIrradiance::ScaleIn(const Rgb& light) const { return Scale(light.maxCoeff(), kErrorFloor); }
 
 double ReferenceIrradiance::LargestScale(PatchId patch) const {
-  return Scale(darkest_[static_cast<std::size_t>(patch)], kDarkest);
+  return Scale(darkest_[static_cast<std::size_t>(patch)], kLeafFloor);
 }
 
 DiscontinuityOptions ReferenceIrradiance::ToFindOn(PatchId patch, DiscontinuityOptions options) const {

@@ -15,11 +15,9 @@
 #include "mesh/interpolants/irradiance_mesh_builder.h"
 #include "solver/scene/scene.h"
 #include "solver/scene/surface_points.h"
+#include "solver/transport/sources/error_floors.h"
 
 namespace penumbra {
-
-// A fraction of the channel's mean irradiance: errors at darker points are relative to this value.
-inline constexpr double kErrorFloor = 0.01;
 
 // The largest 99th percentile of errors in a part of the scene, as a multiple of the requested error.
 inline constexpr double kPartError = 2;

@@ -6,23 +6,21 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "solver/base/parallel.h"
-#include "solver/geometry/polygon_distance.h"
 #include "solver/transport/points/leaf_cells.h"
+#include "solver/transport/points/nearest_patches.h"
+#include "solver/transport/sources/error_floors.h"
 
 namespace penumbra {
 namespace {
 
 // The largest number of successive quarterings of a mesh triangle.
 constexpr int kMostQuartered = 3;
-// Deviations are relative to the radiosity of the cell, or to this fraction of the scene's mean if the cell
-// is darker.
-constexpr double kDark = 0.05;
-// For Change(): the fraction of the area that may change by more, and the fraction of the mean irradiance
-// that bounds the denominator.
-constexpr double kChangedArea = 0.01, kDarkestShare = 0.01;
+// For Change(): the fraction of the area that may change by more.
+constexpr double kChangedArea = 0.01;
 
 using Triangle3 = std::array<Vec3, 3>;
 
@@ -84,7 +82,7 @@ class CellDivider {
     const Scene& scene = solution_.forest.scene();
     normal_ = scene.patches[static_cast<std::size_t>(element.patch)].normal;
     reflectance_ = scene.MaterialOf(element.patch).reflectance;
-    FindNeighbours(element, seen);
+    near_.emplace(scene, element.Vertices(), seen);
     std::vector<QuadraticPiece> pieces;
     Rgb mean = Rgb::Zero();
     double area = 0;
@@ -131,7 +129,7 @@ class CellDivider {
     cell.area = area;
     cell.irradiance = mean.max(0.0);
     for (int c = 0; c < 3; ++c) {
-      const double around = std::max(reflectance_[c] * cell.irradiance[c], kDark * mean_radiosity_[c]);
+      const double around = std::max(reflectance_[c] * cell.irradiance[c], kCellFloor * mean_radiosity_[c]);
       if (around > 0) cell.score = std::max(cell.score, reflectance_[c] * deviation[c] / around);
     }
     cell.score *= ShareOfView(polygon);
@@ -145,25 +143,6 @@ class CellDivider {
       cells_[at].score = std::max(cells_[at].score, cells_[i].score);
   }
 
-  // Collects the patches that may be the closest to a part of the leaf.
-  void FindNeighbours(const Element& element, std::span<const PatchPair> seen) {
-    const Vec3 centre = Centroid(element.Vertices());
-    const double size = Diameter(element.Vertices());
-    neighbours_.clear();
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const PatchPair& pair : seen) {
-      const double distance = Distance(pair.source, centre);
-      neighbours_.push_back({distance, pair.source});
-      nearest = std::min(nearest, distance);
-    }
-    std::erase_if(neighbours_, [&](const auto& n) { return n.first > nearest + 2 * size; });
-  }
-
-  double Distance(PatchId patch, const Vec3& x) const {
-    const Patch& other = solution_.forest.scene().patches[static_cast<std::size_t>(patch)];
-    return DistanceToPolygon(other.Vertices(), other.normal, x);
-  }
-
   // The approximate largest form factor of the polygon to a point of another patch, including light that
   // returns repeatedly from there. The deviations of the polygon's light average out, so that their effect
   // falls with one more power of the distance.
@@ -172,9 +151,9 @@ class CellDivider {
     const Vec3 centre = Centroid(polygon);
     const double size = Diameter(polygon);
     double share = 0;
-    for (const auto& [distance, id] : neighbours_) {
+    for (const PatchId id : near_->patches()) {
       const Patch& patch = scene.patches[static_cast<std::size_t>(id)];
-      const double gap = 1 + std::max(0.0, Distance(id, centre) / size - 0.5);
+      const double gap = 1 + std::max(0.0, near_->DistanceTo(id, centre) / size - 0.5);
       // For half-planes that meet at this angle, next to their common edge.
       const double wedge = 0.5 * (1 - normal_.dot(patch.normal));
       const double factor = wedge / (gap * gap * gap);
@@ -192,7 +171,7 @@ class CellDivider {
   // For the present leaf.
   Vec3 normal_ = Vec3::Zero();
   Rgb reflectance_ = Rgb::Zero();
-  std::vector<std::pair<double, PatchId>> neighbours_;
+  std::optional<NearestPatches> near_;
 };
 
 }  // namespace
@@ -267,7 +246,7 @@ double SourceCells::Change() const {
   for (std::size_t i = 0; i < cells_.size(); i += static_cast<std::size_t>(cells_[i].skip)) {
     const Rgb& was = solution_.irradiance[static_cast<std::size_t>(cells_[i].leaf)];
     const Rgb scale =
-        cells_[i].irradiance.max(kDarkestShare / area * mean).max(std::numeric_limits<double>::min());
+        cells_[i].irradiance.max(kErrorFloor / area * mean).max(std::numeric_limits<double>::min());
     changes.emplace_back(((cells_[i].irradiance - was).abs() / scale).maxCoeff(), cells_[i].area);
   }
   std::sort(changes.begin(), changes.end(), std::greater<>());

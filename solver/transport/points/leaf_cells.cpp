@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "solver/geometry/polygon_distance.h"
 #include "solver/transport/links/cubature.h"
+#include "solver/transport/points/nearest_patches.h"
 
 namespace penumbra {
 namespace {
@@ -32,11 +32,6 @@ constexpr double kOnCut = 1e-9;
 constexpr double kParallel = 1 - 1e-9;
 // A second direction of cuts must be more than 60 degrees from the first; its cosine is below this.
 constexpr double kMostCosine = 0.5;
-
-struct Near {
-  double distance;  // from the leaf's centre [m]
-  PatchId patch;
-};
 
 // A convex part of the leaf, in which irradiance is a linear function of position.
 struct Part {
@@ -65,9 +60,8 @@ class Divider {
         element_(solution.forest[leaf]),
         normal_(scene_.patches[static_cast<std::size_t>(element_.patch)].normal),
         material_(scene_.MaterialOf(element_.patch)),
-        options_(options) {
-    FindNear();
-  }
+        options_(options),
+        near_(scene_, element_.Vertices(), exact.SeenFrom(leaf)) {}
 
   LeafCells Divide(std::vector<Polygon3> start) {
     for (Polygon3& polygon : start) Divide(Sampled(std::move(polygon), 0));
@@ -75,29 +69,6 @@ class Divider {
   }
 
  private:
-  // Finds the patches that may be the nearest to a part of the leaf.
-  void FindNear() {
-    const Vec3 centre = Centroid(element_.Vertices());
-    const double size = Diameter(element_.Vertices());
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const PatchPair& pair : exact_.SeenFrom(leaf_)) {
-      near_.push_back({Distance(pair.source, centre), pair.source});
-      nearest = std::min(nearest, near_.back().distance);
-    }
-    // No point of the leaf is farther than `size` from the centre, so distances differ by at most `size`.
-    std::erase_if(near_, [&](const Near& n) { return n.distance > nearest + 2 * size; });
-  }
-
-  double Distance(PatchId patch, const Vec3& x) const {
-    const Patch& other = scene_.patches[static_cast<std::size_t>(patch)];
-    return DistanceToPolygon(other.Vertices(), other.normal, x);
-  }
-  double Nearest(const Vec3& x) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Near& n : near_) nearest = std::min(nearest, Distance(n.patch, x));
-    return nearest;
-  }
-
   Part Sampled(Polygon3 polygon, int halved) const {
     Part part;
     part.halved = halved;
@@ -151,10 +122,10 @@ class Divider {
 
   std::vector<Direction> Directions(const Part& part) const {
     std::vector<Direction> directions;
-    if ((material_.reflectance == 0).all() || near_.empty()) return directions;
+    if ((material_.reflectance == 0).all() || near_.patches().empty()) return directions;
     const Rgb around = (material_.emittance + material_.reflectance * part.mean).max(options_.dark);
     double nearest = std::numeric_limits<double>::infinity();
-    for (const Vec3& v : part.polygon) nearest = std::min(nearest, Nearest(v));
+    for (const Vec3& v : part.polygon) nearest = std::min(nearest, near_.Distance(v));
     const std::size_t n = part.polygon.size();
     for (std::size_t i = 0; i < n; ++i) {
       const Vec3 edge = part.polygon[(i + 1) % n] - part.polygon[i];
@@ -180,8 +151,8 @@ class Divider {
           change = std::max(change, material_.reflectance[c] / around[c] *
                                         std::abs(part.gradient.row(c).dot(direction.normal)) * width);
       // The fraction of the width that leads away from the nearest patches.
-      const double below = Nearest(part.centre + (low - at) * direction.normal),
-                   above = Nearest(part.centre + (high - at) * direction.normal);
+      const double below = near_.Distance(part.centre + (low - at) * direction.normal),
+                   above = near_.Distance(part.centre + (high - at) * direction.normal);
       const double away = width > 0 ? std::min(1.0, std::abs(above - below) / width) : 0;
       const double distance = std::min({nearest, below, above}),
                    most = kMostBeside + (kMostNear - kMostBeside) * away;
@@ -235,7 +206,7 @@ class Divider {
   const Vec3& normal_;
   const Material& material_;
   LeafCellOptions options_;
-  std::vector<Near> near_;
+  const NearestPatches near_;
   LeafCells cells_;
 };
 

@@ -9,15 +9,13 @@
 #include "solver/base/stopwatch.h"
 #include "solver/transport/points/leaf_cells.h"
 #include "solver/transport/points/point_irradiance.h"
+#include "solver/transport/sources/error_floors.h"
 #include "solver/transport/sources/leaf_fragments.h"
 
 namespace penumbra {
 namespace {
 
 constexpr std::size_t kExactGrain = 8;  // leaves in one task of correction
-// Radiosities below this fraction of the mean reflected radiosity count as this fraction when leaves are cut
-// into cells.
-constexpr double kDark = 0.5;
 // Error of the first pass that prepares the parts of leaves, and the factor between passes: about the gain of
 // a pass.
 constexpr double kCoarsestCells = 0.1, kCellStep = 4;
@@ -137,7 +135,7 @@ std::optional<double> HierarchicalSolver::CorrectByCells(double error, const Exe
   const ElementForest& forest = solution.forest;
   std::vector<ElementId> leaves = forest.AllLeaves();
   std::sort(leaves.begin(), leaves.end());
-  const LeafCellOptions options = {error, kDark * MeanReflected(solution), options_.min_area};
+  const LeafCellOptions options = {error, kPartFloor * MeanReflected(solution), options_.min_area};
   std::vector<std::vector<Polygon3>> parts = correction_.parts_of_leaf;
   if (parts.empty()) {
     const std::vector<Fragment> cuts = CutLeavesAtContacts(forest, context);

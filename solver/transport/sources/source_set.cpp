@@ -4,6 +4,7 @@
 
 #include "solver/geometry/polygon.h"
 #include "solver/transport/links/solution.h"
+#include "solver/transport/sources/error_floors.h"
 
 namespace penumbra {
 namespace {
@@ -267,9 +268,7 @@ Eigen::Matrix3d Slope(const Eigen::Matrix3d& moment, const Moments& leaves) {
 
 // Sets the means, spreads and linear fits of the inner nodes.
 void SourceSet::MeasureSubtrees() {
-  // Radiosities below this fraction of the mean reflected radiosity count as this fraction (RelativeErrors).
-  constexpr double kDark = 0.01;
-  const Rgb dark = kDark * MeanReflected();
+  const Rgb dark = kErrorFloor * MeanReflected();
   std::vector<Moments> moments(nodes_.size());
   for (std::size_t p = 0; p + 1 < first_.size(); ++p)
     for (std::size_t i = first_[p + 1]; i-- > first_[p];) {
