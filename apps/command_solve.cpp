@@ -42,6 +42,7 @@ Command AddSolveCommand(CLI::App& program) {
   const auto arguments = std::make_shared<SceneArguments>();
   const auto output = std::make_shared<std::optional<std::string>>();
   AddSceneArguments(*app, arguments.get());
+  app->get_option("SCENE")->description("An OBJ file, or the name of a built-in scene (a file wins)");
   app->add_option(
          "-o,--output", *output,
          "Keep the solution here, as HDF5: the commands that take a SCENE take it instead, and need not "

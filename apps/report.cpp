@@ -329,11 +329,14 @@ std::string ErrorTable(const PipelineReport& pipeline) {
   if (error.points > 0)
     table += fmt::format("   interpolants, at {} points: p99 {:.3g}, p95 {:.3g}, rms {:.3g}, max {:.3g}\n",
                          error.points, error.p99, error.p95, error.rms, error.max);
-  table += fmt::format("   solution, estimated: {:.3g}; both together: p99 {:.3g}, p95 {:.3g}\n",
-                       pipeline.solution_error_estimate, pipeline.whole_error.p99, pipeline.whole_error.p95);
+  const bool measured = pipeline.whole_error.points > 0;
+  if (measured)
+    table +=
+        fmt::format("   solution, estimated: {:.3g}; both together: p99 {:.3g}, p95 {:.3g}\n",
+                    pipeline.solution_error_estimate, pipeline.whole_error.p99, pipeline.whole_error.p95);
   table += PartErrorTable(pipeline);
-  table +=
-      fmt::format("   asked for {:.3g}: {}\n", pipeline.error_asked, pipeline.error_met ? "met" : "not met");
+  const char* outcome = pipeline.error_met ? "met" : measured ? "not met" : "not measured";
+  table += fmt::format("   asked for {:.3g}: {}\n", pipeline.error_asked, outcome);
   for (const std::string& line : pipeline.unmet) table += fmt::format("   {}\n", line);
   return table;
 }
