@@ -165,7 +165,8 @@ Command AddInfoCommand(CLI::App& program) {
   AddRestartOption(*app, arguments.get());
   AddReportOption(*app, arguments.get());
   app->footer(
-      "Nothing of a scene is solved, and the options of solving change nothing, unless --report asks what a solve of\n"
+      "Nothing of a scene is solved, and the options of solving change nothing, unless --report asks what a "
+      "solve of\n"
       "the scene takes and reaches. The report of a solution is that of the solve that made it.");
   return {app, [arguments, as_json] { Info(*arguments, *as_json); }};
 }
