@@ -431,11 +431,13 @@ void Pipeline::Measure(const ExecutionContext& context) {
   }
   const std::uint64_t seed = impl_->options.seed;
   const IrradianceMesh& mesh = impl_->shown.mesh();
+  const SourceCells finest = impl_->shown.FinestCells(impl_->Solution(), running);
+  if (ended()) return;
   const std::unique_ptr<const PointIrradiance> better =
-      impl_->shown.BetterIrradiance(impl_->Solution(), running);
+      impl_->shown.BetterIrradiance(impl_->Solution(), finest, running);
+  if (!better && ended()) return;
   const std::unique_ptr<const PointIrradiance> shown =
-      impl_->shown.ShownIrradiance(impl_->Solution(), running);
-  if ((!better || !shown) && ended()) return;
+      impl_->shown.ShownIrradiance(impl_->Solution(), finest);
   const double tolerance = kMeasuredShare * report.error_asked;
   const IrradianceSampler sampler = WhileGoing(NearSampler(irradiance(), tolerance), running);
   const IrradianceSampler truths[] = {WhileGoing(NearSampler(*better, tolerance), running),
@@ -466,8 +468,9 @@ void Pipeline::CheckErrorRoughly(const ExecutionContext& context) {
     return;
   context.Report("measure", 0);
   PipelineReport& report = impl_->report;
+  const SourceCells finest = impl_->shown.FinestCells(impl_->Solution(), limits.context());
   const std::unique_ptr<const PointIrradiance> better =
-      impl_->shown.BetterIrradiance(impl_->Solution(), limits.context());
+      impl_->shown.BetterIrradiance(impl_->Solution(), finest, limits.context());
   if (!better) return;
   const double tolerance = kMeasuredShare * report.error_asked;
   const RepresentationError seen =

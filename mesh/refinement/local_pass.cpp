@@ -154,7 +154,7 @@ std::vector<PatchTriangulation> PatchTriangulator::TriangulateAll(const Work& wo
   ParallelFor(count, 1, [&](std::size_t p) {
     if (!context_.Cancelled()) borders[p] = PatchBorders(work.forest, static_cast<PatchId>(p), work.dsets[p]);
   });
-  if (!context_.Cancelled()) WeldOutlines(work.forest.scene(), borders);
+  if (!context_.Cancelled()) WeldOutlines(work.forest.scene(), borders, context_);
   ParallelFor(count, 1, [&](std::size_t p) {
     if (context_.Cancelled()) return;
     patches[p] = TriangulateLeaves(work.forest, static_cast<PatchId>(p), work.dsets[p], std::move(borders[p]),

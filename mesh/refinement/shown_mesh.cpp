@@ -113,25 +113,24 @@ void ShownMesh::Take(IrradianceMesh mesh) {
 }
 
 std::unique_ptr<const PointIrradiance> ShownMesh::BetterIrradiance(const RadiositySolution& solution,
+                                                                   const SourceCells& finest,
                                                                    const ExecutionContext& context) {
-  const SourceCells cells = Cells(solution, context);
   if (context.Cancelled()) return nullptr;
   HierarchicalSolver better(scene_, visibility_, options_.solver, solution, context);
-  if (!better.SetLight(cells.LeafIrradiance(), cells.Fragments(cells.Cut(0), /*whole_leaves=*/true), context))
+  if (!better.SetLight(finest.LeafIrradiance(), finest.Fragments(finest.Cut(0), /*whole_leaves=*/true),
+                       context))
     return nullptr;
   return std::make_unique<const PointIrradiance>(
       irradiance_.Get()->WithSources(SourceSet::FromSolution(better.solution())));
 }
 
 std::unique_ptr<const PointIrradiance> ShownMesh::ShownIrradiance(const RadiositySolution& solution,
-                                                                  const ExecutionContext& context) {
-  const SourceCells cells = Cells(solution, context);
-  if (context.Cancelled()) return nullptr;
+                                                                  const SourceCells& finest) {
   return std::make_unique<const PointIrradiance>(irradiance_.Get()->WithSources(
-      SourceSet::FromSolution(solution, cells.Fragments(cells.Cut(0), /*whole_leaves=*/true))));
+      SourceSet::FromSolution(solution, finest.Fragments(finest.Cut(0), /*whole_leaves=*/true))));
 }
 
-SourceCells ShownMesh::Cells(const RadiositySolution& solution, const ExecutionContext& context) {
+SourceCells ShownMesh::FinestCells(const RadiositySolution& solution, const ExecutionContext& context) {
   return SourceCells(solution, {plan_.forest, triangulations_, mesh_}, *irradiance_.Get(),
                      kFinestScore * options_.error, context);
 }
@@ -206,7 +205,7 @@ std::optional<double> ShownMesh::RefineSources(LightSolver& solver, std::optiona
                                                const ExecutionContext& context) {
   const Stopwatch stopwatch;
   context.Report("refine sources", 0);
-  const SourceCells cells = Cells(solver.solution(), context);
+  const SourceCells cells = FinestCells(solver.solution(), context);
   if (context.Cancelled()) return std::nullopt;
   const double change = cells.Change();
   if (!score)

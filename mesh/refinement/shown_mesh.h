@@ -68,16 +68,18 @@ class ShownMesh {
   // For use after another PatchVisibility has replaced the present one.
   void ForgetVisibility() { local_pass_.reset(); }
 
-  // Exact irradiance from the finest sources that the interpolants provide. The sources include, over the
+  // The finest sources that the interpolants provide. Of no use if cancelled.
+  SourceCells FinestCells(const RadiositySolution& solution, const ExecutionContext& context);
+  // Exact irradiance from these sources. The sources include, over the
   // links, the bounces of the difference from the solution's sources: between walls that face each other, a
   // difference returns many times. Null if cancelled.
   std::unique_ptr<const PointIrradiance> BetterIrradiance(const RadiositySolution& solution,
+                                                          const SourceCells& finest,
                                                           const ExecutionContext& context);
   // The same without these bounces: one more bounce of the shown light, independent of all links. Where links
-  // transport light that should not exist, this result does not contain the bounces of that light. Null if
-  // cancelled.
+  // transport light that should not exist, this result does not contain the bounces of that light.
   std::unique_ptr<const PointIrradiance> ShownIrradiance(const RadiositySolution& solution,
-                                                         const ExecutionContext& context);
+                                                         const SourceCells& finest);
 
   const IrradianceMesh& mesh() const { return mesh_; }
   // The triangulations of mesh(); empty if the mesh is from elsewhere.
@@ -107,7 +109,6 @@ class ShownMesh {
                                     const ExecutionContext& context);
   double LookAround(std::size_t points, std::uint64_t seed, double tolerance,
                     const ExecutionContext& context);
-  SourceCells Cells(const RadiositySolution& solution, const ExecutionContext& context);
   IrradianceSampler Sampler(double tolerance, const ExecutionContext& context);
   LocalPassCache& LocalPass();
   void Add(MeshReport latest);

@@ -27,7 +27,8 @@ bool Overlap(const OutlineEdge& e, const OutlineEdge& f, double tolerance) {
 }
 
 // For each patch, the other patches with an edge along one of its edges, ascending.
-std::vector<std::vector<PatchId>> Neighbours(const Scene& scene, std::span<const PatchBorders> borders) {
+std::vector<std::vector<PatchId>> Neighbours(const Scene& scene, std::span<const PatchBorders> borders,
+                                             const ExecutionContext& context) {
   std::vector<OutlineEdge> edges;
   for (std::size_t p = 0; p < scene.patches.size(); ++p) {
     const Patch& patch = scene.patches[p];
@@ -41,7 +42,7 @@ std::vector<std::vector<PatchId>> Neighbours(const Scene& scene, std::span<const
   std::stable_sort(edges.begin(), edges.end(),
                    [](const OutlineEdge& e, const OutlineEdge& f) { return e.low.x() < f.low.x(); });
   std::vector<std::vector<PatchId>> neighbours(scene.patches.size());
-  for (std::size_t i = 0; i < edges.size(); ++i)
+  for (std::size_t i = 0; i < edges.size() && !context.Cancelled(); ++i)
     for (std::size_t j = i + 1; j < edges.size() && edges[j].low.x() <= edges[i].high.x(); ++j) {
       const OutlineEdge &e = edges[i], &f = edges[j];
       if (e.patch == f.patch || (e.low.array() > f.high.array()).any() ||
@@ -78,17 +79,18 @@ class Positions {
 
 }  // namespace
 
-void WeldOutlines(const Scene& scene, std::span<PatchBorders> borders) {
+void WeldOutlines(const Scene& scene, std::span<PatchBorders> borders, const ExecutionContext& context) {
   PENUMBRA_CHECK(borders.size() == scene.patches.size());
-  const std::vector<std::vector<PatchId>> neighbours = Neighbours(scene, borders);
+  const std::vector<std::vector<PatchId>> neighbours = Neighbours(scene, borders, context);
   std::vector<std::vector<Vec3>> outline(borders.size());
   ParallelFor(borders.size(), 1, [&](std::size_t p) {
     if (!neighbours[p].empty()) outline[p] = borders[p].OutlineVertices();
   });
   Positions positions;
-  for (std::size_t p = 0; p < outline.size(); ++p)
+  for (std::size_t p = 0; p < outline.size() && !context.Cancelled(); ++p)
     for (Vec3& v : outline[p]) v = positions.Of(v, borders[p].snap);
   ParallelFor(borders.size(), 1, [&](std::size_t p) {
+    if (context.Cancelled()) return;
     borders[p].Weld(outline[p]);
     for (const PatchId other : neighbours[p]) borders[p].Weld(outline[static_cast<std::size_t>(other)]);
   });

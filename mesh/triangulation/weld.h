@@ -8,13 +8,15 @@
 #include <span>
 
 #include "mesh/triangulation/patch_borders.h"
+#include "solver/base/progress.h"
 #include "solver/scene/scene.h"
 
 namespace penumbra {
 
 // Adds to each patch's outline the vertices that other patches have there. Where two patches have vertices
 // within the snap distance of each other, both get the exact position of the patch with the lower number.
-// REQUIRES: borders[i] are the borders of patch i.
-void WeldOutlines(const Scene& scene, std::span<PatchBorders> borders);
+// Of no use if cancelled. REQUIRES: borders[i] are the borders of patch i.
+void WeldOutlines(const Scene& scene, std::span<PatchBorders> borders,
+                  const ExecutionContext& context = ExecutionContext());
 
 }  // namespace penumbra
