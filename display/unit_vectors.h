@@ -26,13 +26,12 @@ inline glm::dvec3 StableNormalized(const glm::dvec3& v) {
   return square > 0 ? v / (std::sqrt(square) * largest) : v;
 }
 
-// Some unit vector at a right angle to v. REQUIRES: v is not zero.
+// The unit vector at a right angle to v that lies in the plane z = 0, or for v along z in the plane x = 0.
+// REQUIRES: v is not zero.
 inline glm::dvec3 Perpendicular(const glm::dvec3& v) {
-  const double x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
-  const glm::dvec3 across = x <= y && x <= z ? glm::dvec3(1, 0, 0)
-                            : y <= z         ? glm::dvec3(0, 1, 0)
-                                             : glm::dvec3(0, 0, 1);
-  return StableNormalized(glm::cross(v, across));
+  constexpr double kAlong = 1e-12;  // below this ratio, the direction of the other two is rounding
+  const bool along_z = std::max(std::abs(v.x), std::abs(v.y)) <= kAlong * std::abs(v.z);
+  return StableNormalized(along_z ? glm::dvec3(0, -v.z, v.y) : glm::dvec3(-v.y, v.x, 0));
 }
 
 }  // namespace penumbra

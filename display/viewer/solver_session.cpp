@@ -43,6 +43,15 @@ std::shared_ptr<Snapshot> LightOf(const Pipeline& pipeline, const Snapshot& befo
   return next;
 }
 
+// What ended the links or the iterations before their end; empty if nothing did.
+std::string EndOfSolve(const PipelineReport& report) {
+  for (const std::string& line : report.unmet)
+    if ((line.starts_with("link: ") || line.starts_with("iterate: ")) &&
+        line.find("ended by") != std::string::npos)
+      return line;
+  return "";
+}
+
 }  // namespace
 
 SolverSession::SolverSession(const OpenedScene& opened, const PipelineOptions& options)
@@ -298,10 +307,13 @@ void SolverSession::DoConverge(const ExecutionContext& outer) {
     });
   }
   if (!outer.Cancelled()) settled_ = true;
-  if (const std::optional<std::string> limit = limits.Exceeded(); limit && context.Cancelled()) {
-    const std::lock_guard lock(mutex_);
-    status_.message = "ended by " + *limit;
-  }
+  // The solve watches the same limits, and keeps a part of the memory for what follows.
+  std::string message = pipeline_ ? EndOfSolve(pipeline_->report()) : "";
+  if (const std::optional<std::string> limit = limits.Exceeded(); limit && context.Cancelled())
+    message = "ended by " + *limit;
+  if (outer.Cancelled() || message.empty()) return;
+  const std::lock_guard lock(mutex_);
+  status_.message = message;
 }
 
 void SolverSession::DoCorrect(const ExecutionContext& context) {
@@ -332,7 +344,7 @@ void SolverSession::DoBuildMesh(MeshKind kind, const ExecutionContext& context) 
 // stepped to stays as it is. A limit of time is one for the solve, and one for these.
 void SolverSession::DoInterpolants(const ExecutionContext& context) {
   const std::shared_ptr<const Snapshot> before = snapshot();
-  if (!pipeline_ || before->Mesh(MeshKind::kInterpolant)) return;
+  if (!pipeline_ || (before->Mesh(MeshKind::kInterpolant) && pipeline_->mesh_kind())) return;
   pipeline_->CountLimits();
   if (settled_ && pipeline_->RefinesLight()) {
     pipeline_->RefineLight(context);

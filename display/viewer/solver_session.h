@@ -58,7 +58,7 @@ class SolverSession {
   void Converge();  // iterates until convergence, then corrects
   void Correct();   // by exact irradiance
   // Builds the mesh for a display mode, from the state at the start of the task. Once the solver has settled,
-  // a request for interpolants also refines the solution, as in Pipeline::BuildMesh.
+  // a request for interpolants refines the light first (Pipeline::RefineLight), and shows it.
   void BuildMesh(MeshKind kind);
   // Measures energy and the errors of the interpolants, which it builds if necessary. For a solution from a
   // file, the file's measurements remain.

@@ -81,11 +81,15 @@ struct Pipeline::Impl {
   CurrentIrradiance irradiance;  // from the present solution
   ShownMesh shown;
 
-  // Makes the solver, which continues from a solution if one is given.
-  void MakeSolver(RadiositySolution* from, const ExecutionContext& context) {
-    const Stopwatch stopwatch;
-    solver = LightSolvers().Make(options.solver, {scene, visibility, from}, {resolved.solver, options.dense},
-                                 context);
+  // A solver, which continues from a solution if one is given; null if the method cannot continue.
+  std::unique_ptr<LightSolver> NewSolver(RadiositySolution* from, const ExecutionContext& context) const {
+    return LightSolvers().Make(options.solver, {scene, visibility, from}, {resolved.solver, options.dense},
+                               context);
+  }
+
+  // Takes a solver that was made since `stopwatch` began.
+  void Adopt(std::unique_ptr<LightSolver> made, const Stopwatch& stopwatch) {
+    solver = std::move(made);
     // A solver that solves in its constructor has no steps left.
     AddPhase(solver->Ready() && !solver->Next() ? "iterate" : "link", stopwatch.Seconds());
     TakeReport();
@@ -257,7 +261,8 @@ void Pipeline::Link(const ExecutionContext& context) {
   if (impl_->solver) impl_->Forget();  // of a cancelled linking
   impl_->visibility = PatchVisibility(impl_->scene, context);
   impl_->AddPhase("link", linking.Seconds());
-  impl_->MakeSolver(nullptr, context);
+  const Stopwatch making;
+  impl_->Adopt(impl_->NewSolver(nullptr, context), making);
 }
 
 bool Pipeline::Step(SolverStep step, const ExecutionContext& context) {
@@ -265,7 +270,7 @@ bool Pipeline::Step(SolverStep step, const ExecutionContext& context) {
   const Stopwatch stopwatch;
   const bool done = impl_->solver->Step(step, context);
   // A cancelled correction may have made some passes.
-  impl_->EndStep(stopwatch.Seconds(), done || step == SolverStep::kCorrect);
+  impl_->EndStep(stopwatch.Seconds(), done || (step == SolverStep::kCorrect && context.Cancelled()));
   return done;
 }
 
@@ -283,8 +288,12 @@ std::optional<SolverStep> Pipeline::NextStep() const {
 
 std::optional<IterationReport> Pipeline::Relight(const ExecutionContext& context) {
   if (impl_->stored) {
-    RadiositySolution solution = impl_->TakeStored();
-    impl_->MakeSolver(&solution, context);
+    // Continuing takes no form factors, and is not cancelled: corrections would be those of other links.
+    const Stopwatch making;
+    std::unique_ptr<LightSolver> solver = impl_->NewSolver(&*impl_->stored, ExecutionContext());
+    if (!solver) return std::nullopt;
+    impl_->TakeStored();
+    impl_->Adopt(std::move(solver), making);
   }
   Link(context);
   const Stopwatch stopwatch;
@@ -295,6 +304,7 @@ std::optional<IterationReport> Pipeline::Relight(const ExecutionContext& context
 
 void Pipeline::SolveOverLinks(const ExecutionContext& context) {
   impl_->BeginLimits();
+  for (const char* stage : {"link: ", "iterate: "}) impl_->DropUnmet(stage);
   const RunLimits limits = impl_->LimitsSinceSolve(context);
   const ExecutionContext& running = limits.context();
   running.Report("iterate", 0);
@@ -310,6 +320,7 @@ void Pipeline::SolveOverLinks(const ExecutionContext& context) {
 
 void Pipeline::Solve(const ExecutionContext& context, const StepObserver& observer) {
   impl_->BeginLimits();
+  for (const char* stage : {"link: ", "iterate: "}) impl_->DropUnmet(stage);
   const RunLimits limits = impl_->LimitsSinceSolve(context);
   const ExecutionContext& running = limits.context();
   Link(running);
@@ -347,7 +358,11 @@ void Pipeline::RefineLight(const ExecutionContext& context) {
   const RunLimits limits = impl_->LimitsSinceSolve(context);
   impl_->light_refined =
       impl_->shown.RefineLight(*impl_->solver, impl_->OptionsOf(MeshKind::kInterpolant), limits.context());
+  impl_->DropUnmet("light: ");
+  if (const std::optional<std::string> limit = limits.Exceeded(); limit && !impl_->light_refined)
+    impl_->report.unmet.push_back(fmt::format("light: ended by {}, and not refined to the end", *limit));
   impl_->mesh_kind.reset();
+  impl_->locator.reset();
   impl_->AddMeshPhases();
 }
 

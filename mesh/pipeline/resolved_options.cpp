@@ -6,6 +6,7 @@
 #include "mesh/pipeline/pipeline.h"
 #include "solver/transport/links/link_form_factor_methods.h"
 #include "solver/transport/links/refinement_oracles.h"
+#include "solver/transport/solvers/light_solvers.h"
 
 namespace penumbra {
 namespace {
@@ -57,6 +58,7 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   // The mean irradiance if no light escapes and the light spreads evenly.
   const double mean = totals.area > 0 ? totals.flux / totals.area / (1 - totals.reflectance) : 0;
   ResolvedOptions resolved;
+  LightSolvers().Find(options.solver);
   const double coarse = options.refine == RefineBy::kRepresentation ? kCoarseEps : 1;
   resolved.solver.eps = options.eps.value_or(coarse * kEpsOfMeanIrradiance * options.error * mean);
   resolved.solver.min_area = options.min_area.value_or(kMinAreaOfScene * totals.area);

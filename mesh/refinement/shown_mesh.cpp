@@ -87,16 +87,23 @@ bool ShownMesh::RefineLight(LightSolver& solver, const MeshOptions& options,
   const MeshOptions first = ForSources(options);
   if (!FirstLook(solver.solution(), first, options_.solver.correction_tolerance, context)) return false;
   has_looked_ = true;
-  return mesh_.triangles.empty() || SettleSources(solver, first, context);
+  if (mesh_.triangles.empty()) return true;
+  if (!SettleSources(solver, first, context)) return false;
+  light_plan_ = plan_;
+  return true;
 }
 
 bool ShownMesh::MakeRefined(const RadiositySolution& solution, const MeshOptions& options,
                             const ExecutionContext& context) {
-  if (!std::exchange(has_looked_, false)) {
-    Begin();
-    if (!FirstLook(solution, ForSources(options), options_.solver.correction_tolerance, context))
-      return false;
+  const bool shows_first_look = std::exchange(has_looked_, false);
+  if (!shows_first_look) Begin();
+  if (!shows_first_look && light_plan_) {
+    plan_ = *light_plan_;
+    return RefineLeaves(solution, ToBeginWith(options), context);
   }
+  if (!shows_first_look &&
+      !FirstLook(solution, ForSources(options), options_.solver.correction_tolerance, context))
+    return false;
   if (!mesh_.triangles.empty()) RefineLeaves(solution, ToBeginWith(options), context);
   return true;
 }
@@ -222,30 +229,31 @@ std::optional<double> ShownMesh::RefineSources(LightSolver& solver, std::optiona
 }
 
 // Refines the leaves until the error at their triangles' centroids and at random points is at most the
-// requested error.
-void ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOptions& options,
+// requested error. False if cancelled before the first mesh was refined.
+bool ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOptions& options,
                              const ExecutionContext& context) {
   const double error = kInterpolantShare * options_.error, tolerance = kNearShare * options_.error;
   SampleCache samples;
   std::optional<RefinedMesh> refined = Refine(solution, options, error, tolerance, &samples, context);
+  if (!refined) return false;
   double onward = error;
   for (int turn = 1; refined && turn <= kMostTurns && refined->share_above <= kShareAbove; ++turn) {
     const std::size_t points =
         std::clamp(refined->report.counts.point_evaluations / kEvaluationsALook, kFewestLooks, kMostLooks);
     const double seen =
         LookAround(points, options_.seed + 1 + static_cast<std::uint64_t>(turn), tolerance, context);
-    if (context.Cancelled()) return;
-    if (seen <= kOverlooked * options_.error) return;
+    if (context.Cancelled() || seen <= kOverlooked * options_.error) return true;
     onward *= std::clamp(kOverlooked * options_.error / seen, kLeastOnward, kMostOnward);
     refined = Refine(solution, options, onward, tolerance, &samples, context);
   }
-  if (!refined || onward < error) return;  // measurements report the rest
+  if (!refined || onward < error) return true;  // measurements report the rest
   double area = 0;
   for (const ElementId leaf : refined->unmet) area += plan_.forest[leaf].area;
   unmet_ = fmt::format(
       "interpolants: triangles on {:.2g} of the area err by more than {:.3g}; {} leaves of {:.3g} m^2 "
       "together have the smallest area",
       refined->share_above, error, refined->unmet.size(), area);
+  return true;
 }
 
 // An upper bound of the 99th percentile of the interpolants' error, from `points` random points.

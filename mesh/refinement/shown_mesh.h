@@ -62,7 +62,10 @@ class ShownMesh {
   bool MakeRefined(const RadiositySolution& solution, const MeshOptions& options,
                    const ExecutionContext& context);
   // For use after a change of the light: MakeRefined() will not start from the mesh of RefineLight().
-  void Forget() { has_looked_ = false; }
+  void Forget() {
+    has_looked_ = false;
+    light_plan_.reset();
+  }
   // Shows a mesh from elsewhere.
   void Take(IrradianceMesh mesh);
   // For use after another PatchVisibility has replaced the present one.
@@ -102,7 +105,7 @@ class ShownMesh {
   bool SettleSources(LightSolver& solver, const MeshOptions& options, const ExecutionContext& context);
   std::optional<double> RefineSources(LightSolver& solver, std::optional<double>& score,
                                       const ExecutionContext& context);
-  void RefineLeaves(const RadiositySolution& solution, const MeshOptions& options,
+  bool RefineLeaves(const RadiositySolution& solution, const MeshOptions& options,
                     const ExecutionContext& context);
   std::optional<RefinedMesh> Refine(const RadiositySolution& solution, const MeshOptions& options,
                                     double error, double tolerance, SampleCache* samples,
@@ -125,7 +128,8 @@ class ShownMesh {
   std::unique_ptr<LocalPassCache> local_pass_;  // for the present visibility
   MeshReport report_;
   double seconds_of_sources_ = 0;
-  bool has_looked_ = false;  // mesh_ is RefineLight()'s, for the present light
+  bool has_looked_ = false;             // mesh_ is RefineLight()'s, for the present light
+  std::optional<MeshPlan> light_plan_;  // with which RefineLight() ended, for the present light
   std::optional<std::string> unmet_;
 };
 

@@ -521,7 +521,6 @@ void ObjParser::Warn(const Tally& tally, std::string_view what, std::string_view
                                           (tally.count == 1 ? "" : "; the first is here")));
 }
 
-// The text of a library; nothing if there is none, or none that may be read.
 class ObjReader final : public SceneReader {
  public:
   std::vector<std::string> Endings() const override { return {"obj"}; }
@@ -530,6 +529,7 @@ class ObjReader final : public SceneReader {
   }
 };
 
+// The text of a library; nothing if there is none, or none that may be read.
 std::optional<std::string> ReadLibraryFile(const std::filesystem::path& path) {
   try {
     return ReadFileBytes(path.string());

@@ -130,6 +130,45 @@ TEST(Pipeline, MeshesLeaveReferencesAsTheyAre) {
   }
 }
 
+// Interpolants are the same whichever mesh was made of the refined light before them.
+TEST(Pipeline, InterpolantsDoNotDependOnEarlierMeshes) {
+  const Scene scene = FurnishedRoom();
+  PipelineOptions options;
+  options.error = 0.2;
+  Pipeline straight(scene, options), detour(scene, options);
+  for (Pipeline* pipeline : {&straight, &detour}) {
+    pipeline->Solve({});
+    pipeline->RefineLight({});
+    if (pipeline == &detour) pipeline->BuildMesh(MeshKind::kGouraud, {});
+    pipeline->BuildMesh(MeshKind::kInterpolant, {});
+  }
+  EXPECT_TRUE(SameLight(straight.solution(), detour.solution()));
+  ASSERT_EQ(straight.mesh().triangles.size(), detour.mesh().triangles.size());
+  for (std::size_t t = 0; t < straight.mesh().triangles.size(); ++t)
+    EXPECT_TRUE(
+        (straight.mesh().irradiance[t].At(0.25, 0.25) == detour.mesh().irradiance[t].At(0.25, 0.25)).all());
+}
+
+// After the materials were changed twice, solving goes on from the new light: it judges links by it.
+TEST(Pipeline, SolvesOnAfterRelighting) {
+  Scene scene = FurnishedRoom();
+  PipelineOptions options;
+  options.error = 0.2;
+  options.max_iterations = 20;
+  Pipeline pipeline(scene, options);
+  pipeline.Solve({});
+  const std::size_t links = pipeline.report().counts.links;
+  for (const double emittance : {400.0, 4000.0}) {
+    for (Material& material : scene.materials)
+      if (material.emittance.maxCoeff() > 0) material.emittance = Rgb::Constant(emittance);
+    ASSERT_TRUE(pipeline.Relight({}));
+    EXPECT_EQ(pipeline.NextStep(), SolverStep::kIterate);
+  }
+  pipeline.Solve({});
+  EXPECT_TRUE(pipeline.Converged());
+  EXPECT_GT(pipeline.report().counts.links, links);
+}
+
 // Corrections that are cancelled on their way keep the passes that were made, and nothing that was made of
 // the light before them.
 TEST(Pipeline, CancelledCorrectionsKeepWholePasses) {

@@ -339,6 +339,7 @@ TEST(HierarchicalSolver, CancelledStepsKeepTheWholeCorrection) {
     if (solver == &disturbed) {
       EXPECT_FALSE(solver->Relight(cancelled));
       EXPECT_FALSE(solver->Iterate(cancelled));
+      EXPECT_FALSE(solver->Next());
     }
     ASSERT_TRUE(solver->Correct(LeafSampling::kCubature, {}));
   }

@@ -303,6 +303,12 @@ TEST(SolverSession, SolvesDenseSystemsAndKeepsLimits) {
   for (std::size_t e = 0; e < solved.size(); ++e) EXPECT_TRUE((shown[e] == solved[e]).all()) << e;
   EXPECT_TRUE(dense.snapshot()->Mesh(MeshKind::kInterpolant));
   EXPECT_TRUE(dense.snapshot()->iterations.empty());
+  // Steps that a dense system does not have leave its mesh, which can be saved.
+  dense.Correct();
+  std::optional<MeshKind> saved;
+  dense.Save([&](const Pipeline& pipeline) { saved = pipeline.mesh_kind(); });
+  ASSERT_TRUE(Rest(dense));
+  EXPECT_EQ(saved, MeshKind::kInterpolant);
 
   options = Loose();
   options.error = 1e-4;

@@ -26,10 +26,9 @@ constexpr double kFineCells = 1e-3;
 
 HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility,
                                        const SolverOptions& options, const ExecutionContext& context)
-    : scene_(scene),
-      visibility_(visibility),
-      options_(options),
-      links_(scene, visibility, options, context) {}
+    : scene_(scene), visibility_(visibility), options_(options), links_(scene, visibility, options, context) {
+  report_.most_iterations = options.max_iterations;
+}
 
 HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility,
                                        const SolverOptions& options, RadiositySolution solution,
@@ -38,6 +37,7 @@ HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility
       visibility_(visibility),
       options_(options),
       links_(scene, visibility, options, std::move(solution), context) {
+  report_.most_iterations = options.max_iterations;
   const RadiositySolution& light = links_.solution();
   const PushPull& push_pull = links_.push_pull();
   // The correction of a leaf is its irradiance minus that of its links.
@@ -50,12 +50,13 @@ HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility
 }
 
 HierarchicalSolver::Snapshot HierarchicalSolver::TakeSnapshot() const {
-  return {links_.TakeSnapshot(), correction_};
+  return {links_.TakeSnapshot(), correction_, corrected_};
 }
 
 void HierarchicalSolver::Restore(Snapshot before) {
   if (links_.Restore(std::move(before.links))) seen_from_leaves_.reset();
   correction_ = std::move(before.correction);
+  corrected_ = before.corrected;
 }
 
 // Corrections of old leaves are not valid for new leaves or for other light.
@@ -77,8 +78,8 @@ PointIrradianceOptions HierarchicalSolver::HowToSample() const {
 
 std::optional<SolverStep> HierarchicalSolver::Next() const {
   if (!Ready()) return std::nullopt;
-  const bool may_iterate =
-      static_cast<int>(report_.iterations.size()) < options_.max_iterations && !IsStuck(report_.iterations);
+  const std::span<const IterationReport> since = std::span(report_.iterations).subspan(relit_at_);
+  const bool may_iterate = static_cast<int>(since.size()) < options_.max_iterations && !IsStuck(since);
   if (!Converged() && may_iterate) return SolverStep::kIterate;
   return corrected_ ? std::nullopt : std::optional(SolverStep::kCorrect);
 }
@@ -101,14 +102,15 @@ std::optional<IterationReport> HierarchicalSolver::Iterate(const ExecutionContex
     // The new links carry light at once, so that the solution is consistent with all links.
     going = going && links_.Settle(correction_.of_element, cutoff, report, context);
   }
+  report_.full = links_.Full();
   if (!going) {
     Restore(std::move(before));
     return std::nullopt;
   }
+  corrected_ = false;
   links_.EndIteration(report);
   report.seconds = stopwatch.Seconds();
   report_.iterations.push_back(report);
-  report_.full = links_.Full();
   return report;
 }
 
@@ -127,6 +129,7 @@ bool HierarchicalSolver::Relight(const ExecutionContext& context) {
   report.links = solution().links.links.size();
   report.seconds = stopwatch.Seconds();
   report_.iterations.push_back(report);
+  relit_at_ = report_.iterations.size();
   return true;
 }
 

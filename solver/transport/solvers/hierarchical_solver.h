@@ -83,6 +83,7 @@ class HierarchicalSolver final : public LightSolver {
   struct Snapshot {
     LinkSolver::Snapshot links;
     DeferredCorrection correction;
+    bool corrected = false;
   };
   Snapshot TakeSnapshot() const;
   void Restore(Snapshot snapshot);
@@ -99,6 +100,7 @@ class HierarchicalSolver final : public LightSolver {
   DeferredCorrection correction_;
   bool corrected_ = false;  // CorrectAll() has finished, and its corrections are still in place
   SolverReport report_;
+  std::size_t relit_at_ = 0;  // the number of iterations before those of the present light
   std::shared_ptr<const LeafVisibility> seen_from_leaves_;  // null after leaves have changed
 };
 

@@ -36,6 +36,7 @@ std::string_view StepName(SolverStep step);
 // The counts of a solver so far.
 struct SolverReport {
   std::vector<IterationReport> iterations;
+  int most_iterations = 0;  // the largest number that Next() asks for; 0: unknown
   bool full = false;  // links should have been split, but would have been too many (SolverOptions::max_links)
   struct Dense {
     std::size_t unknowns = 0;
@@ -103,7 +104,7 @@ struct SolverScene {
   const Scene& scene;
   const PatchVisibility& visibility;
   // A solution of the same scene by the same method. The solver takes the solution and continues from it.
-  // Null: none. REQUIRES: null for methods that cannot Relight().
+  // Null: none. A method that cannot Relight() leaves the solution alone and makes no solver, but null.
   RadiositySolution* goes_on_from = nullptr;
 };
 

@@ -1,5 +1,7 @@
 #include "solver/transport/solvers/light_solvers.h"
 
+#include <algorithm>
+
 #include "solver/transport/solvers/dense_solver.h"
 #include "solver/transport/solvers/hierarchical_solver.h"
 
@@ -12,11 +14,14 @@ LightSolverRegistry& LightSolvers() {
 
 bool SolveStepByStep(LightSolver& solver, const ExecutionContext& context, const StepObserver& observer) {
   for (std::optional<SolverStep> step = solver.Next(); step && !context.Cancelled(); step = solver.Next()) {
-    context.Report(StepName(*step), 0);
+    const SolverReport& report = solver.report();
+    const double most = report.most_iterations > 0 ? report.most_iterations : 1;
+    const double fraction = static_cast<double>(report.iterations.size()) / most;
+    context.Report(StepName(*step), *step == SolverStep::kIterate ? std::min(fraction, 1.0) : 0);
     if (!solver.Step(*step, context)) break;
     if (observer) observer(*step);
   }
-  return !context.Cancelled();
+  return solver.Ready() && !solver.Next();
 }
 
 std::string_view StepName(SolverStep step) { return step == SolverStep::kIterate ? "iterate" : "correct"; }

@@ -119,8 +119,10 @@ bool LinkSolver::Balance(const ExecutionContext& context) {
     double whitest = 0;
     for (const Patch& patch : scene_.patches)
       whitest = std::max(whitest, scene_.materials[patch.material].reflectance.maxCoeff());
-    nearly_white_ = whitest > kNearlyWhite / (1 + kNearlyWhite) &&
-                    LightToCome(*push_pull_, solution_, context).maxCoeff() > kNearlyWhite;
+    const bool nearly_white = whitest > kNearlyWhite / (1 + kNearlyWhite) &&
+                              LightToCome(*push_pull_, solution_, context).maxCoeff() > kNearlyWhite;
+    if (context.Cancelled()) return false;
+    nearly_white_ = nearly_white;
   }
   if (!*nearly_white_) return !context.Cancelled();
   closure_.resize(solution_.forest.size(), -1);
