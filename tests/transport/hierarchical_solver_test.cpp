@@ -354,7 +354,7 @@ TEST(LightSolver, EverySolverIsDrivenBySteps) {
   const PatchVisibility visibility(scene);
   LightSolverOptions options;
   options.hierarchical.eps = 2;
-  options.dense.divisions = 2;
+  options.dense = {.divisions = 1, .tolerance = 0.01, .max_points = 100};
   std::vector<Rgb> of_floor;
   for (const std::string& name : LightSolvers().Names()) {
     const std::unique_ptr<LightSolver> solver = LightSolvers().Make(name, {scene, visibility}, options, {});
