@@ -33,7 +33,8 @@ class PngImage final : public ImageWriter {
   bool IsLinear() const override { return false; }
   std::string Bytes(const Srgb8Image& image) const override {
     std::string bytes = PngBytes(image);
-    if (bytes.empty()) throw InputError("the image could not be encoded as PNG: ask for a smaller one, or for .exr");
+    if (bytes.empty())
+      throw InputError("the image could not be encoded as PNG: ask for a smaller one, or for .exr");
     return bytes;
   }
 };
