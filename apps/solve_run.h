@@ -35,8 +35,8 @@ class SolveRun {
            const nlohmann::ordered_json& command_options = nlohmann::ordered_json::object());
 
   // Solves, over the links of LoadedScene::restart if it is set. Builds a mesh of this kind, if `kind` is
-  // set. Measures the error if `measure` is true. A solution from a file is solved and measured already.
-  // Throws Interrupted.
+  // set. Measures the error if `measure` is true. A solution from a file is neither solved nor measured
+  // again: both happened before it was saved. Throws Interrupted.
   void Run(std::optional<MeshKind> kind, bool measure);
 
   // Builds a flat mesh of the current leaves without solving, for pictures that show no light. Throws

@@ -25,8 +25,8 @@ struct PixelRays {
   glm::dvec3 Direction(double x, double y) const { return corner + x * dx + y * dy; }
 };
 
-// The inverse of PixelRays::Direction(): from vectors that begin at the eye to homogeneous picture
-// coordinates (x, y, z). The end of the vector appears at (x / z, y / z) and has the depth z [m].
+// The inverse of PixelRays::Direction(): maps a vector v that begins at the eye to homogeneous picture
+// coordinates h. The point at the end of v appears at (h.x / h.z, h.y / h.z), and its depth is h.z [m].
 struct Projection {
   glm::dvec3 x{0.0}, y{0.0}, depth{0.0};
 

@@ -15,7 +15,7 @@ OverlayRegistry& Overlays();
 // One object per overlay, in the same order.
 std::vector<std::unique_ptr<const Overlay>> MakeOverlays();
 
-// The needs of all switches that are on.
+// What must be computed to draw all overlays that are switched on.
 OverlayNeeds NeedsOf(const OverlaySettings& settings);
 
 // The drawing of all overlays.

@@ -14,7 +14,7 @@
 
 namespace penumbra::viewer {
 
-// The parts of an action; a frame runs at most one of them.
+// One step of a scripted action. Each frame runs at most one step.
 struct ScriptStep {
   enum class Kind {
     kInput,

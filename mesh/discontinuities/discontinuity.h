@@ -52,9 +52,10 @@ struct Discontinuity {
   PatchId receiver = kNoPatch;
   PatchId source = kNoPatch;   // kNoPatch for a contact
   PatchId blocker = kNoPatch;  // kNoPatch for a horizon and a near edge; the touching patch for a contact
-  // VE: the source's vertex and the blocker's edge that meet. EV: the source's edge and the blocker's vertex.
-  // Near: the source's edge. EEE: the source's edge, or -1 if the source has none, and the blocker's edge.
-  // The number of an edge is the number of the vertex where the edge starts.
+  // VE: the vertex of the source and the edge of the blocker that span the plane of the event. EV: the
+  // source's edge and the blocker's vertex. Near: the source's edge. EEE: the source's edge, or -1 if the
+  // source has none, and the blocker's edge. The number of an edge is the number of the vertex where the
+  // edge starts.
   std::int32_t source_part = -1, blocker_part = -1;
   PatchEdge second_blocker_edge, third_blocker_edge;  // EEE; the third if no edge is the source's
   // D1 events: the edges of source and blocker that lie in one plane.

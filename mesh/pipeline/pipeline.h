@@ -187,8 +187,9 @@ class Pipeline {
   // Computes the light after a change of emittances or reflectances, over the existing links, which may be
   // those of the initial state. Discards corrections. Nothing if cancelled.
   std::optional<IterationReport> Relight(const ExecutionContext& context);
-  // Relight() and Correct(), within the limits of Solve(): the light for other materials without new form
-  // factors. The function neither tests nor refines links.
+  // Solves again after the materials of the scene have changed, with the links and form factors that exist:
+  // calls Relight() and then Correct(), and stops at the limits of time and memory that Solve() has. The
+  // function neither tests nor refines links.
   void SolveOverLinks(const ExecutionContext& context);
 
   // True if RefineLight() has an effect: the options request it, and the solver takes light.

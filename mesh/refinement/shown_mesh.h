@@ -95,7 +95,7 @@ class ShownMesh {
   const MeshReport& report() const { return report_; }
   // Returns the seconds since the last call.
   MeshSeconds TakeSeconds();
-  // One line that says which errors refinement could not reach.
+  // One line that says which error limits refinement could not meet; nothing if it met all.
   const std::optional<std::string>& unmet() const { return unmet_; }
 
  private:

@@ -28,7 +28,8 @@ void WriteWholeFiles(std::span<const FileToWrite> files);
 // Checks that WriteWholeFile() can write to the path, and throws the same error if it cannot. Writes nothing.
 void CheckCanWrite(const std::string& path);
 
-// Whether the path names a device or a pipe, which is written to directly.
+// True if the path names a device or a pipe. These are written in place, not by way of a renamed temporary
+// file.
 bool IsDevice(const std::string& path);
 
 // The target of a chain of symbolic links, whether or not this target exists.

@@ -84,8 +84,9 @@ class LightSolver {
   virtual double PartOfTolerance() const = 0;
   // The visibility of the solution's leaves. Null if its computation was cancelled.
   virtual std::shared_ptr<const LeafVisibility> SeenFromLeaves(const ExecutionContext& context) = 0;
-  // The mean irradiance of the fronts for each bounce [W/m^2]: entry 0 is light from emitters, entry k light
-  // that was reflected k times. Empty if the method does not provide it.
+  // The area-weighted mean irradiance of the front sides of all patches, for each bounce [W/m^2]: entry 0
+  // is light from emitters, entry k light that was reflected k times. Empty if the method does not provide
+  // it.
   virtual std::vector<Rgb> MeanIrradianceByBounce(int bounces) const = 0;
 
  protected:

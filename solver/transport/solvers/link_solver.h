@@ -20,7 +20,8 @@
 
 namespace penumbra {
 
-// Elements and links, with their light and the state of refinement.
+// Solves for the light on elements over the links between them. Holds elements, links, light, and how far
+// the links are refined.
 class LinkSolver {
  public:
   // The state that a cancelled step restores.

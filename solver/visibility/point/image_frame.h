@@ -103,8 +103,8 @@ class ImageFrame {
   Vec2 shift_;   // coordinates of origin_ along e1 and e2
 };
 
-// The origin of an edge of a piece of a source. Uninitialised by default, so that arrays of labels cost
-// nothing.
+// Says which edge, of the source or of a blocker, bounds a visible part of the source. Uninitialised by
+// default, so that arrays of labels cost nothing.
 class EdgeLabel {
  public:
   EdgeLabel() = default;
