@@ -157,7 +157,7 @@ void PrintFormFactor(const FormFactorArguments& arguments) {
       options.method = method.get();
       options.tolerance = arguments.tolerance.value_or(options.tolerance);
       // What was asked for is given; without a word, what is cheap.
-      if (arguments.tolerance) options.clear_tolerance = options.small = options.tolerance;
+      if (arguments.tolerance) options.clear_tolerance = options.small_error = options.tolerance;
       options.context = &context;
       estimate = AreaFormFactor(scene, from, to, options);
     }

@@ -28,9 +28,9 @@ struct ToneMapping {
   bool dither = true;   // false: round to the nearest code
 };
 
-// The exposure that maps the kMeteredFraction quantile of the surface pixels' largest channels to
-// kMeteredValue. Emitters and background do not count. 1 if no surface pixel is lit. REQUIRES: kinds.size()
-// == image.PixelCount().
+// The exposure that suits an image: kMeteredFraction of the pixels that show reflecting surfaces become no
+// brighter than kMeteredValue, by their largest channel. Pixels of emitters and of the background do not
+// count. Returns 1 if every surface pixel is black. REQUIRES: kinds.size() == image.PixelCount().
 double MeterExposure(const RgbImage& image, std::span<const PixelKind> kinds);
 inline constexpr double kMeteredFraction = 0.97;
 inline constexpr double kMeteredValue = 0.9;

@@ -47,7 +47,8 @@ class PictureMaker {
   double exposure() const { return exposure_; }  // screen value per W/m^2
   ColourScale scale() const { return scale_; }
   double scale_top() const { return scale_top_; }  // of false colours
-  // Why the view's back end could not draw the passes, so that the rasteriser drew them; empty if it could.
+  // The reason why the chosen back end could not draw the picture; the rasteriser then drew the picture
+  // instead. Empty if the chosen back end drew it.
   const std::string& backend_error() const { return backend_error_; }
   const FrameTimes& times() const { return times_; }
 

@@ -39,6 +39,16 @@ struct SourceView {
   double Height(const Vec3& p) const { return patch.normal.dot(p - patch.vertex[0]); }
 };
 
+// A discontinuity that a source causes; `part` is the source's vertex or edge, or -1.
+Discontinuity EventOf(DiscontinuityKind kind, const SourceView& source, std::int32_t part) {
+  Discontinuity d;
+  d.kind = kind;
+  d.source = source.id;
+  d.source_part = part;
+  d.strength = source.strength;
+  return d;
+}
+
 }  // namespace
 
 double KinkError(double size, double margin) { return std::min(kKinkError * size, margin); }
@@ -205,12 +215,9 @@ void DiscontinuityFinder::Impl::AddHorizon(const Receiver& r, const SourceView& 
     if (!on && std::abs(hb) > s.rounding && ha * hb < 0) met.push_back(Between(a, b, ha / (ha - hb)));
   }
   if (!before || !behind || met.size() != 2) return;
-  Discontinuity d;
-  d.kind = DiscontinuityKind::kHorizon;
+  Discontinuity d = EventOf(DiscontinuityKind::kHorizon, s, -1);
   d.degree = DiscontinuityDegree::kD1;
-  d.source = s.id;
   d.geometric_weight = 1;
-  d.strength = s.strength;
   out.Add(d, met[0], met[1]);
 }
 
@@ -225,11 +232,7 @@ void DiscontinuityFinder::Impl::AddNearEdges(const Receiver& r, const SourceView
     if (std::min(ha, hb) <= r.gap || std::max(ha, hb) > kMaxHangingHeight * (b - a).norm()) continue;
     if (GoesOn(s.id, k)) continue;
     const Vec3 across = r.frame.n.cross(b - a).normalized();
-    Discontinuity d;
-    d.kind = DiscontinuityKind::kNear;
-    d.source = s.id;
-    d.source_part = k;
-    d.strength = s.strength;
+    Discontinuity d = EventOf(DiscontinuityKind::kNear, s, k);
     d.geometric_weight = 1;
     for (const double offset : kOffsets)
       for (const double side : {-1.0, 1.0}) {
@@ -268,13 +271,9 @@ void DiscontinuityFinder::Impl::AddVertexEdge(const Receiver& r, const SourceVie
         if (clip.Empty()) continue;
         const Vec3 p = Between(a, b, clip.t0), q = Between(a, b, clip.t1);
         const double hp = r.Height(p), hq = r.Height(q);
-        Discontinuity d;
-        d.kind = DiscontinuityKind::kVE;
-        d.source = s.id;
+        Discontinuity d = EventOf(DiscontinuityKind::kVE, s, part);
         d.blocker = blocker;
-        d.source_part = part;
         d.blocker_part = k;
-        d.strength = s.strength;
         d.geometric_weight = std::clamp((hs - std::min(hp, hq)) / hs, 0.0, 1.0);
         if (out.TooLight(d.geometric_weight * s.strength)) continue;
         d.shared_source_edge = CoplanarEdge(s.patch, part, a, b, s.rounding);
@@ -345,13 +344,9 @@ void DiscontinuityFinder::Impl::AddCornerEvents(const Receiver& r, const SourceV
       if (!(cut[i] < cut[i + 1])) continue;
       const Vec3 p = Between(a, b, cut[i]), q = Between(a, b, cut[i + 1]);
       const double hp = r.Height(p), hq = r.Height(q);
-      Discontinuity d;
-      d.kind = DiscontinuityKind::kEV;
-      d.source = s.id;
+      Discontinuity d = EventOf(DiscontinuityKind::kEV, s, k);
       d.blocker = blocker;
-      d.source_part = k;
       d.blocker_part = part;
-      d.strength = s.strength;
       d.geometric_weight = std::clamp(1 - hv / std::max(hp, hq), 0.0, 1.0);
       if (out.TooLight(d.geometric_weight * s.strength)) continue;
       const Vec3 middle = 0.5 * (p + q);

@@ -38,15 +38,15 @@ void ClearScratch(T& object) {
 
 }  // namespace internal
 
-// A lease of an object of type T, for the life of the lease. The object is new, or an earlier lease of the
-// same thread has returned it; a returned object is cleared but keeps its memory. Two leases that live at the
-// same time never share an object, even in recursion, or when a thread that waits for a parallel loop runs
-// other work. REQUIRES: T has clear() or Clear(), and behaves like a new object afterwards.
+// Borrows an object of type T from the present thread for as long as the Scratch lives. The object is either
+// new, or one that an earlier Scratch of the thread has given back: cleared, but with its memory. Two
+// Scratches that live at the same time never hold the same object, even in recursion, or when a thread that
+// waits for a parallel loop runs other work. REQUIRES: T has clear() or Clear(), and behaves like a new
+// object afterwards.
 //
-// A lease belongs to the thread that created it, and must end before the thread ends: a lease is a local
-// variable, or a member of one. PENUMBRA_DCHECK detects use by another thread. A lease costs a few
-// nanoseconds: take one lease per evaluation of irradiance, and pass the object on to functions for single
-// polygons.
+// A Scratch is a local variable, or a member of one: it belongs to the thread that created it, and must end
+// before that thread. PENUMBRA_DCHECK detects use by another thread. Borrowing takes a few nanoseconds:
+// borrow once per evaluation of irradiance, and pass the object on to functions for single polygons.
 template <class T>
 class Scratch {
  public:

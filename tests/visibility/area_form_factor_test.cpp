@@ -374,7 +374,7 @@ TEST(AreaFormFactor, WhatIsSmallBesideOneEnds) {
     const Scene scene = RandomPair(random, i % 5);
     AreaFormFactorOptions options;
     options.tolerance = options.clear_tolerance = 1e-15;
-    options.small = 1e-3;
+    options.small_error = 1e-3;
     options.sufficient_points = 5000;
     const FormFactorEstimate found = Between(scene, Whole(scene, 0), Whole(scene, 1), options);
     EXPECT_LE(found.error, 1e-3) << i;

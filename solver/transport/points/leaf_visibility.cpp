@@ -1,6 +1,7 @@
 #include "solver/transport/points/leaf_visibility.h"
 
 #include <optional>
+#include <utility>
 
 #include "solver/base/parallel.h"
 #include "solver/visibility/pair/tube_blockers.h"
@@ -135,6 +136,17 @@ LeafVisibility::LeafVisibility(const ElementForest& forest, const PatchVisibilit
     }
     patch = {};  // frees memory early
   }
+}
+
+std::shared_ptr<const LeafVisibility> LeafVisibilityCache::Get(const ElementForest& forest,
+                                                               const PatchVisibility& patches,
+                                                               const ExecutionContext& context) {
+  if (!found_) {
+    auto found = std::make_shared<const LeafVisibility>(forest, patches, context);
+    if (context.Cancelled()) return nullptr;
+    found_ = std::move(found);
+  }
+  return found_;
 }
 
 }  // namespace penumbra

@@ -6,6 +6,7 @@
 
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,19 @@ class LeafVisibility {
       range_;  // of each element, in pairs_; empty unless the element is a leaf
   std::vector<PatchPair> pairs_;
   std::vector<PatchId> blockers_;
+};
+
+// The visibility of the leaves of a forest that grows: found when it is first asked for after a change.
+class LeafVisibilityCache {
+ public:
+  // Null if cancelled.
+  std::shared_ptr<const LeafVisibility> Get(const ElementForest& forest, const PatchVisibility& patches,
+                                            const ExecutionContext& context);
+  // For use after leaves have changed.
+  void Reset() { found_.reset(); }
+
+ private:
+  std::shared_ptr<const LeafVisibility> found_;
 };
 
 }  // namespace penumbra

@@ -139,12 +139,7 @@ bool DenseSolver::SetLight(std::span<const Rgb>, std::vector<Fragment>, const Ex
 }
 
 std::shared_ptr<const LeafVisibility> DenseSolver::SeenFromLeaves(const ExecutionContext& context) {
-  if (!seen_from_leaves_) {
-    auto seen = std::make_shared<const LeafVisibility>(solution_.forest, visibility_, context);
-    if (context.Cancelled()) return nullptr;
-    seen_from_leaves_ = std::move(seen);
-  }
-  return seen_from_leaves_;
+  return seen_from_leaves_.Get(solution_.forest, visibility_, context);
 }
 
 LightSolverRegistry::Method DenseSolverMethod() {

@@ -65,7 +65,7 @@ class DenseSolver final : public LightSolver {
   bool solved_ = false;
   RadiositySolution solution_;
   SolverReport report_;
-  std::shared_ptr<const LeafVisibility> seen_from_leaves_;
+  LeafVisibilityCache seen_from_leaves_;
 };
 
 LightSolverRegistry::Method DenseSolverMethod();

@@ -54,7 +54,7 @@ HierarchicalSolver::Snapshot HierarchicalSolver::TakeSnapshot() const {
 }
 
 void HierarchicalSolver::Restore(Snapshot before) {
-  if (links_.Restore(std::move(before.links))) seen_from_leaves_.reset();
+  if (links_.Restore(std::move(before.links))) seen_from_leaves_.Reset();
   correction_ = std::move(before.correction);
   corrected_ = before.corrected;
 }
@@ -97,7 +97,7 @@ std::optional<IterationReport> HierarchicalSolver::Iterate(const ExecutionContex
   bool going = links_.Settle(correction_.of_element, cutoff, report, context) &&
                links_.Split(before.links, report, context);
   if (report.links_split > 0) {
-    seen_from_leaves_.reset();
+    seen_from_leaves_.Reset();
     if (going) TakeCorrectionsBack();
     // The new links carry light at once, so that the solution is consistent with all links.
     going = going && links_.Settle(correction_.of_element, cutoff, report, context);
@@ -260,12 +260,7 @@ bool HierarchicalSolver::SetLight(std::span<const Rgb> irradiance, std::vector<F
 }
 
 std::shared_ptr<const LeafVisibility> HierarchicalSolver::SeenFromLeaves(const ExecutionContext& context) {
-  if (!seen_from_leaves_) {
-    auto seen = std::make_shared<const LeafVisibility>(solution().forest, visibility_, context);
-    if (context.Cancelled()) return nullptr;
-    seen_from_leaves_ = std::move(seen);
-  }
-  return seen_from_leaves_;
+  return seen_from_leaves_.Get(solution().forest, visibility_, context);
 }
 
 std::vector<Rgb> HierarchicalSolver::MeanIrradianceByBounce(int bounces) const {

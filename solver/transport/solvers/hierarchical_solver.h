@@ -101,7 +101,7 @@ class HierarchicalSolver final : public LightSolver {
   bool corrected_ = false;  // CorrectAll() has finished, and its corrections are still in place
   SolverReport report_;
   std::size_t relit_at_ = 0;  // the number of iterations before those of the present light
-  std::shared_ptr<const LeafVisibility> seen_from_leaves_;  // null after leaves have changed
+  LeafVisibilityCache seen_from_leaves_;
 };
 
 LightSolverRegistry::Method HierarchicalSolverMethod();

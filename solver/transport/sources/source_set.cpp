@@ -136,10 +136,7 @@ SourceSet SourceSet::FromSolution(const RadiositySolution& solution, std::span<c
     if ((solution.radiosity[root] != 0).any()) Append(solution, fragments, root, set.nodes_);
   }
   set.first_.push_back(set.nodes_.size());
-  set.NumberLeaves();
-  set.NumberCorners();
-  set.MeasurePolygons();
-  set.MeasureSubtrees();
+  set.Measure();
   return set;
 }
 
@@ -152,11 +149,15 @@ SourceSet SourceSet::Emitters(const Scene& scene) {
     if ((emittance != 0).any()) set.nodes_.push_back(MakeNode(patch.Vertices(), emittance));
   }
   set.first_.push_back(set.nodes_.size());
-  set.NumberLeaves();
-  set.NumberCorners();
-  set.MeasurePolygons();
-  set.MeasureSubtrees();
+  set.Measure();
   return set;
+}
+
+void SourceSet::Measure() {
+  NumberLeaves();
+  NumberCorners();
+  MeasurePolygons();
+  MeasureSubtrees();
 }
 
 void SourceSet::NumberLeaves() {

@@ -83,6 +83,8 @@ class SourceSet {
   const Rgb& Emittance(PatchId patch) const { return emittance_[static_cast<std::size_t>(patch)]; }
 
  private:
+  // Computes everything that follows from the nodes' polygons and the leaves' radiosities.
+  void Measure();
   void NumberLeaves();
   void NumberCorners();
   void MeasurePolygons();

@@ -159,7 +159,7 @@ class PairsOfParts {
     AreaFormFactorOptions fine = options;
     fine.tolerance = fine.clear_tolerance = 0;
     fine.sufficient_error = asked / static_cast<double>(2 * which.size());
-    fine.small = options.small / static_cast<double>(which.size());
+    fine.small_error = options.small_error / static_cast<double>(which.size());
     fine.sufficient_points = std::max(kLeastOfMany, options.sufficient_points / which.size());
     Solve("integrate", which, fine);
   }
@@ -202,7 +202,7 @@ FormFactorEstimate AreaFormFactor(const Scene& scene, std::span<const AreaPart> 
   PairsOfParts pairs(scene, from, to);
   if (pairs.Count() == 1) {
     AreaFormFactorOptions alone = options;
-    alone.tells = true;
+    alone.reports_progress = true;
     pairs.Solve("integrate", pairs.All(), alone);
   } else {
     // First a rough estimate of all pairs; then each pair as exactly as the sum requires.

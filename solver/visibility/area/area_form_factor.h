@@ -43,11 +43,11 @@ struct AreaFormFactorOptions {
   // A pair is done when F times the sender's area has at most this error [m^2], whatever `tolerance` says. A
   // sum over pairs sets this to the error that it allows each pair.
   double sufficient_error = 0;
-  // The largest number of points for one pair of parts. A pair that reaches it keeps the error that it has
-  // then. A pair whose error of F is at most `small` [1] ends at `sufficient_points` already: where many
-  // edges cast penumbras, each further digit takes three times the points.
+  // The largest number of points for one pair of parts: integration stops there, whatever its error. If the
+  // error of F is at most `small_error` [1], integration stops at `sufficient_points`: where many edges cast
+  // penumbras, each further digit of F takes three times as many points.
   std::size_t max_points = 10'000'000;
-  double small = 1e-7;
+  double small_error = 1e-7;
   std::size_t sufficient_points = 200'000;
   // The points lie on the first area, whatever the sizes. For tests of reciprocity.
   bool points_on_first = false;
@@ -56,7 +56,7 @@ struct AreaFormFactorOptions {
   // May cancel the work, which makes the result useless; may be null.
   const ExecutionContext* context = nullptr;
   // A single pair reports its progress to the context. Sums over several pairs always report.
-  bool tells = false;
+  bool reports_progress = false;
 };
 
 // The form factor of one part to another, with all patches of the scene as blockers; `patches` holds all

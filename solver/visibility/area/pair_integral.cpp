@@ -382,11 +382,11 @@ FormFactorEstimate PairIntegral::Integrate() {
                  sender_area_ * AllowedError(value / sender_area_,
                                              shadowed ? options_.tolerance : options_.clear_tolerance));
     if (error <= asked || points >= options_.max_points) break;
-    if (error <= options_.small * sender_area_ && points >= options_.sufficient_points) break;
+    if (error <= options_.small_error * sender_area_ && points >= options_.sufficient_points) break;
     if (options_.context && options_.context->Cancelled()) break;
     first_error = std::max(first_error, error);
     share = std::max(share, ShareOfDigits(first_error, error, asked));
-    if (options_.context && options_.tells) options_.context->Report("integrate", share);
+    if (options_.context && options_.reports_progress) options_.context->Report("integrate", share);
     std::vector<std::size_t> order(cells_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::erase_if(order, [&](std::size_t i) { return cells_[i].settled || cells_[i].Error() == 0; });

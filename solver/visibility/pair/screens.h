@@ -14,7 +14,7 @@
 
 namespace penumbra {
 
-// All points p with normal . p >= offset; `normal` is a unit vector.
+// A half-space: the points p with dot(normal, p) >= offset. `normal` is a unit vector.
 struct HalfSpace {
   Vec3 normal = Vec3::Zero();
   double offset = 0;  // [m]
