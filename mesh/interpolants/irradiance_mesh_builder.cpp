@@ -155,6 +155,12 @@ IrradianceSampler NearSampler(const PointIrradiance& exact, double tolerance) {
   };
 }
 
+IrradianceSampler RecordingSampler(const PointIrradiance& exact, double tolerance) {
+  return [&exact, tolerance](PatchId patch, const ReceiverPoint& at) {
+    return exact.RecordOnPatch(patch, at, tolerance);
+  };
+}
+
 IrradianceSampler WhileGoing(IrradianceSampler sampler, const ExecutionContext& context) {
   return [sampler = std::move(sampler), &context](PatchId patch, const ReceiverPoint& at) {
     return context.Cancelled() ? PointIrradianceResult() : sampler(patch, at);

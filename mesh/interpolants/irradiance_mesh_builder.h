@@ -29,6 +29,8 @@ using IrradianceSampler = std::function<PointIrradianceResult(PatchId, const Rec
 // A sampler that calls PointIrradiance::NearlyOnPatch() with this tolerance. `exact` must outlive the
 // sampler.
 IrradianceSampler NearSampler(const PointIrradiance& exact, double tolerance);
+// A sampler that calls PointIrradiance::RecordOnPatch() with this tolerance, so that samples have rows.
+IrradianceSampler RecordingSampler(const PointIrradiance& exact, double tolerance);
 // The same sampler, except that it returns an empty result after cancellation. `context` must outlive the
 // result.
 IrradianceSampler WhileGoing(IrradianceSampler sampler, const ExecutionContext& context);

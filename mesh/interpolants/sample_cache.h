@@ -1,7 +1,8 @@
 // mesh/interpolants/sample_cache.h
 //
 // Irradiance samples that remain valid from one mesh to the next: most nodes keep their places when leaves
-// are divided or lines added. The key of a sample is its patch and its exact position. The key of a one-sided
+// are divided or lines added. Samples that have rows of form factors remain valid when the light changes, too:
+// their new values are products. The key of a sample is its patch and its exact position. The key of a one-sided
 // sample also has the direction of approach, which identifies the sample's sheet.
 
 #pragma once
@@ -10,6 +11,7 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "solver/base/progress.h"
 #include "solver/transport/points/point_irradiance.h"
 
 namespace penumbra {
@@ -19,7 +21,13 @@ class SampleCache {
   // The sample at this node; null if it is unknown.
   const PointIrradianceResult* Find(PatchId patch, const ReceiverPoint& at) const;
   void Insert(PatchId patch, const ReceiverPoint& at, const PointIrradianceResult& sample);
-  // Removes all samples: for use after the sources have changed.
+  // Gives all samples the values for other sources: for use after the light has changed. `before` is the set
+  // of sources that belongs to the rows, `now` the irradiance from the new sources. Parts of rows that do not
+  // hold for the new light to the tolerance are gathered anew (PointIrradiance::Renew), and so are samples
+  // without rows. Returns the number of sources of points that were gathered. If cancelled, removes all
+  // samples.
+  std::size_t Relight(const SourceSet& before, const PointIrradiance& now, double tolerance,
+                      const ExecutionContext& context);
   void Clear();
   std::size_t size() const { return samples_.size(); }
 
@@ -32,7 +40,11 @@ class SampleCache {
   struct Hash {
     std::size_t operator()(const Key& key) const;
   };
-  std::unordered_map<Key, PointIrradianceResult, Hash> samples_;
+  struct Sample {
+    ReceiverPoint at;
+    PointIrradianceResult result;
+  };
+  std::unordered_map<Key, Sample, Hash> samples_;
 };
 
 }  // namespace penumbra

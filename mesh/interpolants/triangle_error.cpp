@@ -70,12 +70,16 @@ MeasuredTriangles MeasureTriangles(const Scene& scene, const IrradianceMesh& mes
     else
       unknown.push_back(i);
   }
+  std::vector<PointIrradianceResult> found(unknown.size());
   ParallelFor(unknown.size(), kEvaluationsATask, [&](std::size_t k) {
     const std::size_t i = unknown[k];
-    truth[i] = sampler(patch_of(i), at[i]).irradiance;
+    found[k] = sampler(patch_of(i), at[i]);
+    found[k].one_sided = false;  // within a triangle
+    truth[i] = found[k].irradiance;
   });
   if (cache)
-    for (const std::size_t i : unknown) cache->Insert(patch_of(i), at[i], {truth[i], false});
+    for (std::size_t k = 0; k < unknown.size(); ++k)
+      cache->Insert(patch_of(unknown[k]), at[unknown[k]], found[k]);
 
   MeasuredTriangles measured;
   measured.point_evaluations = unknown.size();

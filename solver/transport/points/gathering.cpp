@@ -34,7 +34,7 @@ struct Gathering::Buffers {
   LazyTable<Vec2> corner_images;  // of the current source in the current image, by corner
   // Polygons that GatherAggregates() has listed; their form factors are still to be added.
   PolygonBatch listed;
-  std::vector<Rgb> listed_radiosity;
+  std::vector<FactorTerm> listed_term;  // without factors
   FormFactorSums sums;
   std::vector<double> factors;
   // For the current source: the occluders of a leaf, the screens that may hide the source, the region of the
@@ -57,7 +57,7 @@ struct Gathering::Buffers {
   }
   void ClearListed() {
     listed.Clear();
-    listed_radiosity.clear();
+    listed_term.clear();
   }
 };
 
@@ -79,9 +79,10 @@ Gathering::Gathering(const Scene& scene, const SourceSet& sources, const Receive
 
 Gathering::~Gathering() = default;
 
-void Gathering::AllowAggregates(double tolerance, const Rgb& known) {
+void Gathering::AllowAggregates(double tolerance, const Rgb& known, bool mostly_hidden) {
   tolerance_ = tolerance;
   known_ = known;
+  mostly_hidden_ = mostly_hidden;
   buffers_->ClearListed();
 }
 
@@ -140,6 +141,7 @@ void Gathering::AddSource(PatchId source, const PatchHierarchy& patches, std::sp
 void Gathering::Gather(PatchId source, const DirectionPolygon& seen, std::span<const PatchId> candidates,
                        PatchId own) {
   const Rgb before = irradiance_;
+  const std::size_t first_term = row_ ? row_->terms.size() : 0;
   factor_ = 0;
   occluders_.clear();
   if (!view_.FindBlockers(candidates, own, seen, occluders_)) return;
@@ -158,9 +160,18 @@ void Gathering::Gather(PatchId source, const DirectionPolygon& seen, std::span<c
     GatherShadowed(tree, 0);
     if (tolerance_ > 0) so_far_ += irradiance_ - before;
   }
+  if (row_) EndSourceOfRow(source, first_term);
   if (!parts_ || factor_ == 0) return;
   parts_->contributions.push_back({source, irradiance_ - before});
   parts_->direct += factor_ * sources_.Emittance(source);
+}
+
+void Gathering::EndSourceOfRow(PatchId source, std::size_t first_term) {
+  AddListedSources();
+  row_->returned = std::max(row_->returned, returned_);
+  if (row_->terms.size() == first_term) return;
+  row_->sources.push_back({source, static_cast<std::uint32_t>(first_term),
+                           static_cast<std::uint32_t>(row_->terms.size()), static_cast<float>(whole_)});
 }
 
 // Adds the subtree at node i. The occluders may hide parts of the subtree.
@@ -270,17 +281,27 @@ bool Gathering::IsNegligible(const Rgb& light) const {
 // %: the error in a slot is 5.7 % with the factor 1 - r, and 3.8 % with (1 - r)^2.
 double Gathering::Tolerance() const { return (1 - returned_) * (1 - returned_) * tolerance_; }
 
+double AggregateTolerance(double tolerance, double returned, const Rgb& light, const Rgb& known) {
+  double of_many = std::numeric_limits<double>::infinity();
+  for (int c = 0; c < 3; ++c)
+    if (light[c] > 0) of_many = std::min(of_many, kOneOfMany * known[c] / light[c]);
+  return (1 - returned) * (1 - returned) * tolerance * of_many;
+}
+
 // The allowed error of a source, relative to its unoccluded light.
 double Gathering::ToleranceFor(const Rgb& light) const {
-  // The smallest ratio by / light over the channels.
-  const auto held = [&](const Rgb& by) {
-    double times = std::numeric_limits<double>::infinity();
-    for (int c = 0; c < 3; ++c)
-      if (light[c] > 0) times = std::min(times, by[c] / light[c]);
-    return times;
-  };
-  const double of_many = kOneOfMany * held(so_far_.max(known_));
-  return Tolerance() * ((known_ > 0).any() ? of_many : std::max(1.0, of_many));
+  const double of_many = AggregateTolerance(tolerance_, returned_, light, so_far_.max(known_));
+  return mostly_hidden_ ? of_many : std::max(Tolerance(), of_many);
+}
+
+// The relative change of the form factor per area over a node, squared; 1 near the node. A first-order
+// correction leaves an error of the spread times this.
+double Gathering::Nearness(const Node& node) const {
+  // A form factor per area depends on distance^-2 and on two cosines, which together change about as fast.
+  constexpr double kSteepness = 3;
+  const double gap = (node.centre - at_.position).norm() - node.radius;
+  const double reach = gap > 0 ? kSteepness * node.radius / gap : 1;
+  return std::min(1.0, reach * reach);
 }
 
 // True if a subtree may count as one polygon: if nothing hides it, with its mean radiosity and moment;
@@ -292,11 +313,8 @@ bool Gathering::MayAggregate(const Node& node, bool visible) const {
   const Vec3 to = node.centre - at_.position;
   const double distance = to.norm(), gap = distance - node.radius;
   if (gap <= 0) return false;
-  // A form factor per area depends on distance^-2 and on two cosines, which together change about as fast.
-  constexpr double kSteepness = 3;
   if (visible) {
-    const double reach = kSteepness * node.radius / gap;
-    if (reach < 1) error *= reach * reach;
+    error *= Nearness(node);
     if (error <= tolerance_here_) return true;
   }
   const double high = std::min(1.0, (at_.normal.dot(to) + node.radius) / distance),
@@ -315,38 +333,51 @@ void Gathering::GatherAggregates(Tree nodes) {
       continue;
     }
     i += static_cast<std::size_t>(node.skip);
+    FactorTerm term;
+    term.node = static_cast<std::int32_t>(sources_.IndexOf(node));
+    term.by_spread = 1;
     // A node well above the horizon needs no clipping.
     if (plain || (!view_.SourceInContact() && at_.normal.dot(node.centre - at_.position) > node.radius)) {
+      if (node.skip > 1) {
+        Eigen::Map<Eigen::Vector3f>(term.moment.data()) = FirstMoment(node).cast<float>();
+        term.by_spread = static_cast<float>(Nearness(node));
+      }
       buffers.listed.Add(Vertices(node));
-      buffers.listed_radiosity.push_back(node.radiosity);
-      if (node.skip > 1) AddMoment(node);
+      buffers.listed_term.push_back(term);
     } else {
-      Add(node.radiosity, FormFactor(view_.SeeSource(Vertices(node)), at_.normal, CancellationAllowed()));
+      const double factor = FormFactor(view_.SeeSource(Vertices(node)), at_.normal, CancellationAllowed());
+      factor_ += factor;
+      term.factor = static_cast<float>(factor);
+      Add(term);
     }
   }
 }
 
-// Adds the first-order correction to an aggregate: radiosity and form factor per area both vary over the
-// node.
-void Gathering::AddMoment(const Node& node) {
+// The first-order correction to an aggregate, for a slope of 1: radiosity and form factor per area both vary
+// over the node.
+Vec3 Gathering::FirstMoment(const Node& node) const {
   const Vec3 r = node.centre - at_.position;
   const double d2 = r.squaredNorm();
   // Within two radii, the form factor per area is not linear over the node.
   constexpr double kFarSquared = 4;
-  if (d2 < kFarSquared * node.radius * node.radius) return;
+  if (d2 < kFarSquared * node.radius * node.radius) return Vec3::Zero();
   const double high = at_.normal.dot(r), deep = -source_normal_.dot(r);
   // The gradient of high * deep / (pi d^4) along the source's plane.
   const Vec3 gradient = deep / (std::numbers::pi * d2 * d2) * (at_.normal - 4 * high / d2 * r);
-  irradiance_ += (node.moment * gradient).array();
+  return node.second_moment * gradient;
 }
 
 // Adds the polygons listed by GatherAggregates(). Form factors here may be less exact than elsewhere.
 void Gathering::AddListedSources() {
   if (tolerance_ == 0) return;
   Buffers& buffers = *buffers_;
-  const std::size_t count = buffers.listed_radiosity.size();
+  const std::size_t count = buffers.listed_term.size();
+  if (count == 0) return;
   buffers.sums.Find(buffers.listed, 0, count, view_.SourceEye(), at_.normal);
-  for (std::size_t i = 0; i < count; ++i) irradiance_ += buffers.sums.Factor(i) * buffers.listed_radiosity[i];
+  for (std::size_t i = 0; i < count; ++i) {
+    buffers.listed_term[i].factor = static_cast<float>(buffers.sums.Factor(i));
+    Add(buffers.listed_term[i]);
+  }
   buffers.ClearListed();
 }
 
@@ -387,20 +418,28 @@ void Gathering::AddVisiblePieces(const ImageFrame& frame, double factor_before) 
       // Of a node that a shadow crosses, often the brighter part is visible, so the mean radiosity would be
       // too dark.
       const Node& node = sources_.NodeAt(static_cast<std::size_t>(owner.Number()));
-      Add(RadiosityToward(node, frame.Direction(visible.Centroid(p))), std::max(0.0, factor));
+      const double visible_factor = std::max(0.0, factor);
+      factor_ += visible_factor;
+      FactorTerm term;
+      term.node = owner.Number();
+      term.factor = static_cast<float>(visible_factor);
+      term.by_residual = 1;
+      Eigen::Map<Eigen::Vector3f>(term.moment.data()) =
+          (visible_factor * OffsetToward(node, frame.Direction(visible.Centroid(p)))).cast<float>();
+      Add(term);
     }
   }
 }
 
-// The radiosity, by the node's linear fit, at the place that is seen in the direction.
-Rgb Gathering::RadiosityToward(const Node& node, const Vec3& direction) const {
+// From the node's centre to the place of the node that is seen in the direction [m].
+Vec3 Gathering::OffsetToward(const Node& node, const Vec3& direction) const {
   const double fall = source_normal_.dot(direction);
-  if (fall >= 0 || view_.SourceInContact()) return node.radiosity;
+  if (fall >= 0 || view_.SourceInContact()) return Vec3::Zero();
   const Vec3 to_centre = node.centre - at_.position;
   Vec3 offset = source_normal_.dot(to_centre) / fall * direction - to_centre;
   const double length = offset.norm();
   if (length > node.radius) offset *= node.radius / length;  // by rounding, at grazing angles
-  return (node.radiosity + (node.slope * offset).array()).max(0.0);
+  return offset;
 }
 
 // The largest allowed ratio of the angles of a sum to the sum; digits are lost in proportion to the ratio.
@@ -438,11 +477,32 @@ void Gathering::Add(std::int32_t leaf, double factor) {
   factor_ += factor;
   if (!factors_.empty()) factors_[static_cast<std::size_t>(leaf)] += factor;
   irradiance_ += factor * sources_.LeafRadiosities()[static_cast<std::size_t>(leaf)];
+  if (!row_) return;
+  FactorTerm term;
+  term.node = sources_.NodeOfLeaf(leaf);
+  term.factor = static_cast<float>(factor);
+  term.by_spread = 1;
+  Record(term);
 }
 
-void Gathering::Add(const Rgb& radiosity, double factor) {
-  factor_ += factor;
-  irradiance_ += factor * radiosity;
+void Gathering::Add(const FactorTerm& term) {
+  const Node& node = sources_.NodeAt(static_cast<std::size_t>(term.node));
+  irradiance_ += static_cast<double>(term.factor) * node.radiosity;
+  if (node.skip > 1)
+    irradiance_ += (node.slope * Eigen::Map<const Eigen::Vector3f>(term.moment.data()).cast<double>()).array();
+  if (row_) Record(term);
+}
+
+// Appends the term to the row, or joins it with the last term if both belong to one node.
+void Gathering::Record(const FactorTerm& term) {
+  if (term.factor == 0) return;
+  FactorTerm* const last = row_->terms.empty() ? nullptr : &row_->terms.back();
+  if (!last || last->node != term.node) {
+    row_->terms.push_back(term);
+    return;
+  }
+  last->factor += term.factor;
+  for (std::size_t k = 0; k < term.moment.size(); ++k) last->moment[k] += term.moment[k];
 }
 
 void Gathering::AddGradient(std::int32_t leaf, const Vec3& gradient) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/base/scratch.h"
+#include "solver/transport/points/factor_row.h"
 #include "solver/transport/sources/source_set.h"
 #include "solver/visibility/pair/patch_hierarchy.h"
 #include "solver/visibility/point/clipping.h"
@@ -55,6 +56,12 @@ struct IrradianceParts {
 // `source`, and F = `factor` the form factor of the point to `source`.
 double SentBack(const Scene& scene, PatchId patch, PatchId source, double factor);
 
+// The error that the terms of one source may cause, relative to `light`, the source's light without blockers:
+// (1 - returned)^2 tolerance * (a fifth of `known` / light), for the channel where it is smallest. `known` is
+// the irradiance of the point. A dim source may err more, since a point has many sources, whose errors have
+// different signs; in a slot, where the fraction `returned` of the light comes back (SentBack), errors add up.
+double AggregateTolerance(double tolerance, double returned, const Rgb& light, const Rgb& known);
+
 // Use it as a local variable: its buffers are leases of the thread that makes it (Scratch).
 class Gathering {
  public:
@@ -77,13 +84,17 @@ class Gathering {
   // From now on, adds the form factor of each leaf of the set to factors[number of the leaf].
   void RecordFactors(std::span<double> factors) { factors_ = factors; }
 
+  // From now on, adds the sources and their terms to the row. REQUIRES: AllowAggregates() has been called, and
+  // the options name no method.
+  void RecordRow(FactorRow& row) { row_ = &row; }
+
   // From now on, a subtree of a source may count as one polygon with one radiosity, for speed. Let L be the
-  // unoccluded light of a source, S the light of all sources before it, c < 1 a constant, and T = (1 - r)^2
-  // tolerance, where r is the largest SentBack() of the sources up to this one. The aggregates of the source
-  // may cause an error of about T max(L, c S); add bright sources first. If `known`, the approximate
-  // irradiance of the point, is given, the error may be about T c max(S, known) instead. REQUIRES: the point
-  // lies on a patch.
-  void AllowAggregates(double tolerance, const Rgb& known = Rgb::Zero());
+  // unoccluded light of a source, S the light of all sources before it or `known`, the approximate irradiance
+  // of the point, if that is larger; c < 1 a constant, and T = (1 - r)^2 tolerance, where r is the largest
+  // SentBack() of the sources up to this one. The aggregates of the source may cause an error of about
+  // T max(L, c S), or T c S if the point is `mostly_hidden` from the light; add bright sources first.
+  // REQUIRES: the point lies on a patch.
+  void AllowAggregates(double tolerance, const Rgb& known = Rgb::Zero(), bool mostly_hidden = false);
   // The irradiance from the sources so far as if their blockers hid nothing; sources that are hidden
   // completely do not count [W/m^2]. REQUIRES: AllowAggregates().
   const Rgb& unhindered() const { return unhindered_; }
@@ -104,6 +115,7 @@ class Gathering {
   bool Face(PatchId source, DirectionPolygon* seen);
   bool HiddenBy(std::span<const Screen> screens, const DirectionPolygon& seen);
   void Gather(PatchId source, const DirectionPolygon& seen, std::span<const PatchId> candidates, PatchId own);
+  void EndSourceOfRow(PatchId source, std::size_t first_term);
   void GatherShadowed(Tree tree, std::size_t i);
   ImagePolygon ImageOf(const SourceSet::Node& node, const ImageFrame& frame) const;
   void GatherNode(Tree tree, std::size_t i, const ImageFrame& frame, const Clipper::Candidates& candidates);
@@ -112,15 +124,17 @@ class Gathering {
   double Tolerance() const;
   double ToleranceFor(const Rgb& light) const;
   bool MayAggregate(const SourceSet::Node& node, bool visible) const;
-  void AddMoment(const SourceSet::Node& node);
+  double Nearness(const SourceSet::Node& node) const;
+  Vec3 FirstMoment(const SourceSet::Node& node) const;
   void AddListedSources();
   void GatherUnfit(const SourceSet::Node& leaf, const DirectionPolygon& seen);
   void AddVisiblePieces(const ImageFrame& frame, double visible_before);
   double CancellationAllowed() const;
   void AddGradientOfPieces(const ImageFrame& frame);
   void Add(std::int32_t leaf, double factor);
-  void Add(const Rgb& radiosity, double factor);
-  Rgb RadiosityToward(const SourceSet::Node& node, const Vec3& direction) const;
+  void Add(const FactorTerm& term);
+  void Record(const FactorTerm& term);
+  Vec3 OffsetToward(const SourceSet::Node& node, const Vec3& direction) const;
   void AddGradient(std::int32_t leaf, const Vec3& gradient);
 
   const Scene& scene_;
@@ -134,6 +148,7 @@ class Gathering {
   Clipper& clipper_;  // one of the buffers
   double tolerance_ = 0;
   Rgb known_ = Rgb::Zero();       // approximate irradiance of the point; zero: unknown
+  bool mostly_hidden_ = false;    // see AllowAggregates()
   Rgb unhindered_ = Rgb::Zero();  // see unhindered(); set if tolerance_ > 0
   Rgb so_far_ = Rgb::Zero();      // approximate light of the completed sources; set if tolerance_ > 0
   double returned_ = 0;           // largest SentBack() of the sources so far; set if tolerance_ > 0
@@ -145,6 +160,7 @@ class Gathering {
   double factor_ = 0;  // of the current source, so far
   Rgb irradiance_ = Rgb::Zero();
   std::span<double> factors_;  // for each leaf of the set; empty: not recorded
+  FactorRow* row_ = nullptr;   // null: not recorded
 };
 
 }  // namespace penumbra

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 #include <numeric>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,10 @@ constexpr double kLeastScreen = 0.02;
 // If the unoccluded light of the sources exceeds the arriving light by more than this factor, errors relative
 // to the unoccluded light are too large: a dark corner that sees a small part of a bright source.
 constexpr double kMostlyHidden = 4;
+
+// A row is gathered to its tolerance and stays valid up to this times the tolerance, so that small changes of
+// the light renew few rows.
+constexpr double kHolds = 2;
 
 // A source with an estimate of its unoccluded light.
 struct RankedSource {
@@ -92,9 +97,9 @@ PointIrradiance PointIrradiance::WithSources(SourceSet sources) const {
   return other;
 }
 
-// GatherOnPatch() with the sources in descending order of their estimated unoccluded light. Leaves out the
+// GatherOnPatch() with the sources in descending order of their estimated unoccluded light. May leave out the
 // last sources if all of them together are negligible.
-void PointIrradiance::GatherBrightestFirst(PatchId patch, const ReceiverPoint& at,
+void PointIrradiance::GatherBrightestFirst(PatchId patch, const ReceiverPoint& at, DimSources dim,
                                            Gathering& gathering) const {
   const Scratch<std::vector<RankedSource>> scratch;
   std::vector<RankedSource>& ranked = *scratch;
@@ -109,7 +114,7 @@ void PointIrradiance::GatherBrightestFirst(PatchId patch, const ReceiverPoint& a
                    [](const RankedSource& a, const RankedSource& b) { return a.light > b.light; });
   for (std::size_t i = ranked.size(); i-- > 1;) ranked[i - 1].rest += ranked[i].rest;
   for (const auto& [light, rest, pair] : ranked) {
-    if (gathering.IsNegligible(rest)) return;
+    if (dim == DimSources::kLeaveOut && gathering.IsNegligible(rest)) return;
     gathering.AddSource(pair->source, leaves_->Blockers(*pair), patch);
   }
 }
@@ -145,7 +150,7 @@ PointIrradianceResult PointIrradiance::OnPatch(PatchId patch, const ReceiverPoin
   const ReceiverPoint at = Nudged(given);
   Gathering gathering(scene_, sources_, at, options_, parts);
   GatherOnPatch(patch, at, gathering);
-  return {gathering.irradiance(), gathering.one_sided()};
+  return {gathering.irradiance(), gathering.one_sided(), nullptr};
 }
 
 PointIrradianceResult PointIrradiance::NearlyOnPatch(PatchId patch, const ReceiverPoint& given,
@@ -155,16 +160,110 @@ PointIrradianceResult PointIrradiance::NearlyOnPatch(PatchId patch, const Receiv
   Gathering gathering(scene_, sources_, at, options_, nullptr);
   if (options_.method != nullptr || forest_ == nullptr) {
     GatherOnPatch(patch, at, gathering);
-    return {gathering.irradiance(), gathering.one_sided()};
+    return {gathering.irradiance(), gathering.one_sided(), nullptr};
   }
   gathering.AllowAggregates(tolerance);
-  GatherBrightestFirst(patch, at, gathering);
+  GatherBrightestFirst(patch, at, DimSources::kLeaveOut, gathering);
   const Rgb light = gathering.irradiance();
-  if ((gathering.unhindered() <= kMostlyHidden * light).all()) return {light, gathering.one_sided()};
+  if ((gathering.unhindered() <= kMostlyHidden * light).all())
+    return {light, gathering.one_sided(), nullptr};
   Gathering closer(scene_, sources_, at, options_, nullptr);
-  closer.AllowAggregates(tolerance, light);
-  GatherBrightestFirst(patch, at, closer);
-  return {closer.irradiance(), closer.one_sided()};
+  closer.AllowAggregates(tolerance, light, /*mostly_hidden=*/true);
+  GatherBrightestFirst(patch, at, DimSources::kLeaveOut, closer);
+  return {closer.irradiance(), closer.one_sided(), nullptr};
+}
+
+PointIrradianceResult PointIrradiance::RecordOnPatch(PatchId patch, const ReceiverPoint& given,
+                                                     double tolerance) const {
+  if (!CanRecord()) return NearlyOnPatch(patch, given, tolerance);
+  const ReceiverPoint at = Nudged(given);
+  auto row = std::make_shared<FactorRow>();
+  const auto gather = [&](const Rgb& known, bool hidden) {
+    *row = {};
+    Gathering gathering(scene_, sources_, at, options_, nullptr);
+    gathering.AllowAggregates(tolerance * options_.part_of_tolerance, known, hidden);
+    gathering.RecordRow(*row);
+    GatherBrightestFirst(patch, at, DimSources::kGather, gathering);
+    const Rgb light = gathering.irradiance();
+    const bool mostly_hidden = (gathering.unhindered() > kMostlyHidden * light).any();
+    return std::tuple(light, gathering.one_sided(), mostly_hidden);
+  };
+  auto [light, one_sided, mostly_hidden] = gather(Rgb::Zero(), false);
+  if (mostly_hidden) std::tie(light, one_sided, mostly_hidden) = gather(light, true);
+  row->terms.shrink_to_fit();
+  return {Irradiance(*row, sources_), one_sided, std::move(row)};
+}
+
+// The light of a row for the present sources, without that of sources that must be gathered anew.
+PointIrradiance::KnownLight PointIrradiance::LightOf(const FactorRow& row) const {
+  KnownLight light;
+  for (const FactorRow::Source& source : row.sources) {
+    const std::span<const SourceSet::Node> tree = sources_.Tree(source.patch);
+    if (tree.empty()) continue;
+    light.unhindered += source.unhindered * tree[0].radiosity;
+    const bool whole = std::all_of(row.terms.begin() + source.first, row.terms.begin() + source.end,
+                                   [](const FactorTerm& term) { return term.node >= 0; });
+    if (whole) light.arrives += Irradiance(row, source.first, source.end, sources_);
+  }
+  light.arrives = light.arrives.max(0.0);
+  light.mostly_hidden = (light.unhindered > kMostlyHidden * light.arrives).any();
+  return light;
+}
+
+// True if the terms of a source may stay in the row.
+bool PointIrradiance::Holds(const FactorRow& row, const FactorRow::Source& source, const KnownLight& light,
+                            double tolerance) const {
+  const double whole = source.unhindered;
+  const Rgb unhindered = sources_.Tree(source.patch)[0].radiosity * whole;
+  const double of_many = AggregateTolerance(tolerance, row.returned, unhindered, light.arrives);
+  const double returned = (1 - row.returned) * (1 - row.returned);
+  const double allowed = kHolds * (light.mostly_hidden ? of_many : std::max(returned * tolerance, of_many));
+  for (std::uint32_t i = source.first; i < source.end; ++i) {
+    const FactorTerm& term = row.terms[i];
+    if (term.node < 0) return false;
+    const SourceSet::Node& node = sources_.NodeAt(static_cast<std::size_t>(term.node));
+    const double error = term.by_spread * node.spread + term.by_residual * node.residual;
+    if (error > allowed && error * term.factor > allowed * whole) return false;
+  }
+  return true;
+}
+
+std::size_t PointIrradiance::Renew(PatchId patch, const ReceiverPoint& given, double tolerance,
+                                   std::span<const PatchId> new_sources, FactorRow& row) const {
+  tolerance *= options_.part_of_tolerance;
+  const KnownLight light = LightOf(row);
+  std::vector<PatchId> again(new_sources.begin(), new_sources.end());
+  FactorRow renewed;
+  renewed.returned = row.returned;
+  for (const FactorRow::Source& source : row.sources) {
+    if (sources_.Tree(source.patch).empty()) continue;
+    if (!Holds(row, source, light, tolerance)) {
+      again.push_back(source.patch);
+      continue;
+    }
+    const auto first = static_cast<std::uint32_t>(renewed.terms.size());
+    renewed.terms.insert(renewed.terms.end(), row.terms.begin() + source.first,
+                         row.terms.begin() + source.end);
+    renewed.sources.push_back(
+        {source.patch, first, static_cast<std::uint32_t>(renewed.terms.size()), source.unhindered});
+  }
+  if (again.empty() && renewed.sources.size() == row.sources.size()) return 0;
+  const ReceiverPoint at = Nudged(given);
+  Gathering gathering(scene_, sources_, at, options_, nullptr);
+  gathering.AllowAggregates(tolerance, light.arrives, light.mostly_hidden);
+  gathering.RecordRow(renewed);
+  std::size_t gathered = 0;
+  const std::span<const PatchPair> pairs = leaves_->SourcesOf(forest_->LeafAt(patch, at.position));
+  for (const PatchId source : again) {
+    const auto pair = std::lower_bound(pairs.begin(), pairs.end(), source,
+                                       [](const PatchPair& a, PatchId b) { return a.source < b; });
+    if (pair == pairs.end() || pair->source != source) continue;
+    gathering.AddSource(source, leaves_->Blockers(*pair), patch);
+    ++gathered;
+  }
+  renewed.terms.shrink_to_fit();
+  row = std::move(renewed);
+  return gathered;
 }
 
 Rgb PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given, std::span<double> factors) const {
@@ -197,7 +296,7 @@ PointIrradianceResult PointIrradiance::Anywhere(const ReceiverPoint& given, Irra
   if (source_patches_.size() > kManySources) screens_.Find({&at, 1}, kLeastScreen, kMostScreens, *screens);
   source_patches_.Find({{at.normal, at.normal.dot(at.position)}}, *screens, *found);
   for (const PatchId source : *found) gathering.AddSource(source, patches_, *screens);
-  return {gathering.irradiance(), gathering.one_sided()};
+  return {gathering.irradiance(), gathering.one_sided(), nullptr};
 }
 
 }  // namespace penumbra

@@ -8,11 +8,13 @@
 
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 
 #include "solver/geometry/vec.h"
 #include "solver/scene/scene.h"
+#include "solver/transport/points/factor_row.h"
 #include "solver/transport/points/gathering.h"
 #include "solver/transport/points/leaf_visibility.h"
 #include "solver/transport/sources/source_set.h"
@@ -28,6 +30,8 @@ struct PointIrradianceResult {
   // The approach direction affected the value. The limit from another side may differ, so triangles on
   // different sides must not share the sample.
   bool one_sided = false;
+  // The form factors that led to the value; null if they were not asked for.
+  std::shared_ptr<FactorRow> row;
 };
 
 class PointIrradiance {
@@ -56,6 +60,16 @@ class PointIrradiance {
   // (Gathering::AllowAggregates).
   PointIrradianceResult NearlyOnPatch(PatchId patch, const ReceiverPoint& at, double tolerance) const;
 
+  // NearlyOnPatch(), and the row of form factors in the result, if CanRecord(). Every source that lights the
+  // point has terms in the row, however dim.
+  PointIrradianceResult RecordOnPatch(PatchId patch, const ReceiverPoint& at, double tolerance) const;
+  bool CanRecord() const { return options_.method == nullptr && forest_ != nullptr; }
+  // Replaces, in a row of these sources, the terms of sources that do not hold to about twice the tolerance
+  // for the present radiosities: since a node's radiosity varies too much, or a term has no node (-1). Adds
+  // the terms of `new_sources`. Returns the number of sources that were gathered. REQUIRES: CanRecord().
+  std::size_t Renew(PatchId patch, const ReceiverPoint& at, double tolerance,
+                    std::span<const PatchId> new_sources, FactorRow& row) const;
+
   // Returns the irradiance of OnPatch(), and sets factors[i] to the form factor of the visible part of leaf i
   // of the source set. REQUIRES: factors.size() is the number of leaves of the source set.
   Rgb OnPatch(PatchId patch, const ReceiverPoint& at, std::span<double> factors) const;
@@ -79,7 +93,16 @@ class PointIrradiance {
   void BuildHierarchies();
   void ChooseMethod();
   void GatherOnPatch(PatchId patch, const ReceiverPoint& at, Gathering& gathering) const;
-  void GatherBrightestFirst(PatchId patch, const ReceiverPoint& at, Gathering& gathering) const;
+  enum class DimSources : std::uint8_t { kLeaveOut, kGather };
+  void GatherBrightestFirst(PatchId patch, const ReceiverPoint& at, DimSources dim,
+                            Gathering& gathering) const;
+  struct KnownLight {
+    Rgb arrives = Rgb::Zero(), unhindered = Rgb::Zero();  // with and without blockers [W/m^2]
+    bool mostly_hidden = false;
+  };
+  KnownLight LightOf(const FactorRow& row) const;
+  bool Holds(const FactorRow& row, const FactorRow::Source& source, const KnownLight& light,
+             double tolerance) const;
   // An estimate and an upper bound of the unoccluded form factor of a point to a source on a patch.
   struct UnhinderedFactor {
     double about, most;

@@ -1,13 +1,17 @@
 #include "solver/transport/sources/source_set.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "solver/geometry/polygon.h"
 #include "solver/transport/links/solution.h"
 #include "solver/transport/sources/error_floors.h"
+#include "solver/transport/sources/source_polygon.h"
 
 namespace penumbra {
 namespace {
+
+using Node = SourceSet::Node;
 
 SourceSet::Node MakeNode(std::span<const Vec3> vertices, const Rgb& radiosity) {
   SourceSet::Node node;
@@ -19,53 +23,44 @@ SourceSet::Node MakeNode(std::span<const Vec3> vertices, const Rgb& radiosity) {
 
 // Appends the fragment as triangles and quadrilaterals.
 void AppendFan(const Fragment& fragment, std::size_t number, std::vector<SourceSet::Node>& nodes) {
-  const Polygon3& p = fragment.polygon;
-  for (std::size_t i = 2; i < p.size(); i += 2) {
-    const std::array<Vec3, 4> quadrilateral = {p[0], p[i - 1], p[i], p[std::min(i + 1, p.size() - 1)]};
-    nodes.push_back(MakeNode({quadrilateral.data(), i + 1 < p.size() ? 4U : 3U}, fragment.radiosity));
+  for (const SourcePolygon& part : Fan(fragment.polygon)) {
+    nodes.push_back(MakeNode(part.Vertices(), fragment.radiosity));
     nodes.back().fragment = static_cast<std::int32_t>(number);
   }
 }
 
-// A fragment, or a triangle whose four quarters precede it in the list.
-struct CellTriangle {
-  std::array<Vec3, 3> corner;
+// A fragment, or a polygon whose four quarters precede it in the list.
+struct Piece {
+  SourcePolygon polygon;  // size 0: a fragment of more than four vertices
   std::size_t fragment = 0;
   std::size_t pieces = 1;  // number of pieces that form it, including itself; they precede it
 };
 
-// True if a, b, c and `middle` are the quarters of a triangle, in the order of the triangle's corners.
-bool AreQuarters(const CellTriangle& a, const CellTriangle& b, const CellTriangle& c,
-                 const CellTriangle& middle) {
-  return a.corner[1] == b.corner[0] && b.corner[2] == c.corner[1] && c.corner[0] == a.corner[2] &&
-         middle.corner[0] == b.corner[2] && middle.corner[1] == a.corner[2] &&
-         middle.corner[2] == a.corner[1];
-}
-
-// The fragments in their order. A triangle follows its last quarter if all four quarters exist: a quartered
-// triangle that is far away or hidden as a whole is then handled as one.
-std::vector<CellTriangle> JoinQuarters(std::span<const Fragment> fragments) {
-  std::vector<CellTriangle> pieces;
+// The fragments in their order. A polygon follows its last quarter if all four quarters exist: a quartered
+// polygon that is far away or hidden as a whole is then handled as one.
+std::vector<Piece> JoinFragments(std::span<const Fragment> fragments) {
+  constexpr std::size_t kQuarters = 4;
+  std::vector<Piece> pieces;
   std::vector<std::size_t> open;  // pieces that are no quarters so far
   for (std::size_t f = 0; f < fragments.size(); ++f) {
     const Polygon3& polygon = fragments[f].polygon;
-    const bool triangle = polygon.size() == 3;
-    pieces.push_back({{polygon[0], polygon[1], polygon[2]}, f, 1});
-    if (!triangle) {
+    const bool may_join = polygon.size() <= 4;
+    pieces.push_back({may_join ? SourcePolygon(polygon) : SourcePolygon(), f, 1});
+    if (!may_join) {
       open.clear();
       continue;
     }
     open.push_back(pieces.size() - 1);
-    constexpr std::size_t kQuarters = 4;
     while (open.size() >= kQuarters) {
       const std::size_t* last = &open[open.size() - kQuarters];
-      const CellTriangle &a = pieces[last[0]], &b = pieces[last[1]], &c = pieces[last[2]],
-                         &middle = pieces[last[3]];
-      if (!AreQuarters(a, b, c, middle)) break;
-      const CellTriangle whole = {
-          {a.corner[0], b.corner[1], c.corner[2]}, 0, 1 + a.pieces + b.pieces + c.pieces + middle.pieces};
+      const std::optional<SourcePolygon> whole =
+          JoinQuarters(pieces[last[0]].polygon, pieces[last[1]].polygon, pieces[last[2]].polygon,
+                       pieces[last[3]].polygon);
+      if (!whole) break;
+      std::size_t count = 1;
+      for (std::size_t k = 0; k < kQuarters; ++k) count += pieces[last[k]].pieces;
       open.resize(open.size() - kQuarters);
-      pieces.push_back(whole);
+      pieces.push_back({*whole, 0, count});
       open.push_back(pieces.size() - 1);
     }
   }
@@ -73,19 +68,19 @@ std::vector<CellTriangle> JoinQuarters(std::span<const Fragment> fragments) {
 }
 
 // Appends the pieces as nodes, parents before children. A parent's radiosity follows from its children.
-void AppendPieces(std::span<const CellTriangle> pieces, std::span<const Fragment> fragments,
-                  std::size_t first, std::vector<SourceSet::Node>& nodes) {
-  // In reverse order a triangle precedes its quarters: roots are found backwards and appended forwards.
+void AppendPieces(std::span<const Piece> pieces, std::span<const Fragment> fragments, std::size_t first,
+                  std::vector<SourceSet::Node>& nodes) {
+  // In reverse order a polygon precedes its quarters: roots are found backwards and appended forwards.
   std::vector<std::size_t> roots;
   for (std::size_t i = pieces.size(); i > 0; i -= pieces[i - 1].pieces) roots.push_back(i - 1);
   for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
-    const CellTriangle& piece = pieces[*root];
+    const Piece& piece = pieces[*root];
     if (piece.pieces == 1) {
       AppendFan(fragments[piece.fragment], first + piece.fragment, nodes);
       continue;
     }
     const std::size_t at = nodes.size();
-    nodes.push_back(MakeNode(piece.corner, Rgb::Zero()));
+    nodes.push_back(MakeNode(piece.polygon.Vertices(), Rgb::Zero()));
     AppendPieces(pieces.subspan(*root + 1 - piece.pieces, piece.pieces - 1), fragments, first, nodes);
     nodes[at].skip = static_cast<std::int32_t>(nodes.size() - at);
   }
@@ -100,9 +95,10 @@ void Append(const RadiositySolution& solution, std::span<const Fragment> fragmen
   if (element.IsLeaf()) {
     const std::span<const Fragment> own = FragmentsOf(fragments, id);
     const std::size_t first = own.empty() ? 0 : static_cast<std::size_t>(own.data() - fragments.data());
-    AppendPieces(JoinQuarters(own), own, first, nodes);
-    // A single fragment replaces its leaf; a subtree of one node would get a slope from rounding.
-    if (nodes.size() == at + 2) nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(at));
+    AppendPieces(JoinFragments(own), own, first, nodes);
+    // A piece that is the whole leaf replaces it; a subtree with one child would get a slope from rounding.
+    if (nodes.size() > at + 1 && nodes.size() == at + 1 + static_cast<std::size_t>(nodes[at + 1].skip))
+      nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(at));
     nodes[at].skip = static_cast<std::int32_t>(nodes.size() - at);
     return;
   }
@@ -255,13 +251,11 @@ struct Moments {
 
 // The slope of the best linear fit to radiosities with this moment. Zero across a region that is much
 // narrower than long, or whose leaves lie in a row.
-Eigen::Matrix3d Slope(const Eigen::Matrix3d& moment, const Moments& leaves) {
+Eigen::Matrix3d Slope(const Eigen::Matrix3d& moment, const Eigen::Matrix3d& second_moment) {
   constexpr double kNarrow = 1e-9;  // threshold for the squared width
-  const Eigen::Matrix3d squares =
-      leaves.squares_of_places - leaves.place * leaves.place.transpose() / leaves.area;
   Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> decomposition;
   decomposition.setThreshold(kNarrow);
-  decomposition.compute(squares);
+  decomposition.compute(second_moment);
   return moment * decomposition.pseudoInverse();
 }
 
@@ -284,7 +278,8 @@ void SourceSet::MeasureSubtrees() {
         own += moments[child];
       node.radiosity = own.sum / own.area;
       node.moment = own.sum_of_places - node.radiosity.matrix() * own.place.transpose();
-      node.slope = Slope(node.moment, own);
+      node.second_moment = own.squares_of_places - own.place * own.place.transpose() / own.area;
+      node.slope = Slope(node.moment, node.second_moment);
       const Rgb variance = (own.squares / own.area - node.radiosity.square()).max(0.0),
                 by_slope = node.slope.cwiseProduct(node.moment).rowwise().sum().array() / own.area;
       const Rgb around = node.radiosity.max(dark);
@@ -295,6 +290,41 @@ void SourceSet::MeasureSubtrees() {
             std::max(node.residual, std::sqrt(std::max(0.0, variance[c] - by_slope[c])) / around[c]);
       }
     }
+}
+
+namespace {
+
+bool SamePolygon(const Node& a, const Node& b) {
+  return a.size == b.size && std::equal(a.vertex.begin(), a.vertex.begin() + a.size, b.vertex.begin());
+}
+
+// Maps the subtree at node i of one tree to the subtree with the same polygon at node j of the other.
+void MapSubtree(std::span<const Node> from, std::size_t i, std::span<const Node> to, std::size_t j,
+                std::int32_t first, std::int32_t* map) {
+  map[i] = first + static_cast<std::int32_t>(j);
+  const std::size_t end = i + static_cast<std::size_t>(from[i].skip),
+                    other_end = j + static_cast<std::size_t>(to[j].skip);
+  std::size_t at = j + 1;  // children mostly correspond in order
+  for (std::size_t a = i + 1; a < end; a += static_cast<std::size_t>(from[a].skip)) {
+    std::size_t b = at;
+    while (b < other_end && !SamePolygon(from[a], to[b])) b += static_cast<std::size_t>(to[b].skip);
+    if (b >= other_end) continue;
+    MapSubtree(from, a, to, b, first, map);
+    at = b + static_cast<std::size_t>(to[b].skip);
+  }
+}
+
+}  // namespace
+
+std::vector<std::int32_t> MapNodes(const SourceSet& from, const SourceSet& to) {
+  std::vector<std::int32_t> map(from.NodeCount(), -1);
+  for (std::size_t p = 0; p < from.PatchCount(); ++p) {
+    const auto patch = static_cast<PatchId>(p);
+    const std::span<const Node> a = from.Tree(patch), b = to.Tree(patch);
+    if (a.empty() || b.empty() || !SamePolygon(a[0], b[0])) continue;
+    MapSubtree(a, 0, b, 0, static_cast<std::int32_t>(to.IndexOf(b[0])), &map[from.IndexOf(a[0])]);
+  }
+  return map;
 }
 
 }  // namespace penumbra

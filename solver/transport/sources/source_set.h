@@ -45,6 +45,8 @@ class SourceSet {
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
     // One row for each channel: the slope of the best linear fit of B along the polygon [W/m^3].
     Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();
+    // sum over leaves of area * d d^T [m^4], where d is the leaf's centre minus the mean of the centres.
+    Eigen::Matrix3d second_moment = Eigen::Matrix3d::Zero();
   };
 
   // The leaves of the solution with their radiosities.
@@ -74,6 +76,11 @@ class SourceSet {
     return {node.vertex.data(), static_cast<std::size_t>(node.size)};
   }
 
+  // The index of the node that is the leaf.
+  std::int32_t NodeOfLeaf(std::int32_t leaf) const { return leaf_node_[static_cast<std::size_t>(leaf)]; }
+  std::size_t NodeCount() const { return nodes_.size(); }
+  std::size_t PatchCount() const { return emittance_.size(); }
+
   // The index of the fragment that contains a leaf of the set; -1: none.
   std::int32_t FragmentOf(std::int32_t leaf) const {
     return nodes_[static_cast<std::size_t>(leaf_node_[static_cast<std::size_t>(leaf)])].fragment;
@@ -99,5 +106,9 @@ class SourceSet {
   std::vector<std::int32_t> leaf_node_;  // index in nodes_
   std::vector<Rgb> emittance_;           // of each patch
 };
+
+// For each node of `from`, the index of the node of `to` with the same polygon at the same place of the tree;
+// -1: none. REQUIRES: both sets belong to the same scene.
+std::vector<std::int32_t> MapNodes(const SourceSet& from, const SourceSet& to);
 
 }  // namespace penumbra
