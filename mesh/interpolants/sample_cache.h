@@ -1,8 +1,9 @@
 // mesh/interpolants/sample_cache.h
 //
-// Irradiance samples that remain valid from one mesh to the next: most nodes keep their places when leaves
-// are divided or lines added. The key of a sample is its patch and its exact position. The key of a one-sided
-// sample also has the direction of approach, which identifies the sample's sheet.
+// A cache of irradiance samples that remain valid from one mesh to the next: most nodes keep their positions
+// when leaves are divided or lines are added. The key of a sample is its patch and its exact position. The
+// key of a one-sided sample also contains the approach direction, which identifies the sample's sheet, the
+// side of the contact on which the sample lies.
 
 #pragma once
 
@@ -19,7 +20,7 @@ class SampleCache {
   // The sample at this node; null if it is unknown.
   const PointIrradianceResult* Find(PatchId patch, const ReceiverPoint& at) const;
   void Insert(PatchId patch, const ReceiverPoint& at, const PointIrradianceResult& sample);
-  // Removes all samples: for use after the sources have changed.
+  // Removes all samples. Must be called after the sources have changed.
   void Clear();
   std::size_t size() const { return samples_.size(); }
 
