@@ -9,7 +9,7 @@
 
 namespace penumbra {
 
-// Draws and tone-maps a frame; returns the times of its steps.
+// A function that draws and tone-maps a frame, and returns the times of the steps.
 using DrawFrame = std::function<FrameTimes(const Camera&)>;
 
 struct BenchmarkSettings {
@@ -19,9 +19,9 @@ struct BenchmarkSettings {
   std::size_t triangles = 0;  // for the output
 };
 
-// Draws one frame that allocates memory, and then the measured frames along one orbit of the camera around
-// the point that it looks at. Returns a line of JSON: `fps` from wall-clock time, and `ms`, the mean times of
-// the steps per frame.
+// Draws one frame without measuring it, so that memory is allocated. After this frame, draws and measures
+// `frames` frames while the camera makes one orbit around Camera::look_at. Returns a line of JSON: `fps` is
+// the number of frames per second of wall-clock time; `ms` holds the mean time of each step per frame.
 std::string RunBenchmark(const BenchmarkSettings& settings, const DrawFrame& draw);
 
 }  // namespace penumbra

@@ -20,9 +20,10 @@ struct CameraArguments {
 
 void AddCameraOptions(CLI::App& app, CameraArguments* arguments);
 
-// The requested camera of the scene, otherwise its first camera, otherwise a camera that frames the scene;
-// values from the command line replace those of the camera. Throws UsageError if there is no camera with the
-// requested name, or if the result is invalid (ValidateCamera).
+// Chooses a camera: the camera of the scene that the user requests; by default, the first camera of the
+// scene, or FrameScene() if the scene has no cameras. Values from the command line replace the corresponding
+// members of the camera. Throws UsageError if there is no camera with the requested name, or if the result is
+// invalid (ValidateCamera).
 Camera ChooseCamera(const Scene& scene, const CameraArguments& arguments);
 
 }  // namespace penumbra

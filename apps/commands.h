@@ -12,13 +12,14 @@
 
 namespace penumbra {
 
-// The command line is wrong in a way that only shows after the scene is read: exit status 2.
+// An error of the command line that is detected after the command line has been parsed, for example an option
+// that does not fit the scene. The exit status is 2.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// The user interrupted the work: exit status 130, nothing written.
+// The user has interrupted the work. The exit status is 130, and no output is written.
 class Interrupted : public std::runtime_error {
  public:
   Interrupted() : std::runtime_error("interrupted; nothing was written") {}

@@ -1,6 +1,6 @@
 // apps/export_file.h
 //
-// Writes meshes and scenes in formats of other programs. The ending of the file's name determines the format.
+// Writes meshes and scenes in formats of other programs. The ending of a file's name determines the format.
 
 #pragma once
 
@@ -13,24 +13,26 @@
 
 namespace penumbra {
 
-// A description of the fault in the path's ending; nothing if Penumbra writes this format.
+// Describes what is wrong with the path's ending; nullopt if Penumbra can write a format with this ending.
 std::optional<std::string> ExportFormatError(const std::string& path);
-// The files that are written in addition to a scene's file: the material library of an .obj file.
+// The paths of the files that are written in addition to the scene file `path`, such as the material library
+// of an .obj file.
 std::vector<std::string> FilesBeside(const std::string& path);
-// True if the format stores the mesh, not only the scene.
+// True if the format of the file stores the mesh, not only the scene.
 bool ExportsMesh(const std::string& path);
-// True if the format stores colours for a screen, or a camera.
+// ExportsColours() is true if the format of the file stores colours for a screen; ExportsCamera() is true if
+// it stores a camera.
 bool ExportsColours(const std::string& path);
 bool ExportsCamera(const std::string& path);
-// The endings of the formats that do, with their dots: ".ply and .glb".
+// The endings of all formats that store colours, or a camera, as text with dots: ".ply and .glb".
 std::string EndingsWithColours();
 std::string EndingsWithCamera();
 // A description of all formats, one line each.
 std::string ExportFormats();
 
-// Write the mesh, or the scene, to a file. Throw InputError if the file cannot be written. `exposure` [m^2/W]
-// converts radiosity to colours; without a value, the exposure is metered from the mesh. REQUIRES:
-// ExportFormatError(path) returns nothing.
+// ExportMesh() writes the mesh to a file, and ExportScene() the scene. ExportMesh() and ExportScene() throw
+// InputError if the file cannot be written. Colours are exposure [m^2/W] * radiosity; if `exposure` is
+// nullopt, it is determined by MeterMesh(). REQUIRES: ExportFormatError(path) returns nullopt.
 void ExportMesh(const std::string& path, const Scene& scene, const IrradianceMesh& mesh,
                 std::optional<double> exposure);
 void ExportScene(const std::string& path, const Scene& scene, const Camera& camera);

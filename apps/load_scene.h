@@ -1,6 +1,6 @@
 // apps/load_scene.h
 //
-// Reads the scene of a command, or the solution with its scene.
+// Reads the scene, or the solution including its scene, that the user names as the input of a command.
 
 #pragma once
 
@@ -28,16 +28,18 @@ struct LoadedScene {
   const Scene& scene = *owner;
   double seconds = 0;                                // duration of reading
   std::optional<StoredSolve> stored = std::nullopt;  // from a solution file
-  // A solution of the same geometry whose links another solve uses: LoadToSolve().
+  // The solution that the user names with --restart: its geometry is that of `scene`, and its links are used
+  // to solve `scene` (LoadToSolve).
   std::optional<StoredSolve> restart = std::nullopt;
 };
 
-// Sets the number of threads and reads the scene, or the solution with its scene. Prints the warnings of
-// scenes to standard error. Throws InputError; throws UsageError if options of reading or solving are given
-// together with a solution.
+// Sets the number of threads, and reads the scene, or the solution including its scene. Prints warnings about
+// the scene to standard error. Throws InputError if the file cannot be used. Throws UsageError if options of
+// reading or solving are given together with a solution.
 LoadedScene LoadScene(const SceneArguments& arguments);
-// LoadScene() without its warnings, and the warnings. For callers that may still reject the scene, and then
-// print only the error.
+// LoadWithoutWarnings() does the same as LoadScene(), but prints no warnings; TellWarnings() prints them. Use
+// LoadWithoutWarnings() and TellWarnings() if the scene may still be rejected, so that only the error is
+// printed.
 LoadedScene LoadWithoutWarnings(const SceneArguments& arguments);
 void TellWarnings(const LoadedScene& loaded);
 // Reads a solution file. Throws InputError if the file is not a solution.

@@ -1,6 +1,6 @@
 // apps/material_change.h
 //
-// Emittances and reflectances from the command line that replace those of the file.
+// Emittances and reflectances on the command line, which replace those of the scene file.
 
 #pragma once
 
@@ -19,15 +19,16 @@ struct MaterialChange {
   Rgb value = Rgb::Zero();
 };
 
-// Adds the repeatable option `NAME MATERIAL=r,g,b`. Each number must satisfy the rule.
+// Adds the option `NAME MATERIAL=r,g,b`, which may be given several times. Each number must satisfy the rule.
 CLI::Option* AddMaterialChange(CLI::App& app, const std::string& name, std::vector<MaterialChange>* changes,
                                const NumberRule& rule, const std::string& help);
 
-// The text `MATERIAL=r,g,b`, as the user gives it.
+// The text `MATERIAL=r,g,b` that a user would give for this change.
 std::string MaterialChangeText(const std::string& material, const Rgb& value);
 
-// Applies the changes to `member` of the materials, in order, so that the last change of a material
-// determines its value. Throws UsageError for a material that the scene does not have.
+// Sets `member`, emittance or reflectance, of the materials to the new values. If several changes concern the
+// same material, the last change determines the value. Throws UsageError for a material that the scene does
+// not have.
 void ChangeMaterials(const std::vector<MaterialChange>& changes, Rgb Material::*member,
                      std::vector<Material>& materials);
 

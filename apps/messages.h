@@ -8,12 +8,12 @@
 
 namespace penumbra {
 
-// Prints one line. Names in files may contain any bytes: control characters and invalid UTF-8 are escaped,
-// and the middle of a very long line is omitted. If printing fails, the program continues; see
-// MessageFailed().
+// Prints the message as one line. Because names from files may contain any bytes, control characters and
+// invalid UTF-8 are escaped, and the middle of a very long line is omitted. If printing fails, the program
+// continues; MessageFailed() then returns true.
 void Say(const std::string& message);
 
-// Prints text without changes.
+// Prints the text without escaping or shortening it.
 void PrintText(const std::string& text);
 
 // The line that Say() prints for `message`, without the line end.

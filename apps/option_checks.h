@@ -1,6 +1,7 @@
 // apps/option_checks.h
 //
-// Rejects options of a solve that contradict each other or do not fit the scene, before the work begins.
+// Checks the options of a solve before the work begins, and rejects options that contradict each other or do
+// not fit the scene.
 
 #pragma once
 
@@ -11,10 +12,11 @@ namespace penumbra {
 // Throws UsageError if options contradict each other.
 void CheckOptions(const SceneArguments& arguments);
 
-// Throws UsageError if distances are too large for the scene.
+// Throws UsageError if a distance among the options is too large for the size of the scene.
 void CheckDistances(const SceneArguments& arguments, const Scene& scene);
 
-// A sentence of warning if a solve with these options may take extremely long; otherwise empty.
+// A warning, one sentence, that a solve with these options may take extremely long; empty if there is no
+// reason for a warning.
 std::string CostNote(const SceneArguments& arguments, const ResolvedOptions& resolved);
 
 }  // namespace penumbra

@@ -1,7 +1,8 @@
 // apps/option_values.h
 //
-// Values on the command line. Each value is read completely, rounded correctly and checked against its range.
-// A value outside its range ends the parse with one line that describes the range.
+// Parses values on the command line. The whole text of a value must be valid; numbers are rounded correctly
+// and checked against their range. If a value is outside its range, parsing ends with a one-line message that
+// describes the range.
 
 #pragma once
 
@@ -22,10 +23,10 @@
 
 namespace penumbra {
 
-// The number that the complete text represents; nothing if the text is no finite number.
+// Converts the complete text to a number; returns nullopt if the text is not a finite number.
 std::optional<double> ParseNumber(std::string_view text);
 
-// The three numbers of `x,y,z`; nothing for other text.
+// Converts the text `x,y,z` to three numbers; returns nullopt if the text does not have this form.
 std::optional<Vec3> ParseVector(std::string_view text);
 
 // The range of a number, and its description.
@@ -38,17 +39,19 @@ inline constexpr NumberRule kPositive{[](double x) { return x >= kTiniestOption 
 inline constexpr NumberRule kEmittance{[](double x) { return x >= 0 && x <= kLargestEmittance; },
                                        "a number, 0 or more, up to 1e100"};
 
-// "a, b and c"; for long lists, the first names and the number of the others.
+// The names as a phrase "a, b and c". For long lists, the phrase contains only the first names and the number
+// of the others.
 std::string NameList(const std::vector<std::string>& names);
 
-// `NAME X`, a number. The help shows the target's value as the default; for an optional target, the help text
-// must describe the default.
+// Adds the option `NAME X`, where X is a number. The help shows the value of `target` as the default; if
+// `target` is optional, the text `help` must describe the default.
 CLI::Option* AddNumber(CLI::App& app, const std::string& name, double* target, const NumberRule& rule,
                        const std::string& help);
 CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<double>* target,
                        const NumberRule& rule, const std::string& help);
 
-// `NAME N`, an integer in [low, high]. Instances exist for int and std::uint64_t.
+// Adds the option `NAME N`, where N is an integer in [low, high]. The template is instantiated for int and
+// std::uint64_t.
 template <class Integer>
 CLI::Option* AddInteger(CLI::App& app, const std::string& name, Integer* target, Integer low, Integer high,
                         const std::string& help);
@@ -66,7 +69,8 @@ const char* ChoiceName(const Choice<Value> (&choices)[kCount], Value value) {
   return "";
 }
 
-// `NAME A|B|...`, one of the choices. The help shows the target's value as the default.
+// Adds the option `NAME A|B|...`, whose value is one of the choices. The help shows the value of `target` as
+// the default.
 template <class Value, std::size_t kCount>
 CLI::Option* AddChoice(CLI::App& app, const std::string& name, Value* target,
                        const Choice<Value> (&choices)[kCount], const std::string& help) {
@@ -92,7 +96,7 @@ inline constexpr VectorRule kPoint{[](const Vec3& v) { return MaxAbs(v) <= 1e36;
 inline constexpr VectorRule kDirection{[](const Vec3& v) { return MaxAbs(v) <= 1e36 && !v.isZero(0); },
                                        "a direction, x,y,z, of any length but 0"};
 
-// `NAME x,y,z`, three numbers.
+// Adds the option `NAME x,y,z`, where x, y and z are numbers.
 CLI::Option* AddVector(CLI::App& app, const std::string& name, std::optional<Vec3>* target,
                        const VectorRule& rule, const std::string& help);
 

@@ -1,6 +1,7 @@
 // apps/options_used.h
 //
-// The options of a command: printed in reports and with -v, stored in solution files, and read back.
+// The options of a command as JSON: they are printed in reports and with -v, and are stored in solution files
+// and read from these.
 
 #pragma once
 
@@ -11,13 +12,16 @@
 
 namespace penumbra {
 
-// All options that a user can set, with the values in use. The key of an option is its name with '_' instead
-// of '-'. Without `resolved`, the result lists only options of the scene, because nothing is solved.
+// All options that a user can set, with the values that are used. The key of an option is its name with '_'
+// instead of '-'. If `resolved` is null, no scene is solved, and the result contains only the options for
+// reading the scene.
 nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const ResolvedOptions* resolved);
-// The inverse of OptionsUsed(): OptionsUsed() of the result, resolved, equals `options`. Throws
-// nlohmann::json::exception; throws InputError if an option is missing or names a choice that does not exist.
+// The inverse of OptionsUsed(): if the result is resolved and passed to OptionsUsed(), the output equals
+// `options`. Throws nlohmann::json::exception if a value has the wrong type. Throws InputError if an option
+// is missing, or if its value is a name that does not exist.
 PipelineOptions SolvingFrom(const nlohmann::ordered_json& options);
-// Prints the block "Options used:" to standard error. The same options, given again, have the same effect.
+// Prints the section "Options used:" to standard error. A user who gives the printed options obtains the same
+// result.
 void PrintOptionsUsed(const nlohmann::ordered_json& options);
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // apps/output.h
 //
-// Writing results to files and to standard output.
+// Functions that write results to files and to standard output.
 
 #pragma once
 
@@ -11,33 +11,35 @@
 
 namespace penumbra {
 
-// The reader of a pipe on standard output has closed the pipe: the program ends without a message.
+// Thrown if standard output is a pipe that its reader has closed. A program that throws PipeClosed ends
+// without a message.
 class PipeClosed : public std::runtime_error {
  public:
   PipeClosed() : std::runtime_error("the pipe was closed") {}
 };
 
-// Prepares the standard streams: writing to a closed, full or limited stream becomes an error with a message,
-// and files that are opened later cannot take the place of a closed standard stream. Must be called first.
+// Prepares the standard streams: after the call, writing to a closed, full or limited stream is an error with
+// a message, and the descriptor of a closed standard stream is not reused for another file. Must be called
+// before any file is opened.
 void PrepareStreams();
 
-// Whether all output to standard output, and all messages to standard error, arrived. If not, prints the
-// reason, except for a closed pipe.
+// True if all output to standard output and all messages to standard error have been written without error.
+// If writing has failed, prints the reason, unless the reason is a closed pipe.
 bool OutputArrived();
 
-// Whether both paths lead to the same file, or would if the file existed. False for devices.
+// True if both paths lead to the same file, or would lead to the same file if it existed. False for devices.
 bool IsSameFile(const std::string& a, const std::string& b);
 
-// Throws InputError unless a file can be written at `path`. Called before the work, so that a misspelt folder
-// does not cost hours. Leaves no file behind.
+// Throws InputError unless a file can be written at `path`. The function is called before long computations,
+// so that a misspelt folder is detected at once. No file is left behind.
 void CheckWritable(const std::string& path);
 
 // The output files of a command. An output file may not be an input file, nor the output file of another
 // option.
 class OutputFiles {
  public:
-  // Adds the file that the option names. Checks that it can be written (CheckWritable). Throws UsageError if
-  // it is already an output file.
+  // Adds the file `path`, which the user has given with the option `option`. Checks that the file can be
+  // written (CheckWritable). Throws UsageError if another option names the same file.
   void Add(const std::string& option, const std::string& path);
   void Add(const std::string& option, const std::optional<std::string>& path) {
     if (path) Add(option, *path);

@@ -16,12 +16,12 @@ struct ProbePoint {
   Vec3 normal = Vec3::Zero();    // any length
 };
 
-// The points of a CSV file with the header x,y,z,nx,ny,nz. Accepts blanks around values, blank lines, and the
-// line ends of all systems. Throws InputError, "FILE:LINE: error: …", without LINE if the file cannot be
-// read.
+// The points of a CSV file with the header x,y,z,nx,ny,nz. Blanks around values, blank lines, and the line
+// ends of all operating systems are accepted. Throws InputError, "FILE:LINE: error: …", or "FILE: error: …"
+// if the file cannot be read.
 std::vector<ProbePoint> ReadPointsCsv(const std::string& path);
 
-// Reads points from a text, as ReadPointsCsv() does. `path` is the name of the text in messages.
+// Reads points from a text instead of a file. In messages, `path` is the name of the text.
 std::vector<ProbePoint> ReadPointsText(std::string_view text, const std::string& path);
 
 }  // namespace penumbra

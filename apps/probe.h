@@ -1,7 +1,7 @@
 // apps/probe.h
 //
-// Measures irradiance at the user's points, finds the faces on which they lie, and detects points that light
-// cannot reach.
+// Measures irradiance at the user's points, finds the faces on which they lie, and detects points that no
+// light can reach.
 
 #pragma once
 
@@ -23,8 +23,8 @@ namespace penumbra {
 inline constexpr double kOnPatchDistance = 1e-6;
 inline constexpr double kOnPatchDegrees = 1;
 
-// A point is far outside if its distance from the scene's bounding box exceeds this number of diagonals.
-// Points in centimetres or feet are far outside a scene in metres.
+// A point is far outside if its distance from the scene's bounding box exceeds kFarDiagonals * (diagonal of
+// the box). For example, points that the user gave in centimetres are far outside a scene in metres.
 inline constexpr double kFarDiagonals = 10;
 
 // The face and the patch on whose front a point lies.
@@ -53,22 +53,22 @@ struct Measurement {
 
 class Prober {
  public:
-  // Without a pipeline, `interpolated` is nan. With `parts`, direct light and gradients are measured, too.
-  // All arguments must outlive this object.
+  // If `pipeline` is null, Measurement::interpolated is nan. If `parts` is true, direct light and gradients
+  // are measured, too. All arguments must outlive this object.
   Prober(const Scene& scene, const PointIrradiance& irradiance, const Pipeline* pipeline, bool parts);
 
-  // Measures at all points, in parallel. The result does not depend on the number of threads. If the context
-  // is cancelled, the result is unspecified.
+  // Measures the irradiance at all points, in parallel. The result does not depend on the number of threads.
+  // If the context is cancelled, the result is unspecified.
   std::vector<Measurement> Measure(const std::vector<ProbePoint>& points,
                                    const ExecutionContext& context) const;
 
-  // The front on which the point lies; if it lies on several, that of the face with the lowest index.
-  // `normal` is a unit vector.
+  // Finds the face on whose front the point lies; if the point lies on several fronts, the face with the
+  // lowest index. `normal` is a unit vector.
   PointFace FindFooting(const Vec3& position, const Vec3& normal) const;
 
  private:
-  // The receiver point for a position: the position itself, or its foot on the patch, because rounded
-  // coordinates may lie behind the front.
+  // The receiver point for a position. If the position lies on a patch, it is projected onto the plane of the
+  // patch, because rounded coordinates may lie behind the front.
   ReceiverPoint ReceiverPointAt(PatchId patch, const Vec3& position, const Vec3& normal) const;
   Measurement MeasureAt(const ProbePoint& point) const;
   bool IsFar(const Vec3& position) const;
@@ -83,15 +83,15 @@ class Prober {
   Vec3 low_, high_;  // of the scene's bounding box [m]
 };
 
-// The measurements as CSV, one row each, with all digits. With `parts`, rows include direct light and
-// gradients.
+// The measurements as CSV, one row for each, with all digits. If `parts` is true, rows include direct light
+// and gradients.
 std::string MeasurementsCsv(const std::vector<Measurement>& measurements, bool parts);
 
 // Throws InputError if a measurement is not sound (Measurement::sound).
 void CheckMeasurements(const std::vector<Measurement>& measurements);
 
-// A warning, one line, that lists the rows of points that light cannot reach, counted from 1; empty if there
-// are none.
+// A one-line warning that lists the row numbers, counted from 1, of points that no light can reach; empty if
+// there are no such points.
 std::string SurroundingsWarning(const std::vector<Measurement>& measurements);
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // apps/render_arguments.h
 //
-// The arguments of `render` that concern the picture.
+// The arguments of the command `render` that concern the picture.
 
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace penumbra {
 
-// The methods that compute the content of a pixel.
+// The methods by which the colour of a pixel is computed.
 enum class RenderMethod {
   kTwoPass,
   kRayShade,   // rays, exact irradiance
@@ -63,16 +63,16 @@ struct RenderArguments {
   bool ByRays() const { return mode.method != RenderMethod::kTwoPass; }
 };
 
-// True if the picture has no supersampling: one sample per pixel, or rays.
+// True if the picture is not supersampled: it has one sample per pixel, or it is made by ray casting.
 bool HasOneSample(const RenderArguments& arguments);
 
 void AddPictureOptions(CLI::App& app, RenderArguments* arguments);
-// Adds the options of a picture that only studies compare, to the last group of AddSolveOptions(). REQUIRES:
-// AddSolveOptions() was called.
+// Adds those options of the picture that serve only to compare methods, to the group OptionGroup::kStudies of
+// the help. REQUIRES: AddSolveOptions() was called.
 void AddPictureStudies(CLI::App& app, RenderArguments* arguments);
 
-// Checks everything that can be checked before the work starts. Throws UsageError; throws InputError if a
-// file cannot be written.
+// Checks everything that can be checked before the work starts. Throws UsageError if arguments contradict
+// each other. Throws InputError if an output file cannot be written.
 void CheckRenderArguments(const RenderArguments& arguments);
 
 // The options of the picture, in the format of OptionsUsed().

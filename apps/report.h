@@ -1,6 +1,6 @@
 // apps/report.h
 //
-// The report of a solve: its cost and its accuracy, as JSON and as a table.
+// The report on a solve, which contains its cost and its accuracy, as JSON and as a table.
 
 #pragma once
 
@@ -17,15 +17,18 @@ struct RunReport {
   PipelineReport pipeline;
 };
 
-// The report as JSON text. Memory, threads and version are those of the running program.
+// The report as JSON text. Memory, number of threads and version are taken from the running program.
 std::string ReportJson(const RunReport& report);
 
-// The part of the report that is the same in every run: no times, threads or memory, and no options.
+// The part of the report that is the same in every run with the same options. This part contains no times,
+// threads, memory or options.
 std::string LastingReportJson(const PipelineReport& report);
-// Reads what LastingReportJson() wrote. Throws nlohmann::json::exception.
+// Restores a report from the result of LastingReportJson(). Throws nlohmann::json::exception if the JSON does
+// not have the expected form.
 PipelineReport PipelineReportFrom(const nlohmann::ordered_json& lasting);
 
-// The shapes of the triangles, as in the JSON report, and as a line of text.
+// The statistics of the triangles' shapes: TriangleQualityJson() gives them as in the JSON report,
+// TriangleQualityText() as a line of text.
 nlohmann::ordered_json TriangleQualityJson(const TriangleQuality& quality);
 std::string TriangleQualityText(const TriangleQuality& quality);
 

@@ -1,7 +1,7 @@
 // apps/restart.h
 //
-// `--restart`: the light of a scene with changed emittances or reflectances, over the links of a solution of
-// the same geometry.
+// The option `--restart`: solves a scene with changed emittances or reflectances by using the links of a
+// solution of the same geometry.
 
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace penumbra {
 
-// LoadScene() for commands that solve. With --restart, the function also reads that solution into
-// LoadedScene::restart, and its links become the links of the scene. The options that determine the links
-// (SolveOption::links_depend) get the solution's values. Throws InputError if the file of --restart is no
-// solution, has no links, or has another geometry. Throws UsageError if, with --restart, the arguments name a
-// solution instead of a scene, or set options that determine the links.
+// Like LoadScene(), for commands that solve. If the user gives --restart FILE, the function also reads the
+// solution FILE into LoadedScene::restart, and sets the link options (IsLinkOption) to the values of this
+// solution. Throws InputError if FILE is not a solution, has no links, or has another geometry. Throws
+// UsageError if, together with --restart, the input of the command is a solution instead of a scene, or link
+// options are given.
 LoadedScene LoadToSolve(SceneArguments& arguments);
 
 }  // namespace penumbra

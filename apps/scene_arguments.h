@@ -1,6 +1,7 @@
 // apps/scene_arguments.h
 //
-// The arguments of all commands that take a SCENE: the scene, how to read it, and how to solve it.
+// The arguments of all commands that take a SCENE: the scene, and the options for reading and solving the
+// scene.
 
 #pragma once
 
@@ -32,17 +33,17 @@ struct SceneArguments {
   bool lit = true;                     // the command computes light, not only geometry
 };
 
-// The help's group of the options for reading.
+// The heading in the help for the options that concern the reading of scenes.
 inline constexpr const char* kSceneGroup = "Scene";
 
 // Adds the options for threads, seed and verbosity, which all commands with long computations have.
 void AddRunningOptions(CLI::App& app, int* threads, std::uint64_t* seed, bool* verbose);
-// Adds SCENE or SOLUTION, and the options for reading, threads, seed and verbosity.
+// Adds the positional argument, SCENE or SOLUTION, and the options for reading, threads, seed and verbosity.
 void AddSceneArguments(CLI::App& app, SceneArguments* arguments);
 CLI::Option* AddReportOption(CLI::App& app, SceneArguments* arguments);
 CLI::Option* AddRestartOption(CLI::App& app, SceneArguments* arguments);
 
-// True if the user gave the option, for example `--eps`.
+// True if the user has given the option `name`, for example `--eps`.
 bool IsGiven(const SceneArguments& arguments, const std::string& name);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // apps/scene_warnings.h
 //
-// Warnings about likely mistakes in a scene that can be solved nevertheless. Every command that reads a scene
-// prints them.
+// Warnings about likely mistakes in a scene that can be solved in spite of the mistakes. Every command that
+// reads a scene prints these warnings.
 
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace penumbra {
 
-// The warnings, one sentence each. Without `lit`, omits warnings about light, for commands that do not use
-// light.
+// The warnings, one sentence each. If `lit` is false, warnings about light are omitted; for commands that do
+// not compute light.
 std::vector<std::string> SceneWarnings(const Scene& scene, bool lit);
 
 }  // namespace penumbra

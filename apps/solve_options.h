@@ -1,6 +1,6 @@
 // apps/solve_options.h
 //
-// The options of a solve on the command line, from the table of options.
+// Adds the options of a solve to the command line. OptionTable() lists these options.
 
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace penumbra {
 
-// Adds all options of the table, and the choices for studies to the help of `app`. REQUIRES:
-// AddSceneArguments() was called.
+// Adds all options of OptionTable() to `app`. The help of `app` also lists the values
+// SolveOption::study_choices. REQUIRES: AddSceneArguments() was called.
 void AddSolveOptions(CLI::App& app, SceneArguments* arguments);
 
 }  // namespace penumbra

@@ -13,38 +13,39 @@
 
 namespace penumbra {
 
-// The options to store with a solution that was read from a file with the options `stored`. The options for
-// reading the scene are those of `stored`.
+// The options to be stored with a solution that was read from a file and is saved again. `stored` are the
+// options in the file, from which the options for reading the scene are taken.
 nlohmann::ordered_json StoredOptions(const nlohmann::ordered_json& stored, const SceneArguments& arguments,
                                      const ResolvedOptions& resolved);
 
 // The bytes of a solution file, which do not depend on the number of threads. REQUIRES: the pipeline is
-// solved, has interpolants, and is measured.
+// solved, has a mesh of interpolants, and its errors have been measured.
 std::string SolutionFileOf(const Pipeline& pipeline, const nlohmann::ordered_json& options);
 
-// One sentence that says that the requested error was missed, and why; empty if it was met, or if no
-// measurement shows that it was missed.
+// One sentence that says that the requested error is exceeded, and why; empty if no measurement shows that
+// the error is exceeded.
 std::string MissedErrorMessage(const PipelineReport& report);
 
 // Runs the pipeline for a command: prints options, shows progress, handles interrupts, and writes the report.
 class SolveRun {
  public:
   // With -v, prints the options used; `command_options` are the options of the command itself. The scene and
-  // the arguments must outlive this object. Moves the content of a solution file out of `loaded`.
+  // the arguments must outlive this object. If `loaded` is a solution, its content is moved out of `loaded`.
   SolveRun(const SceneArguments& arguments, LoadedScene& loaded,
            const nlohmann::ordered_json& command_options = nlohmann::ordered_json::object());
 
-  // Solves, over the links of LoadedScene::restart if it is set. Builds a mesh of this kind, if `kind` is
-  // set. Measures the error if `measure` is true. A solution from a file is neither solved nor measured
-  // again: both happened before it was saved. Throws Interrupted.
+  // Solves the scene; uses the links of LoadedScene::restart if it is set. Builds a mesh of this kind if
+  // `kind` is set. Measures the error if `measure` is true. A solution from a file is neither solved nor
+  // measured again, because it was solved and measured before it was saved. Throws Interrupted if the user
+  // interrupts the work.
   void Run(std::optional<MeshKind> kind, bool measure);
 
-  // Builds a flat mesh of the current leaves without solving, for pictures that show no light. Throws
-  // Interrupted.
+  // Builds a flat mesh of the present leaves without solving, for pictures that show no light. Throws
+  // Interrupted if the user interrupts the work.
   void RunUnlit();
 
-  // Prints warnings about the scene and about a missed error. Writes the report file if --report is given,
-  // and prints the table on standard error with -v.
+  // Prints PipelineReport::warnings, and a warning if the requested error is exceeded. Writes the report file
+  // if --report is given, and prints the table on standard error with -v.
   void Tell() const;
 
   const Pipeline& pipeline() const { return pipeline_; }
@@ -60,7 +61,7 @@ class SolveRun {
   nlohmann::ordered_json options_;
 };
 
-// Whether a report is requested, by --report or -v.
+// True if the user requests a report by --report or -v.
 inline bool WantsReport(const SceneArguments& arguments) {
   return arguments.verbose || arguments.report.has_value();
 }

@@ -1,7 +1,7 @@
 // display/camera.h
 //
-// Cameras of the display: the ray through every point of a picture, in binary64, and a camera for scenes
-// without one.
+// Cameras of the display: the ray through every point of a picture, in binary64, and a default camera for
+// scenes that define no camera.
 
 #pragma once
 
@@ -25,13 +25,13 @@ struct PixelRays {
   glm::dvec3 Direction(double x, double y) const { return corner + x * dx + y * dy; }
 };
 
-// The inverse of PixelRays::Direction(): maps a vector v that begins at the eye to homogeneous picture
+// The inverse of PixelRays::Direction(). Maps a vector v that begins at the eye to homogeneous picture
 // coordinates h. The point at the end of v appears at (h.x / h.z, h.y / h.z), and its depth is h.z [m].
 struct Projection {
   glm::dvec3 x{0.0}, y{0.0}, depth{0.0};
 
-  // The sum of the depth starts with its last two terms. Another order rounds differently and would change
-  // some bytes of pictures.
+  // The depth is a sum of three terms; the last two are added first. Another order of the additions would
+  // round differently, and would change some bytes of pictures.
   glm::dvec3 operator()(const glm::dvec3& from_eye) const {
     return {glm::dot(x, from_eye), glm::dot(y, from_eye),
             depth.x * from_eye.x + (depth.y * from_eye.y + depth.z * from_eye.z)};
@@ -43,7 +43,7 @@ struct Projection {
 // ValidateCamera(). REQUIRES: width > 0, height > 0.
 PixelRays MakePixelRays(const Camera& camera, int width, int height);
 
-// The projection that inverts rays.Direction(). REQUIRES: rays of MakePixelRays().
+// The projection that inverts rays.Direction(). REQUIRES: `rays` is a result of MakePixelRays().
 Projection MakeProjection(const PixelRays& rays);
 
 // Whether `up` can serve as camera.up: it is not zero and not parallel to the view.
@@ -52,9 +52,9 @@ bool CanBeUp(const Vec3& up, const Camera& camera);
 // are finite, eye and look_at differ, and the field of view lies strictly between 0 and 180 degrees.
 void ValidateCamera(const Camera& camera);
 
-// A camera for a scene without one: z up, outside the scene, looking down at the centre of the bounding box.
-// The whole box is visible in any picture that is at least as wide as high. Back faces are culled, so that
-// the camera sees the inside of a closed room.
+// A default camera for scenes that define no camera: it is outside the scene, looks down at the centre of the
+// bounding box, and has z as the upward direction. The whole box is visible in any picture that is at least
+// as wide as high. Back faces are culled, so that the camera sees the inside of a closed room.
 Camera FrameScene(const Scene& scene);
 
 }  // namespace penumbra

@@ -8,13 +8,14 @@
 
 namespace penumbra {
 
-// Linear RGB EXR, 32-bit floats, ZIP-compressed without loss. A file is written beside its place and renamed,
-// so that a killed run leaves the old one whole; the same pixels give the same bytes. Throws InputError if
-// the file cannot be written; nothing is left behind then.
+// Writes an EXR file with linear RGB values as 32-bit floats, ZIP-compressed without loss. The function
+// writes a temporary file in the same folder and renames it, so that an interrupted program leaves the old
+// file intact. Equal pixels give equal bytes. Throws InputError, and leaves no file behind, if the file
+// cannot be written.
 void WriteExr(const std::string& path, const RgbImage& image);
 
 // The channels R, G and B of an EXR file of any pixel type. Throws InputError if the file cannot be read or
-// has not all three.
+// lacks one of the channels R, G and B.
 RgbImage ReadExr(const std::string& path);
 
 ImageWriterRegistry::Method ExrImageMethod();

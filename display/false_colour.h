@@ -17,8 +17,8 @@ namespace penumbra {
 // clamped to [0, 1].
 ScreenColour FalseColour(double x);
 
-// Colours every surface pixel by the mean of its channels. The value `top`, in the unit of the image, is the
-// end of the scale. Emitters are white, the background is dark grey.
+// Colours every pixel of a surface by FalseColour(mean of its channels / top); `top` has the unit of the
+// image. Emitters are white, and the background is dark grey.
 void PaintFalseColours(const RgbImage& image, std::span<const PixelKind> kinds, double top, Srgb8Image* out);
 
 // A picture of the values of a map in false colours. Values are clamped to [0, 1].

@@ -31,8 +31,8 @@ struct Kernel {
   int radius() const { return static_cast<int>(weight.size() / 2); }
 };
 
-// The picture, filtered by the separable kernel across(x) * down(y). Pixels beyond the border have the value
-// of the nearest border pixel.
+// Filters one channel of a picture by the separable kernel across(x) * down(y). Pixels beyond the border have
+// the value of the nearest border pixel.
 std::vector<float> Filter(const std::vector<float>& plane, int width, int height, const Kernel& across,
                           const Kernel& down);
 

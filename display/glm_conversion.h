@@ -16,7 +16,7 @@ namespace penumbra {
 inline glm::dvec3 ToGlm(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 inline Vec3 ToEigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-// The nearest floats, for the graphics API.
+// Rounds each component to the nearest float, for the graphics API.
 inline glm::vec3 ToFloats(const glm::dvec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
@@ -25,7 +25,7 @@ inline glm::vec4 ToFloats(const glm::dvec4& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(v.w)};
 }
 
-// The nearest floats of a colour, as in pixels: red, green, blue in x, y, z.
+// Rounds each channel to the nearest float. x, y and z of the result are red, green and blue, as in pixels.
 inline glm::vec3 ToPixel(const Rgb& colour) {
   return {static_cast<float>(colour[0]), static_cast<float>(colour[1]), static_cast<float>(colour[2])};
 }

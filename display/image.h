@@ -21,7 +21,8 @@ struct RgbImage {
   RgbImage() = default;
   RgbImage(int w, int h) { Resize(w, h); }
 
-  // If the size changes, the values are unspecified afterwards. Allocates memory only if the size grows.
+  // Changes the size of the picture. If the size differs from the old one, all values are unspecified
+  // afterwards. Memory is allocated only if the size grows.
   void Resize(int w, int h) {
     width = w;
     height = h;
@@ -33,7 +34,8 @@ struct RgbImage {
   std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
-  // A pixel by its index or its place: red, green, blue in x, y, z.
+  // The values of a pixel, given by its index or by its coordinates: x, y and z of the result are red, green
+  // and blue.
   glm::vec3 At(std::size_t i) const { return {channel[0][i], channel[1][i], channel[2][i]}; }
   glm::vec3 At(int x, int y) const { return At(Index(x, y)); }
   void Set(std::size_t i, const glm::vec3& rgb) {
@@ -54,7 +56,7 @@ struct Srgb8Image {
     height = h;
     pixels.resize(3 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
   }
-  // The index of a pixel. Its bytes begin at pixels[3 * Index(x, y)].
+  // The index of a pixel. The bytes of the pixel begin at pixels[3 * Index(x, y)].
   std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
@@ -70,11 +72,11 @@ inline void SetPixel(Srgb8Image* image, std::size_t i, ScreenColour c) {
   image->pixels[3 * i + 2] = c.blue;
 }
 
-// The kind of surface that a pixel shows, for tone mapping.
+// The kind of object that a pixel shows. Tone mapping treats each kind differently.
 enum class PixelKind : std::uint8_t { kBackground, kSurface, kEmitter };
 
-// The mean of each block of `across` x `down` pixels: the box filter of supersampling. REQUIRES: across > 0
-// divides the width, down > 0 divides the height.
+// Replaces each block of `across` x `down` pixels by one pixel, the mean of the block: the box filter of
+// supersampling. REQUIRES: across > 0 divides the width, down > 0 divides the height.
 RgbImage Downsample(const RgbImage& image, int across, int down);
 
 }  // namespace penumbra

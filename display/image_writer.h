@@ -1,6 +1,6 @@
 // display/image_writer.h
 //
-// Writers of pictures: one interface for all formats.
+// The interface of writers of pictures. Each file format has its own writer.
 
 #pragma once
 
@@ -11,22 +11,23 @@
 
 namespace penumbra {
 
-// A format stores either screen colours or linear radiosity. The format's writer overrides the matching
-// Bytes().
+// A file format stores either screen colours or linear radiosity. The writer of a format overrides that
+// function Bytes() whose parameter has the corresponding type.
 class ImageWriter {
  public:
   virtual ~ImageWriter() = default;
 
   virtual bool IsLinear() const = 0;
 
-  // The contents of the file; the same pixels give the same bytes. Throws InputError if the picture cannot be
+  // The contents of the file. Equal pixels give equal bytes. Throws InputError if the picture cannot be
   // encoded. REQUIRES: the picture has at least one pixel, and the format is not linear.
   virtual std::string Bytes(const Srgb8Image& image) const;
-  // As above. REQUIRES: the picture has at least one pixel, and the format is linear.
+  // The contents of a file with linear values. REQUIRES: the picture has at least one pixel, and the format
+  // is linear.
   virtual std::string Bytes(const RgbImage& image) const;
 };
 
-// The type of ImageWriters(). The name of each writer is the ending of its files.
+// The type of ImageWriters(). The name of a writer is the ending of its files, without the dot.
 using ImageWriterRegistry = Registry<const ImageWriter>;
 
 }  // namespace penumbra

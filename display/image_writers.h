@@ -9,19 +9,20 @@
 
 namespace penumbra {
 
-// The registry of all formats of pictures.
+// The registry of all writers of pictures.
 ImageWriterRegistry& ImageWriters();
 
-// True if the path has the ending of a format for linear radiosity, or for screen colours.
+// IsLinearImage() is true if the path has the ending of a format for linear radiosity; IsScreenImage() is
+// true if it has the ending of a format for screen colours.
 bool IsLinearImage(const std::string& path);
 bool IsScreenImage(const std::string& path);
 
-// The endings of the formats for screen colours, without the dot.
+// The endings, without the dot, of the picture formats that store screen colours.
 std::vector<std::string> ScreenImageEndings();
 
-// Writes the picture in the format for the path's ending. The function writes a temporary file beside the
-// target and renames it, so that an interrupted run leaves the old file complete. Throws InputError if the
-// file cannot be written; no file remains then. REQUIRES: IsScreenImage(path) for Srgb8Image,
+// Writes the picture in the format for the path's ending. The function writes a temporary file in the same
+// folder and renames it, so that an interrupted program leaves the old file intact. Throws InputError, and
+// leaves no file behind, if the file cannot be written. REQUIRES: IsScreenImage(path) for Srgb8Image,
 // IsLinearImage(path) for RgbImage.
 void WriteImageFile(const std::string& path, const Srgb8Image& image);
 void WriteImageFile(const std::string& path, const RgbImage& image);

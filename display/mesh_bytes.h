@@ -1,6 +1,6 @@
 // display/mesh_bytes.h
 //
-// What the writers of meshes share.
+// Functions that the writers of meshes share.
 
 #pragma once
 
@@ -27,10 +27,11 @@ void AppendTriple(std::string& bytes, const auto& triple) {
   for (int i = 0; i < 3; ++i) AppendBytes(bytes, static_cast<Scalar>(triple[i]));
 }
 
-// The nodes of the mesh. Throws InputError if one holds a value above `most`, which the format cannot hold.
+// The nodes of the mesh. `most` is the largest number that the file format can represent. Throws InputError
+// if a value of a node exceeds `most`.
 MeshNodes NodesToWrite(const Scene& scene, const IrradianceMesh& mesh, double most);
 
-// What a screen shows of a node, linear: the exposed radiosity, emitters white.
+// The linear colour of a node on a screen: exposure * radiosity, or white if the node lies on an emitter.
 Rgb ExposedAt(const Scene& scene, const MeshNodes::Node& node, double exposure);
 
 }  // namespace penumbra

@@ -1,8 +1,8 @@
 // display/mesh_nodes.h
 //
-// The six nodes of every triangle of an irradiance mesh, with their light, for programs without interpolants.
-// Triangles share a node if they have the same light there; where the light jumps, one position has several
-// nodes.
+// The six nodes of every triangle of an irradiance mesh, with their light, for programs that cannot evaluate
+// interpolants. Triangles share a node if their irradiances at the node are equal; where the irradiance
+// jumps, there are several nodes at the same position.
 
 #pragma once
 
@@ -23,25 +23,27 @@ struct MeshNodes {
     PatchId patch = kNoPatch;
   };
   std::vector<Node> nodes;
-  // Per triangle of the mesh: the nodes of its corners 0, 1, 2, then of the midpoints of the edges 01, 12 and
-  // 20.
+  // For each triangle of the mesh, the nodes at its corners 0, 1 and 2, then the nodes at the midpoints of
+  // the edges 01, 12 and 20.
   std::vector<std::array<std::uint32_t, 6>> triangles;
   std::vector<std::int32_t> face;  // per triangle: the number of its face in outputs
 };
 
-// Irradiances are equal if they differ by less than kEqualIrradiance times the mesh's largest irradiance: the
-// rounding of the coefficients, and less than the precision of a float.
+// Two irradiances count as equal if they differ by less than kEqualIrradiance * (largest irradiance of the
+// mesh). kEqualIrradiance exceeds the rounding errors of the interpolants' coefficients, and is below the
+// precision of a float.
 inline constexpr double kEqualIrradiance = 1e-9;
 
 MeshNodes FindMeshNodes(const Scene& scene, const IrradianceMesh& mesh);
 
-// The four triangles between the six nodes of a triangle, counter-clockwise: the piecewise linear
-// approximation of the interpolant.
+// Divides a triangle with six nodes into four counter-clockwise triangles, on which linear functions
+// approximate the interpolant.
 std::array<std::array<std::uint32_t, 3>, 4> Quarters(const std::array<std::uint32_t, 6>& nodes);
 
-// An exposure for the nodes [m^2/W], metered as MeterExposure() does, with areas in place of pixel counts.
+// An exposure for the nodes [m^2/W], determined as by MeterExposure(), but weighted by area instead of by the
+// number of pixels.
 double MeterNodes(const Scene& scene, const IrradianceMesh& mesh, const MeshNodes& nodes);
-// The same of all nodes of the mesh.
+// The result of MeterNodes() for all nodes of the mesh.
 double MeterMesh(const Scene& scene, const IrradianceMesh& mesh);
 
 }  // namespace penumbra

@@ -1,6 +1,7 @@
 // display/mesh_writer.h
 //
-// Writers of irradiance meshes for other programs: one interface for all formats.
+// The interface of writers that export irradiance meshes to other programs. Each file format has its own
+// writer.
 
 #pragma once
 
@@ -16,15 +17,15 @@ class MeshWriter {
  public:
   virtual ~MeshWriter() = default;
 
-  // True if the format stores colours for a screen.
+  // True if files of this format contain colours for a screen.
   virtual bool HasColours() const = 0;
 
-  // The contents of the file; the same mesh gives the same bytes. `exposure` [m^2/W] converts radiosity to
-  // colours, in formats with colours. Throws InputError if the format cannot represent a value.
+  // The contents of the file. Equal meshes give equal bytes. If the format has colours, they are exposure
+  // [m^2/W] * radiosity [W/m^2]. Throws InputError if the format cannot represent a value.
   virtual std::string Bytes(const Scene& scene, const IrradianceMesh& mesh, double exposure) const = 0;
 };
 
-// The type of MeshWriters(). The name of each writer is the ending of its files.
+// The type of MeshWriters(). The name of a writer is the ending of its files, without the dot.
 using MeshWriterRegistry = Registry<const MeshWriter>;
 
 }  // namespace penumbra

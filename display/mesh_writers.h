@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// The registry of all formats of meshes.
+// The registry of all writers of meshes.
 MeshWriterRegistry& MeshWriters();
 
 }  // namespace penumbra

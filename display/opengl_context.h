@@ -1,7 +1,7 @@
 // display/opengl_context.h
 //
-// An OpenGL context without a window, by EGL. EGL is loaded when the first context is made, so that the
-// program also runs on machines without it.
+// An OpenGL context without a window, made with EGL. The library EGL is loaded when the first context is
+// made, so that the program also runs on machines without EGL.
 
 #pragma once
 
@@ -12,7 +12,7 @@ namespace penumbra {
 
 class OpenGlContext {
  public:
-  // Makes an OpenGL 3.3 context, core profile. Throws InputError if the system provides none.
+  // Makes an OpenGL 3.3 context, core profile. Throws InputError if the system cannot provide such a context.
   OpenGlContext();
   // Destroys the context and all objects in it.
   ~OpenGlContext();
@@ -32,7 +32,7 @@ class OpenGlContext {
     const OpenGlContext& context_;
   };
 
-  // Sets `function` to the OpenGL function called `name`. Throws InputError if there is none.
+  // Sets `function` to the OpenGL function called `name`. Throws InputError if there is no such function.
   template <class Function>
   void Load(const char* name, Function* function) const {
     static_assert(std::is_pointer_v<Function>);

@@ -27,8 +27,9 @@ class Passes {
                                std::span<std::uint32_t> ids) = 0;
 
   // Pass 2: sets (s, t) of each pixel to the perspective-correct barycentric coordinates for vertices 1 and 2
-  // of the triangle that pass 1 found, with s, t >= 0 and s + t <= 1 to rounding. Pixels without a triangle
-  // are not changed. REQUIRES: ids are those of the last DrawTriangleIds(); spans of the same size.
+  // of the triangle that pass 1 found, with s, t >= 0 and s + t <= 1 up to rounding. Entries for pixels
+  // without a triangle are not changed. REQUIRES: `ids` is the result of the last DrawTriangleIds(); the
+  // three spans have equal sizes.
   virtual void DrawBarycentrics(std::span<const std::uint32_t> ids, std::span<float> s,
                                 std::span<float> t) = 0;
 

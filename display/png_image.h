@@ -8,9 +8,9 @@
 
 namespace penumbra {
 
-// 8-bit sRGB PNG. A file is written beside its place and renamed, so that a killed run leaves the old one
-// whole; the same pixels give the same bytes. Throws InputError if the file cannot be written; nothing is
-// left behind then.
+// Writes a PNG file in 8-bit sRGB. The function writes a temporary file in the same folder and renames it, so
+// that an interrupted program leaves the old file intact. Equal pixels give equal bytes. Throws InputError,
+// and leaves no file behind, if the file cannot be written.
 void WritePng(const std::string& path, const Srgb8Image& image);
 
 ImageWriterRegistry::Method PngImageMethod();

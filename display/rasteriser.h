@@ -1,17 +1,19 @@
 // display/rasteriser.h
 //
-// Draws the two scratch images of the two-pass display in software (thesis 3.4.1 and 3.4.2): the triangle
-// that is visible at the centre of every pixel, and the barycentric coordinates there.
+// Draws the two scratch images of the two-pass display in software (thesis 3.4.1 and 3.4.2): for every pixel,
+// the triangle that is visible at its centre, and the barycentric coordinates of the visible point.
 //
 // A triangle is drawn by the homogeneous edge functions of Olano and Greer (1997): the plane through the eye
-// and an edge is an affine function of the picture coordinates for any position of the vertices. Therefore
-// nothing is clipped, and a triangle that extends behind the eye covers exactly the pixels whose rays meet
-// it. Each function is set up in binary64 and translated to tiles of 64 x 64 pixels, where it is evaluated in
-// floats relative to the tile's corner.
+// and an edge corresponds to an affine function of the picture coordinates, even if vertices lie behind the
+// eye. With homogeneous edge functions, triangles need not be clipped, and a triangle that extends behind the
+// eye covers exactly the pixels whose rays intersect it. Each edge function is computed in binary64. The
+// picture is divided into tiles of 64 x 64 pixels, in which edge functions are evaluated in floats relative
+// to the tile's corner.
 //
-// Departures from the thesis: coordinates come from the triangle's edge functions and not from a texture of
-// 256^2 texels, so they have the precision of floats. Gaps at all T-vertices are closed, including case C
-// (3.6): every triangle is drawn kFringe of a pixel too large, and the surplus is drawn slightly deeper.
+// The rasteriser differs from the thesis in two ways. Barycentric coordinates are computed from the
+// triangle's edge functions, with the precision of floats, instead of from a texture of 256^2 texels. Gaps at
+// all T-vertices are closed, including case C (3.6): every triangle is enlarged by kFringe pixels, and the
+// additional pixels are drawn slightly deeper.
 
 #pragma once
 
@@ -33,25 +35,28 @@ namespace penumbra {
 // picture.
 class Rasteriser : public Passes {
  public:
-  // REQUIRES: valid indices in `positions`, fewer than kNoTriangle triangles, finite positions.
+  // REQUIRES: all indices are valid in `positions`; there are fewer than kNoTriangle triangles; all positions
+  // are finite.
   Rasteriser(std::span<const Vec3> positions, std::vector<VertexIndices> triangles);
   ~Rasteriser() override;
   Rasteriser(Rasteriser&&) noexcept;
   Rasteriser& operator=(Rasteriser&&) noexcept;
 
-  //  (1) Triangles that share an edge or lie on two sides of one leave no pixel between them.
-  //  (2) Of two triangles whose depths differ by rounding only, one wins; at equal depths the lower index.
+  //  (1) Between two triangles that share an edge, or a part of an edge, no pixel is left empty.
+  //  (2) If the depths of two triangles at a pixel differ only by rounding, either triangle may be drawn. If
+  //  the depths are equal, the triangle with the lower index is drawn.
   //  (3) The ids do not depend on the number of threads.
   void DrawTriangleIds(const PixelRays& rays, int width, int height, std::span<std::uint32_t> ids) override;
-  // For triangles larger than a pixel, the coordinates of the ray's intersection with the triangle to
-  // kBarycentricError.
+  // For triangles larger than a pixel, the error of the coordinates of the intersection of ray and triangle
+  // is at most kBarycentricError.
   void DrawBarycentrics(std::span<const std::uint32_t> ids, std::span<float> s, std::span<float> t) override;
 
   std::size_t TriangleCount() const;
 
-  // The same two passes tile by tile, so that intermediate values stay in the processor's caches. Prepare()
-  // sorts the triangles into the tiles of TileGrid(width, height). Then several threads may call the other
-  // two functions, each thread for its own tile.
+  // Prepare(), DrawTileIds() and DrawRowBarycentrics() draw the two passes tile by tile, so that intermediate
+  // values stay in the processor's caches. First, Prepare() sorts the triangles into the tiles of
+  // TileGrid(width, height). After Prepare(), several threads may call DrawTileIds() and
+  // DrawRowBarycentrics(), each thread for its own tile.
   void Prepare(const PixelRays& rays, int width, int height);
   void DrawTileIds(std::size_t index, Tile* tile) const;  // clears the tile first
   void DrawRowBarycentrics(BlockRow* row) const;          // REQUIRES: FindRuns(row)

@@ -1,8 +1,9 @@
 // display/ray_display.h
 //
-// Pictures by ray casting (thesis B.3.3): one or several rays through each pixel, and the irradiance where a
-// ray meets a front. A slow reference for the two-pass display: RayShade shows exact irradiance; LerpShade
-// shows the interpolants, found independently of the two passes.
+// Pictures by ray casting (thesis B.3.3): one or several rays are cast through each pixel, and the irradiance
+// is computed where a ray hits a front. Ray casting is slow and serves as a reference for the two-pass
+// display. RayShade() shows exact irradiance; LerpShade() shows the interpolants, which are located without
+// the two passes.
 
 #pragma once
 
@@ -26,7 +27,8 @@ struct RayPoint {
   double uncertainty = 0;        // of the position [m]: rounding of the ray and of the intersection
 };
 
-// The irradiance that a picture shows at a point [W/m^2]. Several threads call it at once.
+// A function that returns the irradiance that a picture shows at a point [W/m^2]. Several threads call the
+// function at once.
 using RayShader = std::function<Rgb(const RayPoint&)>;
 
 // A shader that shows exact irradiance. The arguments must outlive the shader.
@@ -53,14 +55,14 @@ class RayDisplay {
   // The scene must outlive the display.
   RayDisplay(const Scene& scene, RayShader shader, int samples);
 
-  // Casts `samples` rays through each pixel: the first through its centre, the others evenly distributed over
-  // it. If the context is cancelled, the rest of the picture is not computed. The bytes do not depend on the
-  // number of threads. Throws InputError for an invalid camera (ValidateCamera).
+  // Casts `samples` rays through each pixel: the first ray through the pixel's centre, the others evenly
+  // distributed over the pixel. If the context is cancelled, the rest of the picture is not computed. The
+  // bytes do not depend on the number of threads. Throws InputError for an invalid camera (ValidateCamera).
   const SampledPicture& Render(const Camera& camera, int width, int height, const ExecutionContext& context);
 
   const SampledPicture& picture() const { return picture_; }
 
-  // Casts the ray through the point (x, y) of a picture. Several threads may call it at once.
+  // Casts the ray through the point (x, y) of a picture. Several threads may call the function at once.
   RaySample Sample(const PixelRays& rays, double x, double y) const;
 
  private:

@@ -1,6 +1,7 @@
 // display/split_view.h
 //
-// The scratch images next to the picture that is computed from them (thesis B.3.2).
+// Shows the scratch images of the two-pass display next to the picture that is computed from them (thesis
+// B.3.2).
 
 #pragma once
 
@@ -11,13 +12,14 @@
 
 namespace penumbra {
 
-// Fills `whole` with four quarters: triangle ids, one colour each; barycentric coordinates, with s red, t
-// green and 1 - s - t blue; depths, with the nearest white; and `picture`. REQUIRES: frame and picture have
-// the size of a quarter of `whole`; the frame shows `mesh` and was drawn with `rays`.
+// Fills the four quarters of `whole` with: the triangle ids, in a different colour for each triangle; the
+// barycentric coordinates as colours (s red, t green, 1 - s - t blue); the depths, with the nearest point
+// white; and `picture`. REQUIRES: frame and picture have the size of a quarter of `whole`; the frame shows
+// `mesh` and was drawn with `rays`.
 void PaintSplit(const RenderedFrame& frame, const PixelRays& rays, const IrradianceMesh& mesh,
                 const Srgb8Image& picture, Srgb8Image* whole);
 
-// The side of a quarter, for a side of the whole picture [pixels].
+// The width (or height) of a quarter, given the width (or height) of the whole picture [pixels].
 inline constexpr int QuarterSide(int side) { return side < 2 ? 1 : side / 2; }
 
 }  // namespace penumbra

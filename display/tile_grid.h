@@ -24,9 +24,9 @@ struct TileGrid {
   int Y(std::size_t tile) const { return static_cast<int>(tile) / across * kTileSize; }
 };
 
-// Calls body(index in the tile, index in the picture, n) for runs of n <= 4 pixels in a row. Together the
-// runs cover those pixels of the first `height` rows of the tile at (x0, y0) that lie in the picture. Also
-// works for a row of blocks.
+// Divides the pixels in the first `height` rows of the tile at (x0, y0) that lie in the picture into runs of
+// n <= 4 pixels of one row. Calls body(index in the tile, index in the picture, n) for each run. The function
+// can be used for a row of blocks instead of a whole tile.
 template <class Body>
 void ForEachPart(const TileGrid& grid, int x0, int y0, int height, const Body& body) {
   const int rows = std::min(height, grid.height - y0), columns = std::min(kTileSize, grid.width - x0);
@@ -39,16 +39,16 @@ void ForEachPart(const TileGrid& grid, int x0, int y0, int height, const Body& b
   }
 }
 
-// Calls body(x, y) with the upper left pixel of each row of blocks of the tile, for rows that lie in the
-// picture.
+// Calls body(x, y) for each row of blocks of the tile that lies in the picture; (x, y) is the row's upper
+// left pixel.
 template <class Body>
 void ForEachBlockRow(const TileGrid& grid, std::size_t tile, const Body& body) {
   const int end = std::min(grid.Y(tile) + kTileSize, grid.height);
   for (int y = grid.Y(tile); y < end; y += kBlockSize) body(grid.X(tile), y);
 }
 
-// Copies n values. The common case n == kBlockSize is separate, so that the compiler can copy them as one
-// word.
+// Copies n values. The common case n == kBlockSize is a separate branch, so that the compiler can copy the
+// values as one word.
 template <class T>
 void CopyPart(const T* from, std::size_t n, T* to) {
   if (n == kBlockSize)

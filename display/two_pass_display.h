@@ -1,7 +1,8 @@
 // display/two_pass_display.h
 //
-// The online half (thesis 3.4). At every pixel it finds the visible triangle and the barycentric coordinates,
-// and evaluates the radiosity: interpolant * reflectance + emittance.
+// The online half of the thesis's method (3.4). For every pixel, the display finds the visible triangle and
+// the barycentric coordinates of the visible point, and evaluates the radiosity: interpolant * reflectance +
+// emittance.
 
 #pragma once
 
@@ -23,9 +24,9 @@ enum class ShadingMode {
   kReflectance,  // [1]; emitters are treated as surfaces
 };
 
-// The times of the last frame, in milliseconds of wall clock. If a frame is drawn tile by tile, the time of
-// the frame is divided among the steps in proportion to the time that threads spend in each, measured for
-// some rows of blocks.
+// The times of the last frame, in milliseconds of wall clock. If a frame is drawn tile by tile, the times of
+// the steps are estimated: the total time is divided in proportion to the times that threads spend in each
+// step, measured for a sample of the rows of blocks.
 struct FrameTimes {
   double triangle_ids = 0, barycentric = 0, evaluate = 0, tone_map = 0;
 
@@ -57,13 +58,14 @@ struct RenderedFrame {
   FrameTimes ms;
 };
 
-// Draws an irradiance mesh for any camera. Memory is allocated for the first frame of a size and reused.
+// Draws an irradiance mesh for any camera. Memory is allocated for the first frame of each size and reused
+// for later frames.
 class TwoPassDisplay {
  public:
-  // Copies what it needs from scene and mesh. The rasteriser draws the passes. REQUIRES: the mesh has an
-  // interpolant for each triangle, and its patches are patches of the scene.
+  // Copies the required data from scene and mesh. The software rasteriser draws the passes. REQUIRES: the
+  // mesh has an interpolant for each triangle, and its patches are patches of the scene.
   TwoPassDisplay(const Scene& scene, const IrradianceMesh& mesh);
-  // Uses the given passes. REQUIRES: they draw the triangles of the mesh.
+  // Draws with the given passes. REQUIRES: `passes` draws the triangles of the mesh.
   TwoPassDisplay(const Scene& scene, const IrradianceMesh& mesh, std::unique_ptr<Passes> passes);
 
   // Computes all of the frame except `screen`. The bytes do not depend on the number of threads. Throws
@@ -74,9 +76,9 @@ class TwoPassDisplay {
   // Computes `screen` from the last Render().
   const RenderedFrame& ToneMap(const ToneMapping& settings);
 
-  // Computes only `screen`, with the same bytes as Render() and ToneMap(). Each tile is processed from
-  // triangles to screen while its data are in the caches. For frames whose intermediate results are not
-  // needed.
+  // Computes only `screen`, with the same bytes as Render() and ToneMap(). All steps are applied to one tile
+  // before the next tile, so that the tile's data remain in the caches. Use RenderScreen() for frames whose
+  // intermediate results are not needed.
   const RenderedFrame& RenderScreen(const Camera& camera, int width, int height, ShadingMode mode,
                                     const ToneMapping& settings);
 
@@ -99,7 +101,7 @@ class TwoPassDisplay {
   RenderedFrame frame_;
 };
 
-// A rasteriser for the triangles of a mesh.
+// Makes a software rasteriser for the triangles of a mesh.
 std::unique_ptr<Passes> SoftwarePasses(const IrradianceMesh& mesh);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // display/unit_vectors.h
 //
-// Unit vectors. glm::normalize() multiplies by the inverse of the length, which rounds once more than a
-// division does, and it returns NaN for a zero vector.
+// Functions that return unit vectors. The functions replace glm::normalize(), which multiplies by the inverse
+// of the length and thus rounds once more than a division, and which returns NaN for a zero vector.
 
 #pragma once
 
@@ -18,7 +18,7 @@ inline glm::dvec3 Normalized(const glm::dvec3& v) {
   return length > 0 ? v / length : v;
 }
 
-// The same, also for vectors whose squared length overflows or underflows.
+// Like Normalized(), but also correct for vectors whose squared length overflows or underflows.
 inline glm::dvec3 StableNormalized(const glm::dvec3& v) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   const glm::dvec3 scaled = v / largest;
@@ -26,8 +26,8 @@ inline glm::dvec3 StableNormalized(const glm::dvec3& v) {
   return square > 0 ? v / (std::sqrt(square) * largest) : v;
 }
 
-// The unit vector at a right angle to v that lies in the plane z = 0, or for v along z in the plane x = 0.
-// REQUIRES: v is not zero.
+// A unit vector perpendicular to v. The result lies in the plane z = 0, or, if v is parallel to the z axis,
+// in the plane x = 0. REQUIRES: v is not zero.
 inline glm::dvec3 Perpendicular(const glm::dvec3& v) {
   constexpr double kAlong = 1e-12;  // below this ratio, the direction of the other two is rounding
   const bool along_z = std::max(std::abs(v.x), std::abs(v.y)) <= kAlong * std::abs(v.z);

@@ -1,8 +1,8 @@
 // display/vector_kernels.h
 //
-// The inner loops of the display over a tile of the picture, compiled for several instruction sets. The
-// program selects the best set at run time. All vector widths perform the same IEEE operations on each
-// element and give the same bytes.
+// The inner loops of the display, which process a tile of the picture. The loops are compiled for several
+// instruction sets, of which the program selects the best one at run time. All vector widths perform the same
+// IEEE operations on each element and give the same bytes.
 //
 // The values of a tile are stored in blocks of 4 x 4 pixels. A block fits one vector, and most blocks show a
 // single triangle.
@@ -24,8 +24,8 @@ inline constexpr int kBlockPixels = kBlockSize * kBlockSize;
 inline constexpr int kBlocksAcross = kTileSize / kBlockSize;
 inline constexpr int kRowPixels = kBlocksAcross * kBlockPixels;  // of a row of blocks
 
-// The index, in the arrays of a tile or of a row of its blocks, of the four pixels that begin at column x, a
-// multiple of 4, in row y.
+// The index of pixel (x, y) in the arrays of a tile, or of a row of blocks, where x is a multiple of 4. The
+// next three indices are those of the pixels (x + 1, y), (x + 2, y) and (x + 3, y).
 inline constexpr int TileIndex(int x, int y) {
   return (y / kBlockSize * kBlocksAcross + x / kBlockSize) * kBlockPixels + y % kBlockSize * kBlockSize;
 }
@@ -51,20 +51,20 @@ struct TileTriangle {
   int column_begin, column_end, row_begin, row_end;  // bounds in the tile
 };
 
-// A triangle also covers pixels whose centres lie outside of it by less than this distance [pixels]; these
-// are drawn slightly deeper. The fringe closes gaps that rounding causes, at T-vertices between patches and
-// at vertices that lie exactly in the centre of a pixel. The width of the fringe is far larger than the
-// rounding of the edge functions in a tile (below 2^-16), and far too small to be visible.
+// A triangle also covers pixels whose centres lie outside the triangle by less than kFringe [pixels]; such
+// pixels are drawn slightly deeper. The fringe closes gaps that rounding causes, at T-vertices between
+// patches and at vertices that lie exactly in the centre of a pixel. The width of the fringe is far larger
+// than the rounding of the edge functions in a tile (below 2^-16), and far too small to be visible.
 inline constexpr float kFringe = 0x1p-10f;
 
-// The light of a triangle, for red, green and blue.
+// The data from which the radiosity of a triangle is computed, for red, green and blue.
 struct TriangleShade {
   float a[3], b2[3], c2[3], d[3], e2[3], f[3];  // coefficients of the QuadraticInterpolant [W/m^2]
   float reflectance[3];
   float emittance[3];  // [W/m^2]
 };
 
-// A tile during pass one.
+// The data of a tile in pass one.
 struct Tile {
   int x = 0, y = 0;  // its upper left pixel in the picture
   alignas(64) std::uint32_t ids[kTilePixels];
@@ -77,7 +77,8 @@ struct BlockRun {
   std::uint16_t block;
 };
 
-// A row of a tile's blocks during pass two and tone mapping, of a size that fits the first-level cache.
+// The data of a row of blocks of a tile in pass two and in tone mapping. A BlockRow fits into the first-level
+// cache.
 struct BlockRow {
   int x = 0, y = 0;  // its upper left pixel in the picture
   alignas(64) std::uint32_t ids[kRowPixels];
@@ -91,12 +92,13 @@ struct BlockRow {
 // Marks all pixels of the tile as empty.
 void ClearTile(Tile* tile);
 
-// Draws the triangle into `inverse_z` and `ids`. The nearest triangle wins, and of equally near ones the one
-// with the lowest id, so that the order of drawing does not matter.
+// Draws the triangle into `inverse_z` and `ids`. Each pixel shows the nearest triangle; of several triangles
+// at the same depth, it shows the triangle with the lowest id. The result therefore does not depend on the
+// order of drawing.
 void DrawTileTriangle(const TileTriangle& triangle, Tile* tile);
 
-// Regions of a tile that store the depth of their farthest pixel. Triangles that lie behind the farthest
-// pixels of all regions that they could cover are not drawn.
+// A tile is divided into regions, for which the depth of the farthest pixel is stored. A triangle is not
+// drawn if it lies behind the farthest pixel of every region that it could cover.
 inline constexpr int kRegionSize = 16;  // pixels a side
 inline constexpr int kRegionsAcross = kTileSize / kRegionSize;
 using RegionDepths = std::array<float, kRegionsAcross * kRegionsAcross>;
@@ -104,42 +106,45 @@ using RegionDepths = std::array<float, kRegionsAcross * kRegionsAcross>;
 // Sets `farthest` to the smallest `inverse_z` of each region.
 void FindFarthest(const Tile& tile, RegionDepths* farthest);
 
-// Computes `runs` from `ids`.
+// Computes row->runs, the list of triangles that are visible in each block, from row->ids.
 void FindRuns(BlockRow* row);
 
-// Computes (s, t), the barycentric coordinates for vertices 1 and 2, clamped to the triangle, for pixels with
-// a triangle. planes[3 id + k] is proportional to the coordinate of vertex k. REQUIRES: FindRuns() was
-// called; the values of the planes are in the range of floats everywhere in the picture.
+// For each pixel with a triangle, computes (s, t), the barycentric coordinates for vertices 1 and 2, and
+// clamps them to the triangle. planes[3 id + k] is a function proportional to the barycentric coordinate for
+// vertex k of triangle `id`. REQUIRES: FindRuns() was called; the values of the planes are in the range of
+// floats everywhere in the picture.
 void FillBarycentrics(const Plane* planes, BlockRow* row);
 
-// Computes rgb = max(irradiance(s, t), 0) * reflectance + emittance [W/m^2], and `background` for pixels
+// Sets rgb = max(irradiance(s, t), 0) * reflectance + emittance [W/m^2], or rgb = background for pixels
 // without a triangle. Irradiance is clamped because a quadratic through nonnegative samples may be negative
-// between them. REQUIRES: FindRuns() was called, and s and t are set.
+// between the samples. REQUIRES: FindRuns() was called, and s and t are set.
 void EvaluateRadiosity(const TriangleShade* shades, float background, BlockRow* row);
 
-// The transfer of a linear value in [0, 1] to 8 bits. With dither: 255 * (encoded value) + offset, with an
-// offset in (0, 1), is computed to 1e-3 and rounded down. Without dither: the nearest code, exactly.
+// Converts linear values in [0, 1] to 8-bit codes. With dither, the code is floor(255 * (encoded value) +
+// offset), with an offset in (0, 1) and an error of up to 1e-3 before rounding. Without dither, the code is
+// exactly the nearest one.
 struct ScreenTransfer {
-  // `dither`: 64 offsets in rows of 8, or null for the nearest code.
+  // `dither` points to 64 offsets in rows of 8; if it is null, values are converted to the nearest code.
   ScreenTransfer(float exposure, float background, const float* dither);
 
   float exposure;    // factor of the values, which are then clipped at 1
   float background;  // linear value shown for negative values
   bool dithered;
-  // The offsets of two neighbouring blocks, in even and in odd rows of blocks: the dither repeats every 8 x 8
-  // pixels.
+  // The dither offsets of two neighbouring blocks: offset[0] in even rows of blocks, offset[1] in odd rows.
+  // The dither pattern repeats every 8 x 8 pixels.
   alignas(64) float offset[2][2 * kBlockPixels] = {};
 };
 
-// Computes `screen` from `rgb`.
+// Computes row->screen from row->rgb.
 void FillScreen(const ScreenTransfer& transfer, BlockRow* row);
 
-// Computes min(max(exposure * value, 0), 1) for n values. Emitters become 1, background pixels `background`.
+// Sets exposed[i] = min(max(exposure * value[i], 0), 1) for n pixels. The result is 1 for emitters, and
+// `background` for background pixels.
 void ExposeRow(const float* value, const PixelKind* kind, float exposure, float background, std::size_t n,
                float* exposed);
 
-// Computes the codes of n exposed pixels of a row, in the format of BlockRow::screen. `dither`: 8 offsets in
-// (0, 1), or null for the nearest codes.
+// Computes the codes of n exposed pixels of a row, in the format of BlockRow::screen. `dither` points to 8
+// offsets in (0, 1); if it is null, values are converted to the nearest codes.
 void EncodeRow(const float* red, const float* green, const float* blue, std::size_t n, const float* dither,
                std::uint32_t* codes);
 

@@ -1,6 +1,6 @@
 // display/viewer/analyses.h
 //
-// Computes, in the background, results that take long and that the present view needs.
+// Computes in the background those results that the present view needs and that take a long time.
 
 #pragma once
 
@@ -17,12 +17,13 @@ class Analyses {
   Analyses();
 
   // Returns the results that the view needs, as far as they are complete, and starts the missing
-  // computations. `tools` is the mesh of the tools.
+  // computations. `tools` is the mesh on which the user's tools (selection, graphs, probes) work.
   AnalysisResults Update(const Snapshot& snapshot, const std::shared_ptr<const MeshState>& tools,
                          const ViewState& view);
   // True if a computation is running.
   bool Busy();
-  // True if, since the last call, memory did not suffice for a computation. The result then stays missing.
+  // True if a computation has run out of memory since the last call of RanOutOfMemory(). If a computation
+  // runs out of memory, its result remains missing.
   bool RanOutOfMemory();
 
  private:

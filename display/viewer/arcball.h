@@ -1,7 +1,7 @@
 // display/viewer/arcball.h
 //
-// Shoemake's arcball (1992): the user rotates the model by dragging a ball around it. Positions are pixels of
-// the picture.
+// Shoemake's arcball (1992): the user rotates the model by dragging the surface of a ball that surrounds it.
+// Positions of the pointer are in pixels of the picture.
 
 #pragma once
 
@@ -29,7 +29,8 @@ class ArcballDrag {
   // camera.look_at.
   ArcballDrag(const Camera& camera, PictureSize size, double x, double y, ArcballConstraint constraint);
 
-  // The camera for the pointer at (x, y). Distance and field of view do not change.
+  // The camera when the pointer has been dragged to (x, y). The distance to look_at and the field of view do
+  // not change.
   Camera At(double x, double y) const;
 
  private:
@@ -42,13 +43,13 @@ class ArcballDrag {
   glm::dvec3 from_;
 };
 
-// Moves the camera and look_at such that the point under the pointer at look_at's depth follows a pointer
-// movement of (dx, dy) [pixels].
+// Moves eye and look_at of the camera by the same vector, such that points at the depth of look_at move by
+// (dx, dy) [pixels] in the picture.
 Camera Pan(const Camera& camera, PictureSize size, double dx, double dy);
-// Divides the distance to look_at by `factor`, within the range where numbers represent the view's direction.
+// Divides the distance to look_at by `factor`, limited such that the direction of view remains representable.
 Camera Zoom(const Camera& camera, double factor);
 // Sets the field of view [degrees, clamped to kMinFov .. kMaxFov], and the distance such that objects at
-// look_at keep their size. Only the perspective changes.
+// look_at keep their size. Warp() thus changes only the perspective of the picture.
 Camera Warp(const Camera& camera, double vertical_fov);
 inline constexpr double kMinFov = 2, kMaxFov = 160;
 

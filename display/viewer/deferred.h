@@ -1,7 +1,7 @@
 // display/viewer/deferred.h
 //
-// Values that take long to compute. A thread computes each value in the background, and the view shows the
-// value when it is complete.
+// Manages a value that takes a long time to compute: a thread computes the value in the background, and the
+// view shows the value when it is complete.
 
 #pragma once
 
@@ -16,12 +16,13 @@
 
 namespace penumbra::viewer {
 
-// Holds the value of one key at a time. A request for another key cancels the running computation. For use by
-// one thread, the view's. Keys are compared by ==.
+// Holds the value of one key at a time. A request for another key cancels the running computation. Only the
+// thread of the view may call the functions. Keys are compared by ==.
 template <class Key, class Value>
 class Deferred {
  public:
-  // The function runs in a separate thread. The result of a cancelled computation is discarded.
+  // The function that computes the value of a key, in a separate thread. The result of a cancelled
+  // computation is discarded.
   using Compute = std::function<Value(const Key&, const ExecutionContext&)>;
 
   explicit Deferred(Compute compute) : compute_(std::move(compute)) {}
@@ -29,14 +30,14 @@ class Deferred {
   Deferred(const Deferred&) = delete;
   Deferred& operator=(const Deferred&) = delete;
 
-  // The key's value; null if the value is incomplete. Starts the computation if necessary.
+  // Returns the value of the key, or null if the value is not complete. Starts the computation if necessary.
   std::shared_ptr<const Value> Get(const Key& key) {
     Collect();
     if (key_ && *key_ == key) return value_;
     if (!running_) {
       Start(key);
     } else {
-      // The thread ends soon; a later call then starts the new computation.
+      // The thread will end soon; a later call of Get() starts the new computation.
       context_->Cancel();
     }
     return nullptr;
@@ -55,7 +56,8 @@ class Deferred {
     return running_;
   }
 
-  // True if, since the last call, memory did not suffice for a value. The key then has no value.
+  // True if a computation has run out of memory since the last call of RanOutOfMemory(). The key of a
+  // computation that has run out of memory has no value.
   bool RanOutOfMemory() { return no_memory_.exchange(false); }
 
  private:

@@ -14,8 +14,9 @@
 
 namespace penumbra::viewer {
 
-// Values on a triangle's grid with `cells` cells per side: row j = 0 .. cells holds i = 0 .. cells - j, at
-// (s, t) = (i, j) / cells.
+// Irradiance values at the points of a grid on a triangle, with `cells` cells per side. The points have the
+// barycentric coordinates (s, t) = (i, j) / cells, with 0 <= j <= cells and 0 <= i <= cells - j, and are
+// stored row by row: j is constant in a row.
 struct GraphSheet {
   std::uint32_t triangle = 0;
   int cells = 1;
@@ -33,7 +34,7 @@ struct GraphOptions {
   bool exact = false;    // with exact values, which take time
 };
 
-// One sheet per triangle of the list.
+// Computes one sheet for each triangle of the list `triangles`.
 IrradianceGraph MakeGraph(const LightState& light, const IrradianceMesh& mesh,
                           std::span<const std::uint32_t> triangles, const GraphOptions& options,
                           const ExecutionContext& context);

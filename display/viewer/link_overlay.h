@@ -6,7 +6,7 @@
 
 namespace penumbra::viewer {
 
-// Links as arrows from source to receiver, with a colour per class (thesis B.4.3).
+// Shows links as arrows from source to receiver, with a different colour for each LinkClass (thesis B.4.3).
 OverlayRegistry::Method LinkOverlayMethod();
 
 }  // namespace penumbra::viewer

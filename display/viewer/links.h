@@ -22,14 +22,15 @@ enum class LinkClass : std::uint8_t {
 LinkClass ClassOf(const RadiositySolution& solution, const Link& link);
 Colour ColourOf(LinkClass link_class);
 const char* NameOf(LinkClass link_class);
-// The name of the switch that shows the links of the class.
+// The name of the OverlaySwitch that shows the links of the class.
 std::string SwitchOf(LinkClass link_class);
 
 // The irradiance that the link brings to its receiver, in the largest channel [W/m^2].
 double LinkIrradiance(const RadiositySolution& solution, const Link& link);
 
-// The indices of the links that pass the settings' filters, at most settings.link_limit, the strongest first.
-// If an element is selected, only links that end at this element, above it or below it.
+// The indices of the links to be shown according to the settings: at most settings.link_limit links, in order
+// of decreasing LinkIrradiance(). If an element is selected, only those links are included that have this
+// element, one of its ancestors or one of its descendants as receiver or source.
 std::vector<std::uint32_t> ShownLinks(const RadiositySolution& solution, const OverlaySettings& settings,
                                       const Selection& selection);
 

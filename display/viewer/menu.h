@@ -1,6 +1,6 @@
 // display/viewer/menu.h
 //
-// The menus as data. The window draws them; keys and scripts run their items.
+// The contents of the menus, as data. The window draws the menus; keys and scripts run the menu items.
 
 #pragma once
 
@@ -23,10 +23,11 @@ struct MenuItem {
 class Menu {
  public:
   void Add(MenuItem item) { items_.push_back(std::move(item)); }
-  // Replaces the items below a submenu, for lists that change.
+  // Replaces all items of a submenu; for submenus whose items change.
   void Replace(const std::string& submenu, std::vector<MenuItem> items);
 
-  // The item with this path, or with this key; null if there is none.
+  // Find() returns the item with this path, and FindKey() the item with this key; null if there is no such
+  // item.
   const MenuItem* Find(const std::string& path) const;
   const MenuItem* FindKey(const KeyChord& chord) const;
   const std::vector<MenuItem>& items() const { return items_; }

@@ -1,6 +1,6 @@
 // display/viewer/mesh_tools.h
 //
-// Functions on the triangles of a mesh for the viewer's tools.
+// Functions of the triangles of a mesh, which the viewer's tools use.
 
 #pragma once
 
@@ -25,15 +25,15 @@ ElementId LeafOf(const LightState& light, const IrradianceMesh& mesh, std::uint3
 // True if `element` is `top` or a descendant of `top`.
 bool IsBelow(const ElementForest& forest, ElementId element, ElementId top);
 
-// The indices of the triangles in any of the elements, ascending.
+// The indices, in ascending order, of the triangles that lie in one of the elements.
 std::vector<std::uint32_t> TrianglesOf(const LightState& light, const IrradianceMesh& mesh,
                                        std::span<const ElementId> elements);
 
-// The mesh of the listed triangles.
+// A mesh that consists of the listed triangles.
 IrradianceMesh SubMesh(const IrradianceMesh& mesh, std::span<const std::uint32_t> triangles);
 
-// The exact irradiance at (s, t) of a triangle [W/m^2]; on the triangle's border, the limit from the
-// interior.
+// The exact irradiance at the point with barycentric coordinates (s, t) of a triangle [W/m^2]. On the
+// triangle's border, the result is the limit from the interior.
 Rgb ExactInTriangle(const LightState& light, const IrradianceMesh& mesh, std::uint32_t triangle, double s,
                     double t);
 

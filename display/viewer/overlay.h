@@ -23,7 +23,7 @@ namespace penumbra::viewer {
 class Menu;
 class Settings;
 
-// Results that take long to compute; null until complete.
+// Results that take a long time to compute. Each pointer is null until the result is complete.
 struct AnalysisResults {
   std::shared_ptr<const DiscontinuityList> discontinuities;
   std::shared_ptr<const IrradianceGraph> graph;
@@ -45,7 +45,7 @@ struct OverlayContext {
   bool Isolates(SelectionKind kind) const { return isolated && selection.kind == kind; }
 };
 
-// The computations that an overlay needs.
+// Says which results must be computed before an overlay can be drawn.
 struct OverlayNeeds {
   bool triangles = false;        // triangles of a mesh, even if the drawing mode has none
   bool discontinuities = false;  // all discontinuities
@@ -53,7 +53,7 @@ struct OverlayNeeds {
   bool exact_graph = false;      // the graph of the exact irradiance as well
 };
 
-// A part of an overlay that users switch on and off.
+// A part of an overlay that the user can switch on and off.
 struct OverlaySwitch {
   std::string name;  // as in `set NAME on`
   std::string help;  // a few words: the label in panels
@@ -62,26 +62,26 @@ struct OverlaySwitch {
   OverlayNeeds needs;
 };
 
-// The groups of panels that contain overlays.
+// The names of the panels that contain switches and settings of overlays.
 inline constexpr std::string_view kOverlayGroups[] = {"Visualisations", "Links", "Graphs"};
 
 class Overlay {
  public:
   virtual ~Overlay() = default;
 
-  // The group of kOverlayGroups that contains the overlay's switches and settings.
+  // The entry of kOverlayGroups to which the overlay's switches and settings belong.
   virtual std::string Group() const { return "Visualisations"; }
-  // An overlay without switches shows what a user selects or probes.
+  // The overlay's switches. An overlay without switches shows what the user has selected or probed.
   virtual std::vector<OverlaySwitch> Switches() const { return {}; }
-  // Adds settings other than the switches. `values` outlives `settings`.
+  // Adds those settings of the overlay to `settings` that are not switches. `values` outlives `settings`.
   virtual void AddSettings(OverlaySettings* /*values*/, Settings* /*settings*/) const {}
-  // Adds menu items other than the switches. `values` outlives `menu`.
+  // Adds those menu items of the overlay to `menu` that are not switches. `values` outlives `menu`.
   virtual void AddMenuItems(OverlaySettings* /*values*/, Menu* /*menu*/) const {}
 
-  // The painter draws overlays in ascending order of layers, and in the registry's order within a layer. The
-  // library's overlays have layers 0 to 8.
+  // The overlay's layer. Overlays are drawn in ascending order of their layers, and within a layer in the
+  // order of the registry. The built-in overlays have layers 0 to 8.
   virtual int Layer() const { return kTopLayer; }
-  // Adds the overlay's visible parts to `drawing`. Parts that are switched off add nothing.
+  // Adds the parts of the overlay that are switched on to `drawing`.
   virtual void Draw(const OverlayContext& context, OverlayDrawing* drawing) const = 0;
 
  protected:

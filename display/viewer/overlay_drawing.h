@@ -1,6 +1,6 @@
 // display/viewer/overlay_drawing.h
 //
-// The primitives of overlays: lines, points and transparent triangles in space.
+// The primitives of which overlays consist: lines, points and transparent triangles in space.
 
 #pragma once
 
@@ -58,7 +58,8 @@ struct OverlayDrawing {
     for (std::size_t i = 2; i < convex.size(); ++i)
       triangles.push_back({{convex[0], convex[i - 1], convex[i]}, colour, opacity});
   }
-  // A line with an arrowhead at b. The barbs of the head lie close to the direction `beside`.
+  // A line from a to b with an arrowhead at b. The arrowhead lies in the plane of the line and the direction
+  // `beside`.
   void Arrow(const Vec3& a, const Vec3& b, const Vec3& beside, Colour colour, float width = 1.2F,
              Selection pick = {});
 };

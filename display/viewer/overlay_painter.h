@@ -1,7 +1,7 @@
 // display/viewer/overlay_painter.h
 //
-// Paints overlays into the display's picture; surfaces in front hide them. The painter is software, like the
-// display: pictures with and without a window have equal bytes.
+// Paints overlays into the display's picture. Parts of overlays behind surfaces are hidden. The painter works
+// in software, so that pictures have the same bytes with and without a window.
 
 #pragma once
 
@@ -21,17 +21,18 @@ namespace penumbra::viewer {
 // The depth of each pixel of a picture.
 class DepthMap {
  public:
-  // A map of an empty scene.
+  // Makes the depth map of an empty scene.
   DepthMap(const PixelRays& rays, int width, int height);
-  // The map of a frame of `mesh` that was drawn with these rays.
+  // Makes the depth map of `frame`, which shows `mesh` and was drawn with `rays`.
   DepthMap(const PixelRays& rays, const RenderedFrame& frame, const IrradianceMesh& mesh);
 
   int width() const { return width_; }
   int height() const { return height_; }
   const PixelRays& rays() const { return rays_; }
 
-  // 1 / depth [1/m], minus the surface's change of 1 / depth within a pixel on either side, so that points on
-  // the surface count as in front of it. 0 where there is no surface.
+  // A point is visible at the pixel if its 1 / depth is at least the threshold [1/m]. The threshold is 1 /
+  // depth of the surface, minus the change of 1 / depth over one pixel, so that points on the surface count
+  // as visible. The threshold is 0 where there is no surface.
   float Threshold(int x, int y) const { return inverse_[Index(x, y)]; }
 
  private:
@@ -52,8 +53,8 @@ ScreenPoint Project(const PixelRays& rays, const Vec3& point);
 
 void PaintOverlay(const OverlayDrawing& drawing, const DepthMap& depth, Srgb8Image* picture);
 
-// The selection of the visible line closest to (x, y), at most kPickDistance away; an empty selection if
-// there is none.
+// The selection OverlayLine::pick of the visible line nearest to (x, y), if its distance is at most
+// kPickDistance; otherwise, an empty selection.
 Selection PickLine(const OverlayDrawing& drawing, const DepthMap& depth, double x, double y);
 inline constexpr double kPickDistance = 6;  // [pixels]
 

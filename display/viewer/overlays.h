@@ -12,16 +12,16 @@ namespace penumbra::viewer {
 // The registry of all overlays, in the order of menus.
 OverlayRegistry& Overlays();
 
-// One object per overlay, in the same order.
+// Makes one object of each overlay, in the order of Overlays().
 std::vector<std::unique_ptr<const Overlay>> MakeOverlays();
 
-// What must be computed to draw all overlays that are switched on.
+// The union of the needs of all overlays that are switched on.
 OverlayNeeds NeedsOf(const OverlaySettings& settings);
 
 // The drawing of all overlays.
 OverlayDrawing DrawOverlays(const OverlayContext& context);
 
-// Adds the switches and settings of the group's overlays.
+// Adds the switches and settings of all overlays of the group to `settings`.
 void AddOverlaySettings(std::string_view group, OverlaySettings* values, Settings* settings);
 
 }  // namespace penumbra::viewer

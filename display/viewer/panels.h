@@ -11,7 +11,7 @@
 
 namespace penumbra::viewer {
 
-// The height of letters on a screen without scaling [pixels]; panels scale with it.
+// The font size on a screen without scaling [pixels]. The size of panels is proportional to the font size.
 inline constexpr float kPlainFontSize = 13;
 
 // The position and size of a panel [pixels].
@@ -23,11 +23,11 @@ struct PanelRect {
 // Draws menus and panels with Dear ImGui, and runs the user's commands.
 class Panels {
  public:
-  // REQUIRES: the call is within a frame of ImGui.
+  // REQUIRES: a frame of ImGui has been started and not ended.
   void Draw(Viewer& viewer);
 
-  // True while a user edits a field that takes the keys. ImGui's WantTextInput reports this until two frames
-  // after the end of the edit.
+  // True while the user edits a text field that receives the keys. Typing() is used instead of ImGui's
+  // WantTextInput, which remains true for two frames after the end of the edit.
   static bool Typing();
 
  private:
@@ -48,7 +48,7 @@ class Panels {
   void Dialog(Viewer& viewer);
   void Message(Viewer& viewer);
   void Legend(Viewer& viewer);
-  // Runs the action, and shows the message of its exceptions.
+  // Runs the action. If the action throws an exception, shows the exception's message to the user.
   template <class Action>
   void Try(Viewer& viewer, const Action& action);
 

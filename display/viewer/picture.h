@@ -1,7 +1,7 @@
 // display/viewer/picture.h
 //
-// The picture of a snapshot: the window's content without panels. The picture is a function of the snapshot,
-// the view and the overlays' drawing. All state in this class only saves time.
+// Makes the picture of a snapshot: the content of the window without panels. The picture depends only on the
+// snapshot, the view and the drawing of the overlays; the members of the class are caches that save time.
 
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace penumbra::viewer {
 
-// The meaning of a picture's false colours.
+// The quantity that false colours represent in a picture.
 enum class ColourScale { kNone, kIrradiance /* [W/m^2] */, kError /* relative */ };
 const char* UnitOf(ColourScale scale);
 
@@ -27,9 +27,9 @@ class PictureMaker {
   const Srgb8Image& Make(const OverlayContext& context, const ViewState& view, const OverlayDrawing& drawing,
                          int width, int height);
 
-  // True if rays are running, or finished rays are not in the picture yet.
+  // True if rays are still being cast, or if the picture does not yet contain all rays that have been cast.
   bool Busy() const { return rays_.Busy(); }
-  // True if the last picture shows the rays that are complete.
+  // True if the last picture was made by ray casting, as far as rays were complete.
   bool by_rays() const { return by_rays_; }
   double RayFraction() const { return rays_.Fraction(); }
   void CancelRays() { rays_.Cancel(); }
@@ -37,18 +37,19 @@ class PictureMaker {
   // Properties of the last picture:
   const Srgb8Image& screen() const { return screen_; }
   const RenderedFrame* frame() const { return display_ ? &display_->frame() : nullptr; }
-  // The values behind the screen colours: radiosity [W/m^2] or reflectance.
+  // The values from which the screen colours were computed: radiosity [W/m^2] or reflectance [1].
   const RgbImage& linear() const { return by_rays_ ? ray_linear_ : display_->frame().linear; }
   const DepthMap* depth() const { return depth_ ? &*depth_ : nullptr; }
   // The mesh of frame().
   const IrradianceMesh& drawn() const { return drawn_->mesh(); }
-  // The kind of the drawn mesh: a different kind from the mode's while the mode's mesh does not exist yet.
+  // The kind of the drawn mesh. The kind differs from MeshOf(view.mode) as long as the mesh of that kind does
+  // not exist.
   MeshKind drawn_kind() const { return kind_; }
   double exposure() const { return exposure_; }  // screen value per W/m^2
   ColourScale scale() const { return scale_; }
   double scale_top() const { return scale_top_; }  // of false colours
-  // The reason why the chosen back end could not draw the picture; the rasteriser then drew the picture
-  // instead. Empty if the chosen back end drew it.
+  // If the chosen back end could not draw the picture, the reason; the software rasteriser has then drawn the
+  // picture instead. Empty if the chosen back end has drawn the picture.
   const std::string& backend_error() const { return backend_error_; }
   const FrameTimes& times() const { return times_; }
 
@@ -81,7 +82,7 @@ class PictureMaker {
   FrameTimes times_;
 };
 
-// MeterExposure() for every kMeterStride-th pixel of every kMeterStride-th row.
+// The result of MeterExposure() for every kMeterStride-th pixel of every kMeterStride-th row.
 double MeterSparsely(const RgbImage& linear, const std::vector<PixelKind>& kinds);
 inline constexpr int kMeterStride = 4;
 

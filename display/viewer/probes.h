@@ -1,7 +1,7 @@
 // display/viewer/probes.h
 //
-// The probes of thesis B.4.9 and B.4.10: the contributions to the irradiance at a point, and the
-// backprojections of its sources.
+// The probes of thesis B.4.9 and B.4.10: the contributions of all sources to the irradiance at a point, and
+// the backprojections of the sources from a point.
 
 #pragma once
 
@@ -29,11 +29,12 @@ ProbeResult ProbeIrradiance(const LightState& light, const MeshState* mesh, cons
 // several; -1 if the patch has no face.
 std::int32_t FirstFace(const Scene& scene, PatchId patch);
 
-// Sums the contributions of the patches of one face. The sum has the first patch's number. The brightest
-// comes first.
+// Adds up the contributions of patches that belong to the same face. Each sum has the number of the face's
+// first patch. The result is sorted by decreasing brightness.
 std::vector<PatchContribution> JoinFaces(const Scene& scene, const std::vector<PatchContribution>& sources);
 
-// A line for standard output: x,y,z,patch, then exact, interpolated and difference, three channels each.
+// A line of CSV for standard output with the columns of kProbeHeader: x, y, z, patch, and three channels each
+// of exact irradiance, interpolated irradiance and their difference.
 std::string ProbeLine(const ProbeResult& probe);
 inline constexpr const char* kProbeHeader =
     "x,y,z,patch,exact_r,exact_g,exact_b,interp_r,interp_g,interp_b,diff_r,diff_g,diff_b";
@@ -45,8 +46,8 @@ struct BackprojectedPatch {
   std::vector<std::array<Vec3, 2>> blockers;       // edges on the outline of a blocker
   std::vector<std::array<Vec3, 2>> triangulation;  // the other edges
 };
-// The backprojections of all sources of the point's patch that send light and whose front lies partly above
-// the point's horizon. Sources whose plane contains the point are omitted.
+// The backprojection of each source that the point's patch may see, if the source sends light and its front
+// lies at least partly above the point's horizon. Sources whose plane contains the point are omitted.
 std::vector<BackprojectedPatch> Backproject(const LightState& light, const ProbedPoint& at,
                                             const ExecutionContext& context);
 

@@ -1,7 +1,7 @@
 // display/viewer/ray_picture.h
 //
 // Pictures by ray casting (RayShade, LerpShade), computed in the background from coarse to fine: first every
-// 16th pixel of every 16th row, then the pixels between.
+// 16th pixel of every 16th row, then the pixels between these.
 
 #pragma once
 
@@ -23,8 +23,8 @@ struct RayPictureKey {
   bool operator==(const RayPictureKey& other) const;
 };
 
-// Computes one picture at a time. A request for another picture cancels the running one. For use by one
-// thread, the view's.
+// Computes one picture at a time. A request for another picture cancels the running computation. Only the
+// thread of the view may call the functions.
 class RayPicture {
  public:
   RayPicture();
@@ -32,21 +32,22 @@ class RayPicture {
   RayPicture(const RayPicture&) = delete;
   RayPicture& operator=(const RayPicture&) = delete;
 
-  // Starts the picture, or continues it. If another picture is still being cancelled, the call has no effect;
-  // a later call starts the picture.
+  // Starts the computation of the picture, or continues it. If the computation of another picture has been
+  // cancelled but has not yet ended, the call has no effect, and a later call starts the computation.
   void Show(const RayPictureKey& key);
-  // Cancels the running picture. Show() does not restart it.
+  // Cancels the running computation. Show() with the same key does not restart the computation.
   void Cancel();
-  // Cancels the running picture and discards it.
+  // Cancels the running computation and discards the picture.
   void Clear();
 
-  // True if a picture is running, or pixels of it have not been painted yet.
+  // True if a picture is being computed, or if Paint() has not yet copied all computed pixels.
   bool Busy() const;
   // The fraction of complete pixels of the last picture.
   double Fraction() const;
 
-  // Copies the complete pixels into a picture of the same size [W/m^2 of radiosity]. A complete pixel also
-  // fills neighbouring pixels of finer rounds that are missing. Other pixels remain unchanged.
+  // Copies the complete pixels into a picture of the same size [W/m^2 of radiosity]. Pixels that a finer
+  // round has yet to compute get the value of a complete pixel in their neighbourhood. Other pixels remain
+  // unchanged.
   void Paint(RgbImage* linear, std::vector<PixelKind>* kinds);
 
  private:

@@ -6,7 +6,7 @@
 
 namespace penumbra::viewer {
 
-// The sample points of the interpolants, in yellow (thesis B.4.8).
+// Shows the sample points of the interpolants, in yellow (thesis B.4.8).
 OverlayRegistry::Method SamplePointOverlayMethod();
 
 }  // namespace penumbra::viewer

@@ -1,7 +1,7 @@
 // display/viewer/script.h
 //
-// Scripts that replace a user (`penumbra view --script FILE`). Each line is an action; the player runs one
-// step per frame.
+// Scripts that control the viewer in place of a user (`penumbra view --script FILE`). Each line of a script
+// is an action.
 
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace penumbra::viewer {
 
-// One step of a scripted action. Each frame runs at most one step.
+// One step of an action in a script. At most one step is run in each frame.
 struct ScriptStep {
   enum class Kind {
     kInput,
@@ -39,12 +39,12 @@ struct Script {
   std::vector<ScriptStep> steps;
 };
 
-// The description of script commands for `--help`.
+// The description of all script commands, which `--help` prints.
 extern const char* const kScriptHelp;
 
-// Parses the text. Throws InputError, `NAME:LINE: error: ...`, at the first line that is not an action.
+// Parses the text. Throws InputError, `NAME:LINE: error: ...`, for the first line that is not an action.
 Script ParseScript(const std::string& name, const std::string& text);
-// Reads and parses the file. Throws InputError if that fails.
+// Reads and parses the file. Throws InputError if the file cannot be read or is not a script.
 Script ReadScript(const std::string& path);
 
 // The functions that a script's player needs.
@@ -53,7 +53,7 @@ class ScriptStage {
   virtual ~ScriptStage() = default;
   virtual void Input(const InputEvent& event) = 0;
   virtual void Resize(int width, int height) = 0;
-  // Writes the next complete frame to a file. Throws InputError if that fails.
+  // Writes the next complete frame to a file. Throws InputError if the file cannot be written.
   virtual void Screenshot(const std::string& path) = 0;
 };
 

@@ -1,6 +1,7 @@
 // display/viewer/selection.h
 //
-// The selection (thesis B.4.6): picking by a click, validity, description.
+// Functions on the selection (thesis B.4.6): selecting an object by a click, and describing the selected
+// object.
 
 #pragma once
 
@@ -14,16 +15,19 @@
 
 namespace penumbra::viewer {
 
-// The point of a front at the frame's pixel (x, y); nothing for the background.
+// The point of a patch's front that is visible at pixel (x, y) of the frame; nullopt if the pixel shows the
+// background.
 std::optional<ProbedPoint> PointAt(const Scene& scene, const IrradianceMesh& drawn,
                                    const RenderedFrame& frame, const PixelRays& rays, double x, double y);
 
-// The selection by a click on a point of a patch: the triangle, if triangles are shown; otherwise the patch
-// as a whole or, if an element at the point is already selected, its child at the point.
+// The new selection after a click on a point of a patch. If triangles are shown, or a triangle is already
+// selected, the triangle at the point is selected. If no triangle is to be selected, the click selects an
+// element: if an element that contains the point is already selected, its child at the point; otherwise, the
+// root element of the patch.
 Selection SelectSurface(const OverlayContext& context, const ProbedPoint& at);
 
-// The selection by a click on a line: a link; the tube of a link that is already selected; or a
-// discontinuity.
+// The new selection after a click on a line. `picked` is the line's link or discontinuity. If the picked link
+// is already selected, its tube is selected instead.
 Selection SelectLine(const Selection& before, const Selection& picked);
 
 // True if the snapshot contains the selected object.
@@ -32,7 +36,7 @@ bool IsValid(const OverlayContext& context, const Selection& selection);
 // The elements of the selected object; empty for a triangle.
 std::vector<ElementId> SelectedElements(const OverlayContext& context);
 
-// The triangles of `drawn` that remain when the picture shows only the selection.
+// The indices of the triangles of `drawn` that are drawn if the picture shows only the selection.
 std::vector<std::uint32_t> IsolatedTriangles(const OverlayContext& context, const IrradianceMesh& drawn);
 
 // A description of the selected object, one string per line.

@@ -6,8 +6,8 @@
 
 namespace penumbra::viewer {
 
-// The outline of the selection (thesis B.4.6): an element; a link; a link's tube with the blockers; a
-// triangle; a discontinuity with source, blocker and receiver.
+// Draws the selected object (thesis B.4.6): the outline of an element or triangle; a link; the tube of a
+// link, with the blockers; or a discontinuity with its source, blocker and receiver.
 OverlayRegistry::Method SelectionOverlayMethod();
 
 }  // namespace penumbra::viewer

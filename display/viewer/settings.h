@@ -1,6 +1,7 @@
 // display/viewer/settings.h
 //
-// All settings of the user, by name. Panels, menus and scripts use this interface.
+// All settings that the user can change. Each setting has a name, by which panels, menus and scripts access
+// it.
 
 #pragma once
 
@@ -33,7 +34,8 @@ struct Setting {
   bool automatic = false;  // `auto` is also a value
   std::vector<std::string> choices;
   std::function<std::string()> get;
-  // Throws InputError, with a few words about the allowed values, if the value is not allowed.
+  // Sets the value. Throws InputError, with a few words about the allowed values, if the value is not
+  // allowed.
   std::function<void(const std::string&)> set;
 };
 
@@ -43,7 +45,7 @@ struct SliderRange {
   bool logarithmic = false;
 };
 
-// Settings in the order in which they were added. REQUIRES: names are unique.
+// A list of settings, in the order in which they were added. REQUIRES: all names are different.
 class Settings {
  public:
   Setting& Toggle(const std::string& name, const std::string& group, const std::string& help, bool* value);
@@ -75,7 +77,7 @@ class Settings {
                   std::function<Vec3()> get, std::function<void(const Vec3&)> set);
   Setting& Add(Setting setting);
 
-  // The setting with this name; null if there is none.
+  // The setting with this name; null if there is no such setting.
   const Setting* Find(const std::string& name) const;
   const std::vector<Setting>& all() const { return all_; }
 
@@ -87,7 +89,7 @@ class Settings {
   std::vector<Setting> all_;
 };
 
-// The number that the complete text represents. Throws InputError unless it is from `low` to `high`.
+// The number that the complete text represents. Throws InputError unless the number is from `low` to `high`.
 double NumberFrom(const std::string& text, double low, double high);
 
 // The shortest text that converts back to the number.

@@ -1,7 +1,7 @@
 // display/viewer/snapshot.h
 //
-// States that the solver's thread passes to the view. A state never changes, so that the view can draw one
-// state while the solver computes the next.
+// Immutable states that the solver's thread passes to the view. The view can therefore draw one state while
+// the solver computes the next.
 
 #pragma once
 
@@ -22,7 +22,8 @@
 
 namespace penumbra::viewer {
 
-// The global solution after some step, together with the objects that must live as long.
+// The global solution after a step of the solver, together with the objects that must live as long as the
+// solution.
 class LightState {
  public:
   LightState(std::shared_ptr<const Scene> scene, std::shared_ptr<const PatchVisibility> visibility,
@@ -37,10 +38,11 @@ class LightState {
   const Scene& scene() const { return *scene_; }
   const PatchVisibility& visibility() const { return *visibility_; }
   const RadiositySolution& solution() const { return solution_; }
-  // The options of the discontinuities for a mesh of this light.
+  // The options by which discontinuities are chosen for a mesh of this solution.
   const DiscontinuityOptions& discontinuities() const { return discontinuities_; }
 
-  // Exact irradiance at points; created by the first call. Safe from any thread.
+  // The object that computes exact irradiance; it is created by the first call. Several threads may call the
+  // function at once.
   const PointIrradiance& Exact() const {
     std::call_once(made_, [this] { exact_.emplace(solution_, *visibility_, options_); });
     return *exact_;
@@ -64,7 +66,8 @@ class MeshState {
 
   const Scene& scene() const { return *scene_; }
   const IrradianceMesh& mesh() const { return mesh_; }
-  // Finds the triangle at a point; created by the first call. Safe from any thread.
+  // The object that finds the triangle at a point; it is created by the first call. Several threads may call
+  // the function at once.
   const MeshLocator& Locator() const {
     std::call_once(made_, [this] { locator_.emplace(*scene_, mesh_); });
     return *locator_;
@@ -78,8 +81,8 @@ class MeshState {
 };
 
 inline constexpr std::size_t kMeshKinds = 4;
-// The names of the drawing modes. The switch has no default, so that the compiler reports kinds without a
-// name.
+// The name of the drawing mode that shows this kind of mesh. The switch statement has no default label, so
+// that the compiler warns of kinds without a name.
 inline const char* NameOf(MeshKind kind) {
   switch (kind) {
     case MeshKind::kFlat:
@@ -98,7 +101,8 @@ struct Snapshot {
   std::uint64_t number = 0;  // ascending
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const LightState> light;  // null before the first links
-  // Indexed by MeshKind. kFlat always exists, and is black before the first links.
+  // The meshes, indexed by MeshKind; null if a mesh has not been made. The mesh kFlat always exists, and has
+  // irradiance 0 before the first links.
   std::array<std::shared_ptr<const MeshState>, kMeshKinds> mesh;
   std::vector<IterationReport> iterations;
   std::size_t corrections = 0;

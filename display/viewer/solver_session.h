@@ -1,6 +1,7 @@
 // display/viewer/solver_session.h
 //
-// The offline half in a separate thread, in single steps, so that a window never waits for it.
+// Runs the steps of the solver and of the mesh in a separate thread, so that the window never waits for the
+// solver.
 
 #pragma once
 
@@ -27,13 +28,13 @@ struct SessionStatus {
   std::string message;  // the last error; empty: none
 };
 
-// All members except the destructor are safe from any thread; only the destructor waits for the solver. Tasks
-// run one after another, in the order of the calls.
+// All functions except the destructor may be called from any thread, and return without waiting for the
+// solver. Tasks, such as Iterate() and BuildMesh(), run one after another, in the order of the calls.
 class SolverSession {
  public:
-  // For a solution, the solution's options replace `options`.
+  // If `opened` is a solution, its options are used instead of `options`.
   SolverSession(const OpenedScene& opened, const PipelineOptions& options);
-  // Cancels, and waits for the end of the running step.
+  // Cancels all tasks, and waits for the end of the running step.
   ~SolverSession();
   SolverSession(const SolverSession&) = delete;
   SolverSession& operator=(const SolverSession&) = delete;
@@ -42,14 +43,15 @@ class SolverSession {
   std::shared_ptr<const Snapshot> snapshot() const;
   SessionStatus status() const;
 
-  // Starts with another scene, or from a solution. If links are given (OpenedScene::restart), linking and
-  // iterating compute the light over these links; the options that determine the links (IsLinkOption) must
-  // then equal those of the given links.
+  // Continues with another scene or solution. If OpenedScene::restart is given, its links are used, and
+  // linking and iterating only compute the light over these links; in this case, the link options
+  // (IsLinkOption) must equal the options by which these links were made.
   void SetScene(const OpenedScene& opened);
-  // Sets the options of later tasks. If options of the links change, the next iteration starts from the
-  // beginning.
+  // Sets the options of later tasks. If a link option (IsLinkOption) changes, the next iteration starts from
+  // the beginning.
   void SetOptions(const PipelineOptions& options);
-  // Sets PipelineOptions::error_points of later measurements, without effect on other results.
+  // Sets PipelineOptions::error_points for later measurements. All results other than measurements remain
+  // valid.
   void SetErrorPoints(std::size_t points);
   PipelineOptions options() const;
 
@@ -57,16 +59,17 @@ class SolverSession {
   void Iterate();   // links first if there are no links
   void Converge();  // iterates until convergence, then corrects
   void Correct();   // by exact irradiance
-  // Builds the mesh for a display mode, from the state at the start of the task. Once the solver has settled,
-  // a request for interpolants refines the light first (Pipeline::RefineLight), and shows it.
+  // Builds the mesh for a display mode, from the state at the start of the task. If the solver has converged
+  // and `kind` is kInterpolant, the light is refined first (Pipeline::RefineLight), and the snapshot shows
+  // the refined light.
   void BuildMesh(MeshKind kind);
-  // Measures energy and the errors of the interpolants, which it builds if necessary. For a solution from a
-  // file, the file's measurements remain.
+  // Measures the energy balance and the errors of the interpolants. Builds the interpolants if necessary. For
+  // a solution from a file, the measurements in the file are kept.
   void Measure();
   // Runs Measure(), then `write`.
   void Save(std::function<void(const Pipeline&)> write);
-  // Runs another long task that reads the latest state, for example for a picture. An InputError from the
-  // task becomes the status message.
+  // Runs another long task that reads the latest snapshot, for example to make a picture. If the task throws
+  // InputError, the text of the error becomes SessionStatus::message.
   void Run(const std::string& phase,
            std::function<void(const Snapshot&, const ExecutionContext& context)> work);
 
@@ -102,7 +105,7 @@ class SolverSession {
   bool stopping_ = false;
   bool stale_links_ = false;  // options changed after linking
 
-  // For the solver's thread only.
+  // Only the solver's thread uses the following members.
   std::shared_ptr<const PatchVisibility> visibility_;
   std::unique_ptr<Pipeline> pipeline_;
   std::shared_ptr<const PipelineState> restart_;  // its links transport the light; null: the scene's own

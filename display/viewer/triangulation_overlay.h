@@ -8,10 +8,11 @@
 
 namespace penumbra::viewer {
 
-// The overlay's switch. While triangles are shown, a click selects a triangle.
+// The name of the switch that shows the triangles. While triangles are shown, a click selects a triangle.
 inline constexpr std::string_view kTrianglesSwitch = "triangles";
 
-// The triangles of the irradiance mesh: discontinuity edges in violet, others in green (thesis B.4.5).
+// Shows the triangles of the irradiance mesh, with edges on discontinuities in violet and all other edges in
+// green (thesis B.4.5).
 OverlayRegistry::Method TriangulationOverlayMethod();
 
 }  // namespace penumbra::viewer

@@ -1,7 +1,7 @@
 // display/viewer/user_files.h
 //
-// Files that keep the window's state from one run to the next, in the state folder of the XDG base directory
-// specification: $XDG_STATE_HOME/penumbra, by default ~/.local/state/penumbra.
+// Files that store the window's state until the next run of the program. The files are in the state folder of
+// the XDG base directory specification: $XDG_STATE_HOME/penumbra, by default ~/.local/state/penumbra.
 
 #pragma once
 
@@ -23,18 +23,19 @@ class UserFiles {
   std::string Read(const std::string& name) const;  // empty if there is no such file
   void Write(const std::string& name, const std::string& text) const;
 
-  // The scenes that were opened, the latest first.
+  // The paths or names of the scenes that were opened, in reverse order of time.
   std::vector<std::string> Recent() const;
-  // Moves a scene to the front. Paths are stored as absolute paths.
+  // Adds a scene at the front of the list Recent(), or moves it there. Paths are stored as absolute paths.
   void AddRecent(const std::string& scene) const;
 
-  // Stores which panels are open, and opens the stored panels.
+  // KeepPanels() stores which panels are open; OpenPanels() opens these panels.
   void KeepPanels(const Viewer& viewer) const;
   void OpenPanels(Viewer* viewer) const;
 
-  // The named cameras of a scene, the oldest first; `scene` as in AddRecent().
+  // The cameras of a scene that the user has named, the oldest first. `scene` is a path or name, as for
+  // AddRecent().
   std::vector<Camera> Cameras(const std::string& scene) const;
-  // Stores a camera, in place of a camera with the same name in the same scene.
+  // Stores a camera. The new camera replaces a stored camera with the same name in the same scene.
   void KeepCamera(const std::string& scene, const Camera& camera) const;
 
  private:

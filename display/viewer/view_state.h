@@ -1,6 +1,7 @@
 // display/viewer/view_state.h
 //
-// All parameters of the window's picture besides the snapshot. The picture is a function of the two.
+// All parameters of the window's picture except the snapshot. The picture is a function of the snapshot and
+// the ViewState.
 
 #pragma once
 
@@ -18,10 +19,10 @@
 
 namespace penumbra::viewer {
 
-// The modes of drawing faces, as in `penumbra render`.
+// The modes in which faces are drawn, with the same meaning as in `penumbra render`.
 enum class DrawMode : std::uint8_t { kFlat, kGouraud, kGouraudMesh, kInterpolant, kExact, kLerp, kRho };
 
-// True for modes that cast rays. Until the rays are complete, the picture shows the two passes.
+// True for modes that cast rays. Until the rays are complete, the picture is drawn by the two-pass display.
 inline bool CastsRays(DrawMode mode) { return mode == DrawMode::kExact || mode == DrawMode::kLerp; }
 
 // The kind of mesh that a mode draws.
@@ -36,8 +37,8 @@ enum class SelectionKind : std::uint8_t { kNone, kElement, kLink, kTube, kTriang
 
 struct Selection {
   SelectionKind kind = SelectionKind::kNone;
-  // An ElementId, or an index in LinkSet::links, in IrradianceMesh::triangles or in the list of
-  // discontinuities.
+  // The selected object: an ElementId, or an index in LinkSet::links, in IrradianceMesh::triangles or in the
+  // list of discontinuities.
   std::int64_t index = -1;
 
   bool operator==(const Selection&) const = default;
@@ -54,7 +55,7 @@ struct ProbedPoint {
   }
 };
 
-// The settings of the overlays on the faces (thesis B.4).
+// The settings of the overlays, which are drawn over the faces (thesis B.4).
 struct OverlaySettings {
   std::set<std::string, std::less<>> shown;  // names of the switches that are on
   int mesh_depth = 20;                       // deepest level of elements that is drawn

@@ -1,7 +1,7 @@
 // display/viewer/viewer.h
 //
-// The viewer without its window: user input goes in, pictures come out. A window, a script or a test drives
-// the viewer, one frame after another.
+// The viewer without its window: it receives user input and makes pictures. A window, a script or a test
+// drives the viewer, one frame after another.
 
 #pragma once
 
@@ -26,7 +26,7 @@
 
 namespace penumbra::viewer {
 
-// The state of the window around the picture.
+// The state of the panels and dialogs around the picture.
 struct PanelState {
   bool control = false, help = false, details = true, report = false, parameters = false;
   std::string dialog;  // the setting whose value a dialog requests; empty: no dialog
@@ -38,12 +38,12 @@ struct ViewerOptions {
   ViewerFiles files;
   PipelineOptions solving;
   bool solve = true;  // start to solve at once
-  // Receives the output line of each probe.
+  // A function that receives the output line of each probe.
   std::function<void(const std::string&)> print;
-  // Receives the name of each opened scene.
+  // A function that receives the name of each opened scene.
   std::function<void(const std::string&)> opened;
-  // The cameras that the user named in a scene in earlier runs, and a function that stores a newly named
-  // camera.
+  // kept_cameras() returns the cameras that the user has named in a scene in earlier runs; keep_camera()
+  // stores a camera that the user has just named.
   std::function<std::vector<Camera>(const std::string& scene)> kept_cameras;
   std::function<void(const std::string& scene, const Camera& camera)> keep_camera;
 };
@@ -52,18 +52,20 @@ class Viewer {
  public:
   Viewer(const OpenedScene& opened, ViewerOptions options);
 
-  // One frame: takes over the results of solver and analyses since the last frame, moves a walking camera by
-  // `seconds`, and draws width x height pixels. REQUIRES: no OpenGL context is current in this thread.
+  // Makes one frame: takes over new results of the solver and of analyses; in walk mode, moves the camera by
+  // the distance that the user walks in the time `seconds`; and draws width x height pixels. REQUIRES: no
+  // OpenGL context is current in this thread.
   const Srgb8Image& Frame(int width, int height, double seconds);
 
-  // Processes user input on the picture, in the order of time.
+  // Processes one event of user input on the picture. Events must be passed in the order of time.
   void Handle(const InputEvent& event);
 
-  // Run a menu item, and set a setting. Throw InputError if there is none, or if it fails.
+  // RunMenu() runs a menu item; Set() sets a setting. RunMenu() and Set() throw InputError if the item or
+  // setting does not exist, or if the action fails.
   void RunMenu(const std::string& path);
   void Set(const std::string& name, const std::string& value);
 
-  // True if nothing is being computed, nothing will be without user input, and the last frame shows all
+  // True if no computation is running, none will start without user input, and the last frame shows all
   // results.
   bool Idle();
 
@@ -75,9 +77,9 @@ class Viewer {
   const PictureMaker& picture() const { return picture_; }
   const std::vector<Camera>& cameras() const { return cameras_; }
   SessionStatus status() const { return session_.status(); }
-  // A few words about the computations besides the solver's.
+  // A few words about running computations other than the solver's.
   std::string activity();
-  // The message for the user: the last error up to the last frame; empty: none.
+  // The message for the user: the last error that occurred before the last frame; empty if there is no error.
   const std::string& message() const { return message_; }
   void Dismiss() { message_.clear(); }
   void Complain(const std::string& message) { message_ = message; }
@@ -91,7 +93,7 @@ class Viewer {
     return view_.navigation == Navigation::kWalk && view_.mouse_look && panels_.dialog.empty();
   }
 
-  // Sets the scenes that were opened before, the latest first.
+  // Sets the list of recently opened scenes, the latest first.
   void SetRecent(const std::vector<std::string>& names);
   void AddCamera(const Camera& camera);
   // Throws InputError if ValidateCamera() rejects the camera.
@@ -151,8 +153,8 @@ class Viewer {
   void DrawOverlays();
   void HearSession();
   bool HasNews() const;
-  // The session, for a task that the user requests. Discards older messages, and reports the session's next
-  // message even if it equals the last one.
+  // Returns the session, for a task that the user requests. Begin() also discards older messages, so that the
+  // next message of the session is shown even if it equals the last one.
   SolverSession& Begin();
   void SolvingChanged() { session_.SetOptions(options_.solving); }
 
@@ -173,11 +175,11 @@ class Viewer {
   std::string heard_;  // the last message of the session that was shown
   std::size_t printed_ = 0;
   std::shared_ptr<const ProbeResult> printed_probe_;
-  // The meshes that were requested, each with the snapshot's number. Each is requested once, even if it was
-  // cancelled.
+  // The meshes that were requested, each with the number of its snapshot. A mesh is requested only once, even
+  // if its computation was cancelled.
   std::set<std::pair<std::uint64_t, MeshKind>> asked_;
 
-  // The drawing of the overlays, and the inputs of the drawing.
+  // The latest drawing of the overlays, and the data from which it was made.
   OverlayDrawing drawing_;
   struct DrawnOf {
     std::shared_ptr<const Snapshot> snapshot;

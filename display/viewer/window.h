@@ -10,11 +10,11 @@
 
 namespace penumbra::viewer {
 
-// Shows the viewer in a window until the user or the script ends it. If `files` is not null, the window
-// restores its state from `files` at the start, and saves it there. With a script, the window ignores user
-// input, and each frame takes kScriptFrame of time. Text and panels are `scale` times as large as on an
-// unscaled screen; without a value, the monitor's factor applies, or 1 with a script. Throws InputError if no
-// window can be opened; passes on the exceptions of a script.
+// Shows the viewer in a window until the user or the script ends it. If `files` is not null, the state of the
+// window is restored from `files` at the start, and saved there at the end. If a script runs, user input is
+// ignored, and each frame counts as kScriptFrame seconds. Text and panels are enlarged by the factor `scale`.
+// By default, the factor is the scale that the monitor requests, or 1 if a script runs. Throws InputError if
+// no window can be opened; also throws the exceptions of ScriptPlayer::Advance().
 void RunWindow(Viewer& viewer, const Script* script, const UserFiles* files,
                std::optional<double> scale = std::nullopt);
 inline constexpr double kScriptFrame = 1.0 / 60;  // seconds

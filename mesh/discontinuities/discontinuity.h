@@ -26,8 +26,8 @@
 namespace penumbra {
 
 // kNear is no discontinuity in the strict sense: below the edge of a source that hangs closely above the
-// receiver, the irradiance falls within a few times the edge's height. A mesh of larger triangles must follow
-// the edge as it follows discontinuities.
+// receiver, the irradiance falls within a few times the edge's height. Where the triangles of the mesh are
+// larger than a few times the edge's height, the mesh must follow the edge like a discontinuity.
 enum class DiscontinuityKind : std::uint8_t { kVE, kEV, kHorizon, kContact, kEEE, kNear };
 
 // The lowest derivative of the irradiance that jumps. Generic VE, EV and EEE events are D2. A horizon is D1,
@@ -36,7 +36,8 @@ enum class DiscontinuityDegree : std::uint8_t { kD0, kD1, kD2 };
 
 // The change of the irradiance across a discontinuity, along the normal of its line in the receiver, for a
 // source of 1 W/m^2. `gradient` and `curvature` are jumps of derivatives. `largest_gradient` and
-// `largest_value` bound the changes that the jumps cause on a receiver so large that the event ends on it.
+// `largest_value` are upper bounds of the total changes of gradient and irradiance that the event causes; the
+// changes are bounded because the effect of the event ends at some distance from the discontinuity.
 struct IrradianceJump {
   double gradient = 0;          // jump of the first derivative, of D1 events [1/m]
   double curvature = 0;         // jump of the second derivative, of D2 events; infinite for D1 [1/m^2]
@@ -52,13 +53,14 @@ struct Discontinuity {
   PatchId receiver = kNoPatch;
   PatchId source = kNoPatch;   // kNoPatch for a contact
   PatchId blocker = kNoPatch;  // kNoPatch for a horizon and a near edge; the touching patch for a contact
-  // VE: the vertex of the source and the edge of the blocker that span the plane of the event. EV: the
-  // source's edge and the blocker's vertex. Near: the source's edge. EEE: the source's edge, or -1 if the
-  // source has none, and the blocker's edge. The number of an edge is the number of the vertex where the
-  // edge starts.
+  // source_part and blocker_part are the numbers of the vertices or edges that cause the event. For VE,
+  // source_part is a vertex of the source, and blocker_part an edge of the blocker. For EV, source_part is an
+  // edge, and blocker_part a vertex. For EEE, source_part and blocker_part are edges; source_part is -1 if no
+  // edge belongs to the source. For kNear, source_part is the edge of the source. An edge is numbered by the
+  // vertex where it starts.
   std::int32_t source_part = -1, blocker_part = -1;
   PatchEdge second_blocker_edge, third_blocker_edge;  // EEE; the third if no edge is the source's
-  // D1 events: the edges of source and blocker that lie in one plane.
+  // For D1 events, the edge of the source and the edge of the blocker that lie in one plane.
   std::int32_t shared_source_edge = -1;
   PatchEdge shared_blocker_edge;
   double geometric_weight = 0;  // max(d_sb / d_sr), at most 1; 1 for a horizon, infinite for a contact
@@ -69,7 +71,8 @@ struct Discontinuity {
   bool wanted = false;                      // refinement has requested it, whatever its weight
 };
 
-// True if both are the same trace of the same critical surface, even if separate searches found them.
+// True if `a` and `b` are the same trace of the same critical surface, even if they were found by separate
+// calls.
 inline bool SameTrace(const Discontinuity& a, const Discontinuity& b) {
   return a.source == b.source && a.kind == b.kind && a.end[0] == b.end[0] && a.end[1] == b.end[1];
 }
@@ -79,24 +82,25 @@ inline constexpr double kInfiniteWeight = std::numeric_limits<double>::infinity(
 // The weight [W/m^2] of the discontinuity on a piece of the mesh. `size` [m] is the extent of the piece
 // across the discontinuity; `margin` [m] is the smallest distance between the discontinuity and the piece's
 // borders.
-//  kThesis: geometric_weight * strength (thesis 5.3), for any piece.
-//  kIrradiance: an estimate of the largest error of the quadratic through the piece's nodes if the piece has
-//   no edge along the discontinuity: the least of largest_value, KinkError() * (jump of the gradient or
-//   largest_gradient) and BendError() * (jump of the second derivative), times `strength`.
-//  A contact weighs kInfiniteWeight.
+//  kThesis: geometric_weight * strength (thesis 5.3), independent of the piece.
+//  kIrradiance: strength * min(largest_value, KinkError() * max(|gradient|, largest_gradient), BendError() *
+//   |curvature|), with the members of the IrradianceJump: an estimate of the error of the quadratic through
+//   the piece's nodes if the piece has no edge along the discontinuity.
+//  With both kinds, the weight of a contact is kInfiniteWeight.
 double Weight(const Discontinuity& d, DiscontinuityWeight kind, double size,
               double margin = std::numeric_limits<double>::infinity());
 
-// The largest error, over x in [0, 1] and over c, of the quadratic through the values at 0, 1/2 and 1 of
-// max(0, x - c), and of max(0, x - c)^2 / 2. For a step, the largest error is the step's height.
+// The maximum over x and c in [0, 1] of |f(x) - q(x)|, where q is the quadratic that interpolates f at 0, 1/2
+// and 1. f(x) = max(0, x - c) for kKinkError, and f(x) = max(0, x - c)^2 / 2 for kBendError.
 inline constexpr double kKinkError = 0.0962;
 inline constexpr double kBendError = 0.0188;
-// The largest errors of the same two functions on a piece of extent `size` [m] whose borders are at least
-// `margin` [m] from c: min(kKinkError size, margin) [m] and min(kBendError size^2, margin^2 / 2) [m^2].
+// Let a quadratic interpolate a function on an interval of length `size` [m], in which c is at least `margin`
+// [m] from the ends. KinkError() bounds the error for max(0, x - c) by min(kKinkError * size, margin) [m].
+// BendError() bounds the error for max(0, x - c)^2 / 2 by min(kBendError * size^2, margin^2 / 2) [m^2].
 double KinkError(double size, double margin);
 double BendError(double size, double margin);
 
-// Finds the discontinuities of one receiver per call. The constructor lists the patches that share an edge.
+// Finds the discontinuities of one receiver per call. The constructor finds the patches that share edges.
 class DiscontinuityFinder {
  public:
   // Scene and visibility must outlive the finder.
@@ -111,23 +115,25 @@ class DiscontinuityFinder {
   //  (2) The same input gives the same list, in the same order. Equal segments may occur several times.
   //  (3) An edge that two patches share causes a VE event only if the edge is a silhouette: not if both
   //   patches face the source's vertex, or both face away. The event occurs once, not once per patch. A
-  //   corner causes an EV event only if at least two edges there are silhouettes and these do not lie in one
-  //   line.
-  //  (4) Unless options.keep_hidden is set, the list omits the parts of a segment where another blocker of
-  //   the pair meets the lines from the receiver through vertex and edge.
-  //  (5) Edges and vertices of blockers within ContactGap() of the receiver touch the receiver. Such edges
-  //   and vertices cause contacts, but no further discontinuities.
+  //   corner causes an EV event only if at least two edges at the corner are silhouettes, and these edges do
+  //   not lie in one line.
+  //  (4) Unless options.keep_hidden is set, the list omits hidden parts of segments: at these parts, another
+  //   blocker of the pair intersects the lines from the receiver through vertex and edge.
+  //  (5) Edges and vertices of blockers within ContactGap() of the receiver count as touching the receiver.
+  //   Edges and vertices that touch the receiver cause contacts, but no further discontinuities.
   //  (6) If options.triple_edge_tolerance > 0, the list includes the pieces of EEE events.
   //  (7) For an edge of a source whose height above the receiver is at most kMaxHangingHeight times the
-  //   edge's length, the list includes near lines along the edge, at growing distances.
-  // Safe from any thread. If the context is cancelled, the result is incomplete.
+  //   edge's length, the list includes lines of kind kNear along the edge, at increasing distances from the
+  //   edge.
+  // May be called from several threads at once. If the context is cancelled, the result is incomplete.
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
                                   const DiscontinuityOptions& options,
                                   const ExecutionContext& context = ExecutionContext()) const;
 
-  // The parts of Find()'s result: FindContacts() returns the contacts; FindFrom() the discontinuities that
-  // one of SourcesOf() the receiver causes, none unless Counts(strength). `strength` is in W/m^2. If the
-  // context is cancelled, the result is incomplete.
+  // Two functions that compute the result of Find() in parts. FindContacts() returns the contacts. FindFrom()
+  // returns the discontinuities that one source causes; the source is an element of
+  // PatchVisibility::SourcesOf(receiver). `strength` is the largest radiosity of the source [W/m^2]; unless
+  // Counts(strength), the list is empty. If the context is cancelled, the result is incomplete.
   std::vector<Discontinuity> FindContacts(PatchId receiver, const DiscontinuityOptions& options) const;
   std::vector<Discontinuity> FindFrom(PatchId receiver, const PatchPair& pair, double strength,
                                       const DiscontinuityOptions& options,
@@ -138,8 +144,8 @@ class DiscontinuityFinder {
     return strength > 0 && strength >= options.min_weight;
   }
 
-  // JumpAt() across the line of a discontinuity of this scene, at the point `at` of the line, in the
-  // receiver's frame.
+  // The result of JumpAt() for a discontinuity of this scene at `at`, a point of its line in the receiver's
+  // frame [m].
   IrradianceJump Jump(const Discontinuity& d, const Vec2& at) const;
 
  private:

@@ -1,7 +1,7 @@
 // mesh/discontinuities/discontinuity_cache.h
 //
-// A cache of discontinuities that stores the factors of a weight separately (thesis 5.4). Traces and their
-// geometric factors are computed once; the radiometric factor is the source's current radiosity.
+// A cache of discontinuities (thesis 5.4). The weight of a discontinuity is the product of a geometric
+// factor, which the cache computes once together with the trace, and the source's current radiosity.
 
 #pragma once
 
@@ -19,16 +19,18 @@ class DiscontinuityCache {
   // Scene and visibility must outlive the cache.
   DiscontinuityCache(const Scene& scene, const PatchVisibility& visibility);
 
-  // The result of DiscontinuityFinder::Find(), byte for byte. The cache traces a source when its strength
-  // first reaches the minimum. The cache traces the source again only if options other than the strengths
-  // change, or if the source has become so bright that lighter discontinuities reach the minimum weight. Safe
-  // from several threads for different receivers. If the context is cancelled, the result is incomplete; the
-  // cache keeps what it traced completely.
+  // Returns exactly the result of DiscontinuityFinder::Find(). The discontinuities of a source are traced
+  // when its strength first reaches the minimum. The discontinuities of a source are traced again only if
+  // options other than the strengths change, or if the source has become so bright that further
+  // discontinuities reach the minimum weight. Several threads may call the function at once for different
+  // receivers. If the context is cancelled, the result is incomplete; the cache keeps the sources that were
+  // traced completely.
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
                                   const DiscontinuityOptions& options,
                                   const ExecutionContext& context = ExecutionContext());
 
-  // Pairs of receiver and source since construction: how many were traced, and how many the cache answered.
+  // The number of pairs of receiver and source that were traced since construction, and the number of pairs
+  // for which the cache already had the discontinuities.
   struct Counts {
     std::size_t traced = 0, kept = 0;
   };

@@ -1,6 +1,6 @@
 // mesh/discontinuities/discontinuity_line.h
 //
-// Lines of a patch, and the intervals on them that discontinuities cover.
+// Lines on a patch, and the intervals of the lines that discontinuities cover.
 
 #pragma once
 
@@ -32,11 +32,11 @@ struct DiscontinuityLine : DirectedLine {
   std::vector<LineInterval> contact;  // covered by a contact (D0): ascending, disjoint
 };
 
-// True if t lies in one of the intervals or within `reach` [m] of one.
+// True if the distance of t from one of the intervals is at most `reach` [m].
 bool Covers(std::span<const LineInterval> intervals, double t, double reach);
 
 // The part of the line inside the convex counter-clockwise outline and at least `inset` [m] from each side of
-// the outline. A negative inset extends the outline. Empty if t0 > t1.
+// the outline. A negative inset extends the outline. The interval is empty if t0 > t1.
 LineInterval ClipLine(const Vec2& origin, const Vec2& direction, const Polygon2& outline, double inset);
 
 }  // namespace penumbra

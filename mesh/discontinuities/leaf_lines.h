@@ -1,6 +1,7 @@
 // mesh/discontinuities/leaf_lines.h
 //
-// The lines that cross the leaves of a patch, while the patch's discontinuities are activated one by one.
+// Records which lines cross which leaves of a patch while the patch's discontinuities are activated one by
+// one.
 
 #pragma once
 
@@ -20,7 +21,7 @@ namespace penumbra {
 // The corners of a leaf in the plane of its patch, counter-clockwise [m].
 Polygon2 LeafOutline(const Element& leaf, const Frame& frame);
 
-// A leaf on which a discontinuity impinges.
+// A leaf that a discontinuity meets.
 struct Impinged {
   std::size_t leaf;  // index in LeafLines::leaves()
   bool inside;       // the discontinuity crosses the leaf's interior, not only its border
@@ -28,32 +29,33 @@ struct Impinged {
 
 class LeafLines {
  public:
-  // Starts without lines. No leaf takes more than `most` lines through its interior.
+  // At construction, no leaf has lines. At most `most` lines may cross the interior of a leaf.
   LeafLines(const ElementForest& forest, PatchId patch, std::size_t most);
 
   // The leaves of the patch, depth first.
   std::span<const ElementId> leaves() const { return leaves_; }
 
-  // The leaves that the discontinuity meets. The result is valid until the next call.
+  // The leaves that the discontinuity meets. The result is valid until the next call of Meet().
   std::span<const Impinged> Meet(const Discontinuity& d);
   // Adds to `cost` the parts of the discontinuity in the interiors of leaves, with their jumps. `number` is
   // the index of `line` in `jumps`; scale[i] multiplies the errors on leaf i.
   void Describe(const Discontinuity& d, const LineJumps& jumps, const DirectedLine& line, std::int32_t number,
                 std::span<const double> scale, OmissionCost* cost);
 
-  // True if the line would cross the leaf's interior and the leaf has no room for it.
+  // True if the line would cross the leaf's interior, but the leaf already has the largest number of lines.
   bool Full(const Impinged& i, std::int32_t line) const;
-  // True if a leaf that the discontinuity crosses has no room for its line. `line` is -1 if no leaf has the
-  // line.
+  // True if at least one leaf that the discontinuity crosses has no room for `line`, the number of the
+  // discontinuity's line; -1 stands for a line that no leaf has yet.
   bool Crowds(const Discontinuity& d, std::int32_t line);
-  // Adds the line to the leaf, for one more discontinuity.
+  // Adds the line to the leaf, or, if the leaf has the line already, adds one more discontinuity to this
+  // line.
   void Join(const Impinged& i, std::int32_t line);
 
-  // Per leaf, in the order of Join(): the lines through the interior; and these together with the lines along
-  // the border.
+  // inside()[i] lists the lines through the interior of leaf i, in the order of the calls of Join().
+  // touching()[i] lists these lines and the lines along the border of the leaf.
   std::span<const std::vector<std::int32_t>> inside() const { return inside_; }
   std::span<const std::vector<std::int32_t>> touching() const { return touching_; }
-  // The largest number of discontinuities that joined one line of one leaf.
+  // The largest number of discontinuities that Join() has added to one line of one leaf.
   std::size_t most_merged() const { return most_merged_; }
 
  private:

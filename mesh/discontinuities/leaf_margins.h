@@ -8,13 +8,14 @@
 
 namespace penumbra {
 
-// The largest distance between two points that were snapped to one line, one from either side.
+// The largest distance between two points that were snapped to the same line, one from each side of the line.
 inline constexpr double kOnLine = 2;
-// The smallest distance between a vertex inside a leaf and the leaf's border: kOnLine, and room for a segment
-// that bends by 1.
+// The smallest distance between a vertex inside a leaf and the leaf's border: kOnLine plus room for a segment
+// that snapping bends by 1.
 inline constexpr double kLeafMargin = 4;
-// A discontinuity that ends within this distance of a leaf's border, along its line, counts as reaching the
-// border. This distance also bounds how much of a segment that nearly touches a border is cut off.
+// A discontinuity counts as reaching the border of a leaf if the distance of its end from the border,
+// measured along its line, is at most kLeafReach. If a segment nearly touches a border, at most the length
+// kLeafReach of the segment is cut off.
 inline constexpr double kLeafReach = 64;
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // mesh/discontinuities/mesh_options.h
 //
-// Options and reports of the local pass.
+// Options and reports of the local pass, which computes the mesh from the solution.
 
 #pragma once
 
@@ -11,43 +11,46 @@
 
 namespace penumbra {
 
-// The kinds of weights of discontinuities. The weight of a contact is infinite in both.
+// The kinds of weights of discontinuities. With both kinds, the weight of a contact is infinite.
 enum class DiscontinuityWeight : std::uint8_t {
   kThesis,      // max(d_sb / d_sr) times the source's radiosity (thesis 5.3)
   kIrradiance,  // the error of a leaf's quadratic without the edge (after the thesis's 8.2)
 };
 
-// The DiscontinuityOptions::choice that makes no discontinuity an edge.
+// The value of DiscontinuityOptions::choice with which no discontinuity becomes an edge.
 inline constexpr const char* kNoDiscontinuities = "none";
 
 // The upper bound of DiscontinuityOptions::corner_divisions.
 inline constexpr int kMostCornerDivisions = 20;
 
-// Which discontinuities become edges of the mesh (thesis 5.2, Appendix A).
+// Options that determine which discontinuities become edges of the mesh (thesis 5.2, Appendix A).
 struct DiscontinuityOptions {
   std::string choice = "ranked";  // a name in DiscontinuityChoices()
   DiscontinuityWeight weight = DiscontinuityWeight::kThesis;
   double min_weight = 0;  // Tree::minDiscontWeight [W/m^2]
-  // With the ranked choice and the irradiance weight, refinement may request lighter discontinuities that
-  // cost at least this on some leaf [W/m^2]. At min_weight or more, refinement may request none.
+  // With the choice "ranked" and the weight kIrradiance, refinement may request discontinuities of weight <
+  // min_weight if the cost of omission is at least min_wanted_weight on some leaf [W/m^2]. If
+  // min_wanted_weight >= min_weight, refinement may not request any discontinuity.
   double min_wanted_weight = std::numeric_limits<double>::infinity();
   int max_leaf_dsets = 10;   // Tree::maxLeafDSets: largest number of discontinuity edges in a leaf
   bool keep_hidden = false;  // keep the parts of wedges that other blockers hide, as in the thesis
-  // If positive, triple-edge (EEE) events as well, traced as polylines within this distance [m]; 0: none, as
-  // in the thesis.
+  // If positive, triple-edge (EEE) events are included, traced as polylines within this distance of the true
+  // curve [m]. With 0, triple-edge events are omitted, as in the thesis.
   double triple_edge_tolerance = 0;
   std::uint64_t seed = 1;   // of the random choice
   double random_share = 1;  // share of the discontinuities, apart from contacts, that the random choice tries
-  // The number of times that leaves without room for a discontinuity that other leaves could take are split;
-  // 0: not at all, as in the thesis. No leaf becomes smaller than min_split_area [m^2].
+  // If a leaf has no room for a discontinuity that other leaves could use as an edge, the leaf is split, and
+  // the choice is repeated, at most crowded_splits times. With 0, no leaf is split, as in the thesis. No leaf
+  // becomes smaller than min_split_area [m^2].
   int crowded_splits = 0;
   double min_split_area = 0;
-  // The number of times that a leaf where a contact ends is divided towards the end, because no polynomial
-  // fits there; min_split_area applies here as well.
+  // The leaf that contains the end of a contact is divided corner_divisions times in succession, because no
+  // polynomial fits the irradiance near the end. No leaf becomes smaller than min_split_area.
   int corner_divisions = 0;
 
-  // True if the choice makes any discontinuity an edge. This function and the next three throw InputError if
-  // no choice has the name `choice`.
+  // True if the method `choice` makes any discontinuity an edge of the mesh. The functions enabled(),
+  // ranks_by_error(), can_want() and LeastWeight() throw InputError if there is no method with the name
+  // `choice`.
   bool enabled() const;
   // True if only the cost of omission determines the order of discontinuities.
   bool ranks_by_error() const;

@@ -6,8 +6,9 @@
 
 namespace penumbra {
 
-// Chooses in random order, as many discontinuities as a leaf has room for, contacts first: a baseline for the
-// ranked choice. Apart from contacts, the choice tries the fraction DiscontinuityOptions::random_share.
+// Chooses first the contacts, then other discontinuities in random order, until leaves have no more room: a
+// baseline with which RankedChoiceMethod() is compared. Of the discontinuities that are no contacts, only the
+// fraction DiscontinuityOptions::random_share is considered.
 DiscontinuityChoiceRegistry::Method RandomChoiceMethod();
 
 }  // namespace penumbra

@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// Chooses the heaviest discontinuities, as many as a leaf has room for (thesis 5.5.7).
+// Chooses discontinuities in order of decreasing weight, until leaves have no more room (thesis 5.5.7).
 DiscontinuityChoiceRegistry::Method RankedChoiceMethod();
 
 }  // namespace penumbra

@@ -1,8 +1,8 @@
 // mesh/discontinuities/shadow_crossing.h
 //
 // Adaptive discontinuity meshing (Stuerzlinger 1994) inserts the exact shadow boundaries of a source only in
-// elements that a boundary crosses. Visibility of the source from the element's corners tells which elements
-// these are.
+// elements that a boundary crosses. A boundary is assumed to cross an element if different parts of the
+// source are visible from the element's corners.
 
 #pragma once
 
@@ -14,14 +14,15 @@
 
 namespace penumbra {
 
-// Tests the leaves of one receiver, and stores the results.
+// Tests whether shadow boundaries cross the leaves of one receiver, and caches the results.
 class ShadowCrossing {
  public:
   // All arguments must outlive the object; the forest must not change.
   ShadowCrossing(const ElementForest& forest, const PatchVisibility& visibility, PatchId receiver);
 
-  // True unless the leaf's corners and centre all see the same of the source's corners and centre. The test
-  // misses shadows that lie between these points, as in the paper.
+  // Tests the visibility of the source's corners and centre from the leaf's corners and centre. Returns false
+  // if the same points of the source are visible from all points of the leaf. As in the paper, the test
+  // misses shadows that lie between the tested points.
   bool Crosses(PatchId source, ElementId leaf);
 
  private:

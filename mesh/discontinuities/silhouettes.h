@@ -1,8 +1,8 @@
 // mesh/discontinuities/silhouettes.h
 //
-// The patches that meet in an edge or a corner, and the edges that are silhouettes. An edge is a silhouette
-// from a point if one of the edge's two faces faces the point and the other faces away, or if the edge does
-// not have exactly two faces.
+// Finds the patches that meet in an edge or a corner, and the edges that are silhouettes. An edge is a
+// silhouette from a point if one of the edge's two faces faces the point and the other faces away, or if the
+// edge does not have exactly two faces.
 
 #pragma once
 
@@ -21,7 +21,8 @@ struct PatchEdge {
   std::int32_t k = 0;
 };
 
-// Corners and edges of a scene by number. Corners, or edges, with equal coordinates have one number.
+// Numbers the corners and the edges of a scene. Corners with equal coordinates have the same number, and so
+// have edges with equal end points.
 class Silhouettes {
  public:
   explicit Silhouettes(const Scene& scene);
@@ -43,7 +44,7 @@ class Silhouettes {
   // False if exactly two faces meet in the edge and the point sees the fronts of both, or of neither. From a
   // point in the plane of one face, the edge is a silhouette.
   bool IsSilhouette(std::int32_t edge, const Vec3& from) const;
-  // False only if the edge is no silhouette from any point of the convex polygon.
+  // A conservative test: returns false only if the edge is a silhouette from no point of the convex polygon.
   bool MayBeSilhouette(std::int32_t edge, std::span<const Vec3> polygon) const;
 
  private:
@@ -58,7 +59,7 @@ class Silhouettes {
   };
 
   // The heights of the point above the two faces that meet in the edge [m], with the second face oriented
-  // like the first. Two zeros unless exactly two faces meet.
+  // like the first. The result is {0, 0} unless exactly two faces meet in the edge.
   std::array<double, 2> Sides(std::int32_t edge, const Vec3& from) const;
 
   static std::size_t Size(std::int32_t i) { return static_cast<std::size_t>(i); }

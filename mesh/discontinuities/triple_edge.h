@@ -5,10 +5,11 @@
 // blockers in front of the source's interior (thesis 5.2; Gigus and Malik 1990). The lines that touch three
 // skew edges rule a quadric. The quadric's trace on the receiver is a piece of a conic.
 //
-// Let p move along the first edge. The line through p and the other two edges is the intersection of two
-// planes, which contain p and one of these edges each. The normals of both planes are linear in p. Therefore
-// the line's direction is quadratic in p, and so is every function that tells on which side the line passes
-// another line. Events begin and end at roots of such functions.
+// For a point p of the first edge, the line through p and the other two edges has the direction n2 x n3,
+// where n2 and n3 are normals of the planes through p and the second or the third edge. The normals n2 and n3
+// are linear in p, and the direction n2 x n3 is therefore quadratic in p. The function whose sign tells on
+// which side of another edge the line passes is quadratic in p, too. Events begin and end at roots of such
+// quadratic functions.
 
 #pragma once
 
@@ -44,9 +45,10 @@ struct TripleEdgeOptions {
   double rounding = 0;       // distances up to this count as zero [m]
 };
 
-// The events of each pair of blockers' silhouette edges with an edge of the source, and of each triple of
-// blockers' silhouette edges. Triples in which two edges lie in one plane are omitted: their events are VE or
-// EV events, or degenerate to points. REQUIRES: options.tolerance > 0.
+// Traces the events of all triples of edges that consist of an edge of the source and two silhouette edges of
+// blockers, or of three silhouette edges of blockers. Triples in which two of the edges lie in one plane are
+// omitted: the events of such triples are VE or EV events, or degenerate to points. REQUIRES:
+// options.tolerance > 0.
 std::vector<TripleEdgeTrace> TraceTripleEdges(const Scene& scene, const Silhouettes& silhouettes,
                                               PatchId receiver, PatchId source,
                                               std::span<const PatchId> blockers,

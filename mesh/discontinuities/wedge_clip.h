@@ -1,8 +1,8 @@
 // mesh/discontinuities/wedge_clip.h
 //
-// The visible parts of a wedge's trace. A wedge is a part of a critical plane, the plane of a VE or EV event:
-// all lines from the receiver through the event's vertex to the source. The trace of a wedge is a segment on
-// the receiver.
+// The visible parts of a wedge's trace. A wedge is the set of all lines of a VE or EV event from the receiver
+// through the event's vertex to the source; it is a part of the critical plane of the event. The trace of a
+// wedge is a segment on the receiver.
 
 #pragma once
 
@@ -25,14 +25,16 @@ struct Wedge {
   double rounding = 0;          // distances up to this count as zero [m]
 };
 
-// The visible parts of a trace, as fractions from its first end to its second: ascending, disjoint.
+// The visible parts of a wedge's trace: ascending disjoint intervals of the parameter t, where t = 0 is the
+// first end of the trace and t = 1 the second end.
 class TraceParts {
  public:
   struct Part {
     double t0, t1;
   };
-  // Removes the parts that the patch hides: those where the patch meets the wedge's lines strictly between
-  // source and receiver. A patch that lies in the critical plane, or only on one side of it, hides nothing.
+  // Removes the parts that the blocker hides: those where the blocker intersects the wedge's lines strictly
+  // between source and receiver. A patch that lies in the critical plane, or only on one side of it, hides
+  // nothing.
   void Hide(const Wedge& wedge, const Patch& blocker);
   const std::vector<Part>& parts() const { return parts_; }
 

@@ -1,6 +1,7 @@
 // mesh/interpolants/current_irradiance.h
 //
-// Exact irradiance from a solution that changes: created on demand, and dropped when the solution changes.
+// The exact irradiance from a solution that may change. The PointIrradiance is created on demand; Reset()
+// deletes it when the solution changes.
 
 #pragma once
 
@@ -16,13 +17,14 @@ namespace penumbra {
 
 class CurrentIrradiance {
  public:
-  // Creates the irradiance from the present solution. Null if it was cancelled.
+  // A function that creates the PointIrradiance of the present solution; it returns null if the context is
+  // cancelled.
   using Make = std::function<std::unique_ptr<const PointIrradiance>(const ExecutionContext&)>;
 
   explicit CurrentIrradiance(Make make) : make_(std::move(make)) {}
 
-  // Returns the same object until Reset(); null if its creation was cancelled. Safe from any thread, but not
-  // concurrently with Reset().
+  // Returns the same object until Reset(); null if the creation of the object was cancelled. Several threads
+  // may call the function at once, but not concurrently with Reset().
   const PointIrradiance* Get(const ExecutionContext& context = ExecutionContext()) {
     const std::lock_guard<std::mutex> lock(making_);
     if (!irradiance_) irradiance_ = make_(context);

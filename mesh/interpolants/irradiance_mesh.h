@@ -1,7 +1,7 @@
 // mesh/interpolants/irradiance_mesh.h
 //
-// The result of the offline half and the input of the online half (thesis, abstract): a list of triangles
-// with one irradiance interpolant each. The display needs only this mesh and the materials.
+// The result of the solver and the input of the display (thesis, abstract): a list of triangles with one
+// irradiance interpolant each. The display needs only this mesh and the materials.
 
 #pragma once
 

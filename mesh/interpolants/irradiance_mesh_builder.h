@@ -5,8 +5,8 @@
 //
 // A node is a vertex or the midpoint of an edge. The irradiance at a node is the limit from the interior of
 // the triangle that needs it (6.3). If the sampler reports a one-sided value, every triangle at the node gets
-// its own value. Therefore no light leaks across a contact (D0) edge, and each corner at the end of a contact
-// has the value for its own direction (6.4).
+// its own value. Because triangles do not share one-sided values, no light leaks across a contact (D0) edge,
+// and at the end of a contact, each triangle has the value for its own direction (6.4).
 
 #pragma once
 
@@ -24,15 +24,15 @@
 
 namespace penumbra {
 
-// PointIrradiance::OnPatch() or a replacement. Must be safe from several threads at once.
+// PointIrradiance::OnPatch() or a function that replaces it. Several threads call the function at once.
 using IrradianceSampler = std::function<PointIrradianceResult(PatchId, const ReceiverPoint&)>;
-// A sampler that calls PointIrradiance::NearlyOnPatch() with this tolerance. `exact` must outlive the
-// sampler.
+// A sampler that calls exact.NearlyOnPatch() with the given tolerance. `exact` must outlive the sampler.
 IrradianceSampler NearSampler(const PointIrradiance& exact, double tolerance);
-// A sampler that calls PointIrradiance::RecordOnPatch() with this tolerance, so that samples have rows.
+// A sampler that calls exact.RecordOnPatch() with the given tolerance, so that its samples have rows. `exact`
+// must outlive the sampler.
 IrradianceSampler RecordingSampler(const PointIrradiance& exact, double tolerance);
-// The same sampler, except that it returns an empty result after cancellation. `context` must outlive the
-// result.
+// A sampler that calls `sampler`, but returns irradiance 0 after the context is cancelled. `context` must
+// outlive the returned function.
 IrradianceSampler WhileGoing(IrradianceSampler sampler, const ExecutionContext& context);
 
 // The value of ReceiverPoint::uncertainty for samples on the patch [m].
@@ -44,15 +44,15 @@ struct BuiltMesh {
 };
 
 // The mesh of all patches, with linear or quadratic interpolants. The order of patches and triangles is that
-// of `patches`. The result does not depend on the number of threads. With a cache, the builder evaluates only
-// samples that the cache lacks, and adds them to the cache. REQUIRES: patches[i] belongs to patch i of the
-// scene; order is not kConstant.
+// of `patches`. The result does not depend on the number of threads. If `cache` is not null, only samples
+// that are not in the cache are evaluated, and they are added to the cache. REQUIRES: patches[i] is the
+// triangulation of patch i of the scene; order is not kConstant.
 BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangulation> patches,
                               InterpolantOrder order, const IrradianceSampler& sampler,
                               const ExecutionContext& context, SampleCache* cache = nullptr);
 
-// The same triangles with constant interpolants: the irradiance of each triangle's leaf. `element_irradiance`
-// is indexed by ElementId [W/m^2].
+// The mesh of all patches with constant interpolants: each triangle has the irradiance of its leaf.
+// `element_irradiance` [W/m^2] is indexed by ElementId.
 IrradianceMesh BuildConstantMesh(std::span<const PatchTriangulation> patches,
                                  std::span<const Rgb> element_irradiance);
 

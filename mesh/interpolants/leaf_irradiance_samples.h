@@ -1,7 +1,7 @@
 // mesh/interpolants/leaf_irradiance_samples.h
 //
-// Approximate irradiance at points of a leaf, where the leaf's mean is not enough: half of a leaf may lie in
-// shadow.
+// Approximate irradiance at points of a leaf. Approximate irradiance is used where the mean irradiance of the
+// leaf is not accurate enough, for example because half of the leaf lies in shadow.
 
 #pragma once
 
@@ -13,16 +13,17 @@
 
 namespace penumbra {
 
-// Answers for the leaves of one patch, and stores the samples. Not safe from several threads at once.
+// Computes the irradiance for the leaves of one patch, and caches the samples. The object must not be used by
+// several threads at once.
 class LeafIrradianceSamples {
  public:
   // All arguments must outlive the object; the forest must not change.
   LeafIrradianceSamples(const ElementForest& forest, PatchId patch, const IrradianceSampler& sampler);
 
-  // The approximate irradiance at a point of the leaf [W/m^2]: linear between samples at the leaf's corners,
-  // at the midpoints of its sides and at its centre.
+  // The approximate irradiance at a point of the leaf [W/m^2]: linear interpolation between samples at the
+  // leaf's corners, at the midpoints of its sides and at its centre.
   Rgb At(ElementId leaf, const Vec3& place);
-  // Calls of the sampler since construction.
+  // The number of calls of the sampler since construction.
   std::size_t evaluations() const { return samples_.size(); }
 
  private:

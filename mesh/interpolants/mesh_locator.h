@@ -20,8 +20,8 @@ class MeshLocator {
     double s = 0, t = 0;         // coordinates of the interpolant: s, t >= 0, s + t <= 1
   };
 
-  // The distance from a patch's triangles, in units of SnapDistance(), up to which a point counts as on their
-  // border.
+  // A point outside all triangles of a patch counts as lying on their border if its distance from the border
+  // is at most kBorder * SnapDistance().
   static constexpr double kBorder = 16;
 
   // Scene and mesh must outlive the locator.
@@ -29,10 +29,11 @@ class MeshLocator {
   ~MeshLocator();
   MeshLocator(MeshLocator&&) noexcept;
 
-  // The triangle of the patch that contains the point's projection on the patch. If several do, the one with
-  // the largest minimum barycentric coordinate; if these are equal, the one with the lowest index. A point
-  // outside the patch by at most max(tolerance, kBorder * SnapDistance()) [m] is moved to the border; a point
-  // farther outside gives no location. Safe from any thread.
+  // The triangle of the patch that contains the point's projection on the patch. If several triangles contain
+  // the projection, the result is the triangle with the largest minimum barycentric coordinate; if these are
+  // equal, the triangle with the lowest index. A point outside the patch by at most max(tolerance, kBorder *
+  // SnapDistance()) [m] is moved to the border; for a point farther outside, the result is nullopt. May be
+  // called from several threads at once.
   std::optional<Location> Find(PatchId patch, const Vec3& point, double tolerance = 0) const;
 
  private:

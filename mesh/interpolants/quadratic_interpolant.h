@@ -12,8 +12,8 @@
 
 namespace penumbra {
 
-// The coordinates (s, t) of the six samples in their order (thesis 3.3): vertices and midpoints of edges in
-// turn, starting at vertex 0 along edge 01.
+// The coordinates (s, t) of the six samples in their order (thesis 3.3): vertex 0, midpoint of edge 01,
+// vertex 1, midpoint of edge 12, vertex 2, midpoint of edge 20.
 inline constexpr std::array<std::array<double, 2>, 6> kSampleAt = {
     {{0, 0}, {0.5, 0}, {1, 0}, {0.5, 0.5}, {0, 1}, {0, 0.5}}};
 
@@ -24,8 +24,8 @@ struct QuadraticInterpolant {
 
   Rgb At(double s, double t) const { return (a * s + b2 * t + c2) * s + (d * t + e2) * t + f; }
 
-  // The quadratic through six samples in the order of kSampleAt. Samples of a quadratic reproduce it up to
-  // rounding.
+  // The quadratic through six samples in the order of kSampleAt. If the samples are values of a quadratic,
+  // the result is this quadratic, up to rounding.
   static QuadraticInterpolant Quadratic(const std::array<Rgb, 6>& r);
   // The linear interpolant through samples at the three vertices.
   static QuadraticInterpolant Linear(const std::array<Rgb, 3>& r);

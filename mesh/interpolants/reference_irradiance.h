@@ -1,7 +1,7 @@
 // mesh/interpolants/reference_irradiance.h
 //
-// Factors that make errors of the shown irradiance relative to the irradiance that the solution has on a
-// leaf.
+// Factors that convert absolute errors of irradiance to errors relative to the irradiance of a leaf in the
+// solution.
 
 #pragma once
 
@@ -19,17 +19,18 @@ class ReferenceIrradiance {
   // factors are 1.
   ReferenceIrradiance(const RadiositySolution& solution, DiscontinuityWeight weight);
 
-  // The factor of errors on a leaf of the forest, which must be the solution's forest or grown from it: (mean
-  // irradiance over the scene's leaves) / (irradiance of the leaf, bounded from below), so that dark leaves
-  // have factors above 1.
+  // The factor for errors on a leaf: (mean irradiance of the scene's leaves) / (irradiance of the leaf,
+  // bounded from below); it exceeds 1 for dark leaves. `forest` is the solution's forest or a refinement of
+  // it.
   double ScaleOf(const ElementForest& forest, ElementId leaf) const;
-  // The factor for errors at a point with irradiance `light` [W/m^2], which may be darker than any leaf's
-  // mean.
+  // The factor for errors at a point with irradiance `light` [W/m^2], which may be less than the mean
+  // irradiance of every leaf.
   double ScaleIn(const Rgb& light) const;
-  // The largest factor over the leaves of the patch.
+  // The maximum of ScaleOf() over the leaves of the patch.
   double LargestScale(PatchId patch) const;
-  // The options with a minimum weight that finds all discontinuities that may become edges on the patch,
-  // given the irradiance of its leaves, even if only because refinement requests them.
+  // Returns `options` with min_weight so small that DiscontinuityFinder finds all discontinuities that may
+  // become edges on the patch, including those that refinement may request. The minimum weight depends on the
+  // irradiance of the patch's leaves.
   DiscontinuityOptions ToFindOn(PatchId patch, DiscontinuityOptions options) const;
 
  private:

@@ -19,31 +19,34 @@
 
 namespace penumbra {
 
-// The largest 99th percentile of errors in a part of the scene, as a multiple of the requested error.
+// In each part of the scene, the 99th percentile of the errors must be at most kPartError * (requested
+// error).
 inline constexpr double kPartError = 2;
 
-// Statistics over points and channels of |shown - true| / max(true, kErrorFloor * the channel's mean
-// irradiance).
+// Statistics of the relative error |shown - true| / max(true, kErrorFloor * mean irradiance of the channel),
+// over points and channels.
 struct RepresentationError {
   std::size_t points = 0;
   double max = 0, p99 = 0, p95 = 0, rms = 0;
   // Likely bounds of the true 99th percentile: the quantiles 0.99 + sigma and 0.99 - sigma - 1 / points,
-  // where sigma = sqrt(0.99 * 0.01 / points) is the standard deviation of the fraction of points above.
+  // where sigma = sqrt(0.99 * 0.01 / points) is the standard deviation of the fraction of points whose error
+  // exceeds the true percentile.
   double p99_at_most = 0, p99_at_least = 0;
   std::int32_t worst_face = -1;     // face with the largest error, in the user's numbering
   Vec3 worst_point = Vec3::Zero();  // [m]
 };
 
-// The irradiance that counts as none: 1e-10 of the largest emittance [W/m^2]. Coplanar faces whose vertices
-// are rounded to six decimals in a file deviate by angles of 1e-6, and their form factors are about 1e-12.
+// Irradiance of at most 1e-10 * (largest emittance) counts as zero [W/m^2]. Coplanar faces whose vertices are
+// rounded to six decimals in a file deviate by angles of 1e-6, and their form factors are about 1e-12.
 Rgb NoLight(const Scene& scene);
 
-// The relative errors: for each point, those of the three channels. An error is |shown - true| / max(true,
-// floor), where floor = max(kErrorFloor * the channel's mean over `truth`, `least`).
+// The relative errors of all channels: entry 3 i + c is the error of channel c at point i. An error is |shown
+// - true| / max(true, floor), where floor = max(kErrorFloor * the channel's mean over `truth`, `least`).
 std::vector<double> RelativeErrors(std::span<const Rgb> shown, std::span<const Rgb> truth,
                                    const Rgb& least = Rgb::Zero());
 
-// The smallest of the values that a fraction q of them does not exceed. REQUIRES: there are values.
+// The q-quantile: the smallest entry v of `values` such that at least a fraction q of the entries is <= v.
+// REQUIRES: `values` is not empty.
 double Quantile(std::vector<double> values, double q);
 
 // The error of one channel at one point.
@@ -52,10 +55,11 @@ struct ValueError {
   std::size_t point = 0;
 };
 
-// The same errors, without the channels that the surface of a point does not reflect (ReflectingChannels).
+// Like RelativeErrors(), but omits those channels at each point that the surface does not reflect
+// (ReflectingChannels).
 std::vector<ValueError> SeenErrors(const Scene& scene, std::span<const SurfacePoint> at,
                                    std::span<const Rgb> shown, std::span<const Rgb> truth);
-// The same quantile of the errors; 0 without values.
+// The q-quantile of ValueError::error; 0 if `values` is empty.
 double Quantile(std::span<const ValueError> values, double q);
 
 // The error in one part of the scene (PartsOf).
@@ -74,21 +78,21 @@ struct MeasuredError {
   std::vector<PartError> by_part;  // `whole` for each part that is seen
 };
 
-// Where errors are measured.
+// The parameters of MeasureError().
 struct ErrorMeasurement {
   std::size_t points = 0;
   std::uint64_t seed = 0;
   double bound = 0;  // of errors: MeasuredError::above counts larger ones
 };
 
-// Measures errors at `points` random points, distributed uniformly by area over the fronts that are seen
-// (ReflectingAreas), and at additional points in each part of the scene, so that a large part does not hide
-// the errors of a small part. The same seed gives the same points. With probability one, no point is an
-// interpolation node. Without `better` samplers, only MeasuredError::interpolant is filled in.
+// Measures errors at `points` random points, distributed uniformly by area over the reflecting fronts
+// (ReflectingAreas), and at additional points in each part of the scene, so that the errors of a small part
+// are measured, too. The same seed gives the same points. With probability one, no point is an interpolation
+// node. If `better` is empty, only MeasuredError::interpolant is computed.
 MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
                            std::span<const IrradianceSampler> better, const ErrorMeasurement& measurement);
 
-// MeasuredError::interpolant of MeasureError().
+// Computes only MeasuredError::interpolant, as MeasureError() does.
 RepresentationError MeasureRepresentationError(const Scene& scene, const IrradianceMesh& mesh,
                                                const IrradianceSampler& sampler, std::size_t points,
                                                std::uint64_t seed);

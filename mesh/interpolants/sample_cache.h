@@ -1,9 +1,12 @@
 // mesh/interpolants/sample_cache.h
 //
-// Irradiance samples that remain valid from one mesh to the next: most nodes keep their places when leaves
-// are divided or lines added. Samples that have rows of form factors remain valid when the light changes, too:
-// their new values are products. The key of a sample is its patch and its exact position. The key of a one-sided
-// sample also has the direction of approach, which identifies the sample's sheet.
+// A cache of irradiance samples that remain valid from one mesh to the next: most nodes keep their positions
+// when leaves are divided or lines are added. The key of a sample is its patch and its exact position. The
+// key of a one-sided sample also contains the approach direction, which identifies the sample's sheet, the
+// side of the contact on which the sample lies.
+//
+// A sample that has a row of form factors (FactorRow) also remains valid when the light changes: its new
+// irradiance is a product.
 
 #pragma once
 
@@ -28,6 +31,7 @@ class SampleCache {
   // samples.
   std::size_t Relight(const SourceSet& before, const PointIrradiance& now, double tolerance,
                       const ExecutionContext& context);
+  // Removes all samples.
   void Clear();
   std::size_t size() const { return samples_.size(); }
 

@@ -15,8 +15,8 @@
 
 namespace penumbra {
 
-// Errors relative to max(true, kErrorFloor * the channel's mean), over the additional points and the
-// channels.
+// Statistics of |interpolant - true| / max(true, kErrorFloor * mean of the channel), over the additional
+// points and the channels.
 struct TriangleError {
   double max = 0, rms = 0;
 };
@@ -31,24 +31,24 @@ struct TriangleSampling {
   Rgb mean;         // mean irradiance of each channel [W/m^2]
 };
 
-// Measures the listed triangles at samples^2 points each: the centroids of the congruent pieces into which
-// lines parallel to the sides cut a triangle (SAMPLES of the thesis, Appendix A). Points in the cache are not
-// evaluated again. REQUIRES: samples >= 1.
+// Measures the listed triangles at samples^2 points each: lines parallel to the sides cut the triangle into
+// congruent triangles, whose centroids are the points (SAMPLES in the thesis, Appendix A). Points in the
+// cache are not evaluated again. REQUIRES: samples >= 1.
 MeasuredTriangles MeasureTriangles(const Scene& scene, const IrradianceMesh& mesh,
                                    std::span<const std::uint32_t> triangles, const TriangleSampling& sampling,
                                    const IrradianceSampler& sampler, SampleCache* cache = nullptr);
 
 // Estimates of TriangleError::max from the interpolants alone, without evaluations. Where the irradiance is
-// smooth, so is its gradient; the jump of the interpolants' gradient across an edge therefore indicates their
-// error. The estimates show where to measure. Edges on discontinuities contribute nothing. `mean` is the
-// channels' mean irradiance [W/m^2].
+// smooth, so is its gradient; the jump of the interpolants' gradient across an edge therefore indicates the
+// error of the interpolants. The estimates indicate which triangles are worth measuring. Edges on
+// discontinuities contribute nothing. `mean` is the mean irradiance of each channel [W/m^2].
 std::vector<double> GuessTriangleErrors(const Scene& scene, const IrradianceMesh& mesh, const Rgb& mean);
 
 // For each patch, the area of the triangles whose TriangleError::max is above `error` [m^2].
 std::vector<double> AreaAbove(const Scene& scene, const IrradianceMesh& mesh,
                               std::span<const TriangleError> errors, double error);
 
-// The area-weighted mean of the interpolants over the patches that are seen (ReflectingAreas), per channel
+// The area-weighted mean of the interpolants over the reflecting patches (ReflectingAreas), for each channel
 // [W/m^2].
 Rgb MeanIrradiance(const Scene& scene, const IrradianceMesh& mesh);
 

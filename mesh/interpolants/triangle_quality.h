@@ -1,7 +1,8 @@
 // mesh/interpolants/triangle_quality.h
 //
-// The shapes of a mesh's triangles. Slivers need samples that add little information, and the quadratic of a
-// long triangle follows the irradiance along the triangle no better than the quadratic of a short one.
+// The shapes of a mesh's triangles. Long thin triangles are undesirable: the samples across their short side
+// add little information, and along their long side one quadratic must fit the irradiance over the whole
+// length.
 
 #pragma once
 
@@ -12,7 +13,8 @@
 namespace penumbra {
 
 // Statistics over the triangles of a mesh. The aspect of a triangle is (longest side / height on that side),
-// divided by the same ratio of an equilateral triangle; 1 is the best. All zero for an empty mesh.
+// divided by the same ratio of an equilateral triangle; 1 is the best. All members are zero for an empty
+// mesh.
 struct TriangleQuality {
   double smallest_angle = 0;   // of all triangles [degrees]
   double median_angle = 0;     // median of the triangles' smallest angles [degrees]

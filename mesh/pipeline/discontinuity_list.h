@@ -1,7 +1,7 @@
 // mesh/pipeline/discontinuity_list.h
 //
-// All discontinuities of a solution in one list, for inspection. (The mesh finds discontinuities separately
-// for each receiver.)
+// All discontinuities of a solution in one list, for inspection. (The computation of the mesh does not use
+// this list; it finds the discontinuities of each receiver separately.)
 
 #pragma once
 
@@ -21,9 +21,9 @@ struct DiscontinuityList {
   std::vector<std::array<Vec3, 2>> ends;  // of each discontinuity, in space [m]
 };
 
-// The discontinuities on all patches that may become edges of the mesh, even if only because refinement
-// requests them: the results of DiscontinuityFinder::Find() for the solution's radiosities. Empty if
-// cancelled.
+// The discontinuities on all patches that may become edges of the mesh, including those that refinement may
+// request. The list holds the results of DiscontinuityFinder::Find() for the solution's radiosities. The list
+// is empty if the context is cancelled.
 DiscontinuityList ListDiscontinuities(const RadiositySolution& solution, const PatchVisibility& visibility,
                                       const DiscontinuityOptions& options, const ExecutionContext& context);
 

@@ -1,8 +1,8 @@
 // mesh/pipeline/hdf5_image.h
 //
 // HDF5 files as bytes in memory: typed arrays at paths such as "mesh/positions". Equal arrays, written in the
-// same order, give equal bytes; a file contains no times and no file names. Several threads may write and
-// read at the same time, each its own file.
+// same order, give equal bytes; a file contains no times and no file names. Several threads may read and
+// write at once if each thread uses its own reader or writer.
 
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace penumbra {
 
-// The library's message about an image that it cannot read.
+// The error that the HDF5 library cannot read an image; what() is the library's message.
 class Hdf5Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -65,7 +65,7 @@ class Hdf5Writer {
   void Write(const std::string& path, ScalarType type, const ArrayShape& shape, const void* data);
   // Writes a UTF-8 text, which must not end with zero bytes.
   void WriteText(const std::string& path, const std::string& text);
-  // Returns the complete file. Nothing may be written afterwards.
+  // Returns the complete file. Nothing may be written after this call.
   std::string Finish();
 
  private:

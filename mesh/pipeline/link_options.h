@@ -1,7 +1,7 @@
 // mesh/pipeline/link_options.h
 //
-// The options of a solve that determine the links (SolveOption::links_depend). A solve that continues from
-// the links of another solve must use that solve's values.
+// The link options are the options of a solve that determine its links (SolveOption::links_depend). A solve
+// that continues from the links of another solve must use that solve's values.
 
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace penumbra {
 
-// True if `name` is one of these options. `name` is the option's name on the command line without dashes.
+// True if `name` is the name of a link option, as on the command line but without dashes.
 bool IsLinkOption(std::string_view name);
 
-// Copies these options from `from` to `to`.
+// Copies the values of all link options from `from` to `to`.
 void TakeLinkOptions(const PipelineOptions& from, PipelineOptions* to);
 
 }  // namespace penumbra

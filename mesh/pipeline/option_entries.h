@@ -8,7 +8,7 @@
 
 namespace penumbra {
 
-// The entries of OptionTable(). Other code calls OptionTable() instead.
+// The entries of OptionTable(). Only OptionTable() calls this function; other code uses OptionTable().
 std::vector<SolveOption> OptionEntries();
 
 }  // namespace penumbra

@@ -20,7 +20,7 @@
 
 namespace penumbra {
 
-// The value of any option. The value of a choice is a name.
+// The value of any option. The value of an option of the kind kChoice is a name.
 using OptionValue = std::variant<bool, std::uint64_t, double, std::string>;
 
 // The alternatives of OptionValue, in the same order.
@@ -32,22 +32,23 @@ struct OptionField {
   NumberRange numbers;    // range of a number
   IntegerRange integers;  // range of an integer
   std::function<std::vector<std::string>()> choices;  // the names of a choice; the two words of a flag
-  // Returns the value; nothing if the option is omitted, or if the chosen solver has no place for the option.
+  // Returns the value; nullopt if the option is not set, or if the chosen solver does not have the option.
   std::function<std::optional<OptionValue>(const PipelineOptions&)> get;
-  // Sets the value; without a value, omits the option. REQUIRES: the value is of this kind; a value is given
-  // unless the option is optional; the chosen solver has a place for the option.
+  // Sets the value; nullopt removes the value of an optional option. REQUIRES: the value is of the type
+  // `kind`; it is nullopt only if `optional`; the chosen solver has the option.
   std::function<void(const std::optional<OptionValue>&, PipelineOptions*)> set;
 };
 
-// A description of the allowed values that can follow "is not": "a number from 1e-6 to 10".
+// A description of the allowed values that completes a message "'TEXT' is not ...", for example "a number
+// from 1e-6 to 10".
 std::string AllowedValues(const OptionField& field);
-// The value of the complete text. Throws InputError, for example "'TEXT' is not a number from 1e-6 to 10", if
-// the text is not an allowed value.
+// Converts the complete text to a value. Throws InputError, for example "'TEXT' is not a number from 1e-6 to
+// 10", if the text is not an allowed value.
 OptionValue ParseValue(const OptionField& field, std::string_view text);
-// The text that ParseValue() converts back to the value.
+// Converts a value to a text, such that ParseValue() converts the text back to the value.
 std::string ValueText(const OptionField& field, const OptionValue& value);
 
-// Functions that make fields. A `place` is a pointer to a member of PipelineOptions, or a function from
+// The functions below make fields. A `place` is a pointer to a member of PipelineOptions, or a function from
 // PipelineOptions& (const or not) to a reference to a value or to an optional value.
 
 template <class Type>
@@ -55,7 +56,8 @@ inline constexpr bool kIsOptional = false;
 template <class Type>
 inline constexpr bool kIsOptional<std::optional<Type>> = true;
 
-// A field with conversions from the type in the place to OptionValue and back.
+// Makes a field. `to_value` and `from_value` convert between OptionValue and the type of the member at
+// `place`.
 template <class Place, class ToValue, class FromValue>
 OptionField MakeField(OptionKind kind, Place place, ToValue to_value, FromValue from_value) {
   using Held = std::remove_cvref_t<std::invoke_result_t<Place, PipelineOptions&>>;
@@ -100,7 +102,7 @@ OptionField NumberField(Place place, NumberRange range) {
   return field;
 }
 
-// The field of an integer. The type must hold the whole range.
+// The field of an integer. The type of the member must be able to represent all integers of the range.
 template <class Place>
 OptionField IntegerField(Place place, IntegerRange range) {
   using Held = std::remove_cvref_t<std::invoke_result_t<Place, PipelineOptions&>>;
@@ -111,7 +113,7 @@ OptionField IntegerField(Place place, IntegerRange range) {
   return field;
 }
 
-// The values of an enum, with their names.
+// A list of the values of an enum with their names.
 template <class Enum>
 using NamedValues = std::vector<std::pair<std::string, Enum>>;
 
@@ -124,7 +126,7 @@ std::string NameAmong(const NamedValues<Enum>& values, Enum value) {
   return {};
 }
 
-// The value with this name. Throws InputError if there is none.
+// The value with the name `name`. Throws InputError if no value has this name.
 template <class Enum>
 Enum ValueAmong(const NamedValues<Enum>& values, const std::string& name) {
   for (const auto& [other, named] : values)
@@ -146,7 +148,8 @@ OptionField ChoiceField(Place place, const NamedValues<Enum>& values) {
   return field;
 }
 
-// The field of a method's name in a registry, which must outlive the field.
+// The field of an option whose value is the name of a method in a registry. The registry must outlive the
+// field.
 template <class Place, class Methods>
 OptionField NameField(Place place, const Methods& methods) {
   OptionField field = MakeField(

@@ -8,10 +8,11 @@
 
 namespace penumbra {
 
-// Squares and products of numbers between these bounds neither underflow to zero nor overflow.
+// Squares and products of numbers between kTiniestOption and kLargestOption neither underflow to zero nor
+// overflow.
 inline constexpr double kTiniestOption = 1e-100, kLargestOption = 1e100;
 
-// The numbers from `low` to `high`; also 0 if `or_zero`.
+// The numbers from `low` to `high`, and the number 0 if `or_zero`.
 struct NumberRange {
   double low = 0, high = 0;
   bool or_zero = false;

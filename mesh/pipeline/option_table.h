@@ -1,8 +1,8 @@
 // mesh/pipeline/option_table.h
 //
-// A table of all options that a user can set for a solve. Command line, help, reports, solution files, the
-// window's panel and the checks of a restart all use this table. A new option is a member of PipelineOptions
-// and an entry of the table (option_entries.cpp).
+// A table of all options that a user can set for a solve. The command line, the help, the reports, the
+// solution files, the window's panel and the checks before a solve is continued all use OptionTable(). A new
+// option is a member of PipelineOptions and an entry of the table (option_entries.cpp).
 
 #pragma once
 
@@ -19,8 +19,8 @@
 
 namespace penumbra {
 
-// The groups of options in the help, in the order of the help. The options for studies serve comparisons
-// only, and come last.
+// The groups of options in the help, in the order of the help. The group kStudies contains options that serve
+// only to compare methods, and comes last.
 enum class OptionGroup : std::uint8_t { kRunning, kSolving, kHierarchical, kDense, kMesh, kStudies };
 
 // The group's title.
@@ -42,7 +42,8 @@ constexpr const char* GroupTitle(OptionGroup group) {
   return "For studies";
 }
 
-// A value of a choice that only studies use; the help lists it among the options for studies.
+// A value of an option of the kind kChoice that serves only to compare methods; the help lists it in the
+// group kStudies.
 struct StudyChoice {
   std::string name, help;
 };
@@ -61,10 +62,12 @@ struct SolveOption {
   const char* otherwise = "";  // optional options: a description of the default
   const char* help = "";       // a sentence for --help, without unit, range and default
   std::vector<StudyChoice> study_choices = {};
-  // Optional options whose default follows from other options: the value that the solve uses.
+  // A function that returns the value that the solve uses; only for optional options whose default depends on
+  // other options.
   std::function<OptionValue(const ResolvedOptions&)> resolved = {};
-  // The value for older solution files, which do not contain this option. `before` holds the values that the
-  // file has for the options before this one in the table. Empty if all files contain the option.
+  // Returns the value of this option for older solution files, which do not contain the option. `before`
+  // holds the file's values of the options that precede this one in the table. The function is empty if all
+  // files contain the option.
   std::function<OptionValue(const PipelineOptions& before)> in_older_files = {};
   const char* label = "";    // a few words for the window's panel, without the unit
   const char* setting = "";  // the name in the window, if different from NAME
@@ -72,21 +75,22 @@ struct SolveOption {
 
 // All options, in the order of reports and solution files.
 const std::vector<SolveOption>& OptionTable();
-// The option with this name; null if there is none.
+// The option with this name; null if there is no such option.
 const SolveOption* FindOption(std::string_view name);
 
 // The option's key in reports and solution files: the name with '_' instead of '-'.
 std::string OptionKey(const SolveOption& option);
-// The option as on the command line: --NAME, or --no-NAME.
+// The option as the user writes it on the command line: --NAME, or --no-NAME.
 std::string CommandLineName(const SolveOption& option);
 // The option's name in the window.
 std::string SettingName(const SolveOption& option);
 
-// The names of a choice that the help lists with the option, without those for studies.
+// The names of the option's values that the help lists with the option; values that serve only to compare
+// methods are excluded.
 std::vector<std::string> UsualChoices(const SolveOption& option);
-// The help's sentence, with unit, range and the description of the default.
+// The option's sentence in the help, including the unit, the range and the description of the default.
 std::string OptionHelp(const SolveOption& option);
-// The default; nothing if the default follows from other options.
+// The default value; nullopt if the default depends on other options.
 std::optional<OptionValue> DefaultValue(const SolveOption& option);
 
 // True if the chosen solver uses the option.
@@ -96,10 +100,10 @@ bool IsObeyed(const SolveOption& option, const PipelineOptions& options);
 // solution files.
 std::vector<std::pair<const SolveOption*, OptionValue>> UsedOptions(const PipelineOptions& options,
                                                                     const ResolvedOptions& resolved);
-// The options of a solve from the contents of a file. `told` returns the value of an option in the file, or
-// nothing if the file lacks the option. UsedOptions() of the result, resolved, equals the contents of the
-// file. Throws InputError if the file lacks an option that every file has, or contains the name of a choice
-// that does not exist.
+// Restores the options of a solve from the contents of a file. `told` returns the value of an option in the
+// file, or nullopt if the file does not contain the option. If the returned options are resolved and passed
+// to UsedOptions(), the result equals the contents of the file. Throws InputError if the file lacks a
+// mandatory option, or contains a name that is not among the option's values.
 PipelineOptions OptionsToldBy(
     const std::function<std::optional<OptionValue>(const SolveOption& option)>& told);
 

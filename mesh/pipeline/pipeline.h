@@ -1,7 +1,8 @@
 // mesh/pipeline/pipeline.h
 //
-// The offline half, from a scene to its irradiance mesh, as stages: visibility, links, iterations,
-// discontinuities, triangulations, interpolants. Command line, viewer and experiments use these stages.
+// The offline half of the method, from a scene to its irradiance mesh, as a sequence of stages: visibility,
+// links, iterations, discontinuities, triangulations, interpolants. The command line, the viewer and the
+// experiments use the class Pipeline.
 
 #pragma once
 
@@ -30,14 +31,15 @@
 
 namespace penumbra {
 
-// The error that refinement reduces (thesis 4.4).
+// The kind of error by which refinement is controlled (thesis 4.4).
 enum class RefineBy : std::uint8_t {
   kTransport,       // the error of links only; the mesh has the solution's leaves
   kRepresentation,  // the error of the shown mesh, over a coarse solution
   kBoth,
 };
 
-// The options of a user. Omitted values follow from `error` and the scene.
+// The options that a user can set. Values of options that the user omits are derived from `error` and the
+// scene.
 struct PipelineOptions {
   double error = 0.02;  // requested 99th percentile of |shown - true| / max(true, 1 % of the channel's mean)
   std::optional<double> eps;                       // [W/m^2] thesis, Appendix A, 1
@@ -45,9 +47,9 @@ struct PipelineOptions {
   std::optional<double> min_discontinuity_weight;  // [W/m^2] Appendix A, 4
   std::optional<double> min_wanted_weight;         // [W/m^2] DiscontinuityOptions::min_wanted_weight
   int max_leaf_dsets = 10;                         // Appendix A, 5
-  // The choice of discontinuities. Without a value, `weight` is the thesis's weight if
-  // min_discontinuity_weight is given, because that value is on the thesis's scale; otherwise the irradiance
-  // weight.
+  // The choice of discontinuities. If `weight` is omitted and min_discontinuity_weight is given, the weight
+  // is DiscontinuityWeight::kThesis, the scale for which the user has chosen the minimum; otherwise, it is
+  // kIrradiance.
   std::string discontinuities = "ranked";  // DiscontinuityOptions::choice
   std::optional<DiscontinuityWeight> weight;
   bool keep_hidden_discontinuities = false;
@@ -57,25 +59,27 @@ struct PipelineOptions {
   int error_samples = 1;                  // Appendix A, 8: MeasureTriangles()
   RefineBy refine = RefineBy::kBoth;
   int max_corrections = 2;  // SolverOptions::max_corrections
-  // SolverOptions::source_error. If given, the interpolants do not cut the sources.
+  // The value of SolverOptions::source_error. If source_error is given, sources are divided by the solver's
+  // corrections instead of by RefineLight().
   std::optional<double> source_error;
   int max_iterations = 100;
-  // See the members of SolverOptions with these names.
+  // The next five options set the members of SolverOptions with the same names.
   std::string form_factors = "cubature";
   IterationScheme scheme = IterationScheme::kJacobi;
   Acceleration acceleration = Acceleration::kAnderson;
   std::string oracle = "transport";
   bool multigrid = false;
-  // Limits of Solve(). At a limit, Solve() ends with the last complete step; if not even linking is complete,
-  // the scene is dark apart from emission. The limits also hold for BuildMesh() and Measure(). At a limit,
-  // BuildMesh() omits representation-based refinement or, without time for interpolants, shows the mean of
-  // each leaf; Measure() omits the remaining measurements.
+  // Limits of time and memory for Solve(), BuildMesh() and Measure(). If Solve() reaches a limit, the result
+  // is that of the last complete step; if no step is complete, radiosity equals emittance. If BuildMesh()
+  // reaches a limit, the mesh is not refined; if no time is left even for interpolants, the mesh has the mean
+  // irradiance of each leaf. If Measure() reaches a limit, the remaining measurements are omitted.
   std::optional<double> time_limit;    // [s]
   std::optional<double> memory_limit;  // [bytes] of the whole process
-  // The fraction of memory_limit reserved for the stages after a Solve() that ends at a limit: a mesh of the
-  // leaves, and a file.
+  // The fraction of memory_limit that Solve() does not use, so that memory remains for a mesh of the leaves
+  // and for writing a file.
   double memory_kept = 0.1;
-  // The start of the time limit, for example before the scene is read; if omitted, the call of Solve().
+  // The time from which time_limit is counted, for example the time before the scene is read; if omitted, the
+  // time of the call of Solve().
   std::optional<std::chrono::steady_clock::time_point> limits_from;
   int bounces = 0;                  // number of bounces whose mean irradiance is reported
   PointIrradianceOptions point;     // Appendix A, 9 and 10
@@ -85,13 +89,13 @@ struct PipelineOptions {
   DenseOptions dense;                   // for the solver `dense`
 };
 
-// The values that a solve uses.
+// The values of all options that a solve uses, including those that the user has omitted.
 struct ResolvedOptions {
   SolverOptions solver;
   DiscontinuityOptions discontinuities;
-  // If the solver allows, the interpolants of a mesh refine the light of the solution
-  // (Pipeline::RefinesLight). False with --refine transport, where links alone determine the light, and with
-  // --source-error, where the corrections cut the sources.
+  // True if the interpolants of a mesh may refine the light of the solution (Pipeline::RefineLight). False
+  // with --refine transport, where the light is determined by links alone, and with --source-error, where the
+  // solver's corrections divide the sources.
   bool refine_light = true;
 };
 // Throws InputError if an option is the name of a method that does not exist.
@@ -126,8 +130,9 @@ struct PipelineReport {
   TriangleQuality quality;
   std::vector<Rgb> bounces;  // mean irradiance by bounce [W/m^2]; empty unless requested
   RepresentationError interpolant_error;
-  // The 99th percentile of the relative error of irradiance from the solution's sources, compared with
-  // irradiance from the interpolants as sources. Both are exact up to 2 % of the requested error.
+  // The 99th percentile of the relative difference between the irradiance from the solution's leaves and the
+  // irradiance from the interpolants as sources. Irradiance is computed with a tolerance of 2 % of the
+  // requested error.
   double solution_error_estimate = 0;
   RepresentationError whole_error;  // interpolants, compared with irradiance from the interpolants as sources
   std::vector<PartError> part_errors;  // whole_error of each part of the scene that is seen
@@ -137,7 +142,7 @@ struct PipelineReport {
   std::vector<std::string> warnings;  // probable errors in the scene; one line each
 };
 
-// The results of the stages, without those that are quick to recompute.
+// The results of the stages, except results that are quick to recompute.
 struct PipelineState {
   PatchVisibility visibility;
   RadiositySolution solution;
@@ -150,9 +155,9 @@ struct PipelineState {
 class Pipeline {
  public:
   Pipeline(const Scene& scene, const PipelineOptions& options);
-  // Starts with the results of another pipeline for the same scene and options. BuildMesh() makes other kinds
-  // of meshes from the solution, and Relight() continues from it. The solver's other steps discard the
-  // results and start from the beginning.
+  // Starts with the results of another pipeline for the same scene and options. BuildMesh() can make other
+  // kinds of meshes from the given solution, and Relight() can continue from the given solution. All other
+  // steps of the solver discard the given results and start from the beginning.
   Pipeline(const Scene& scene, const PipelineOptions& options, PipelineState state);
   ~Pipeline();
 
@@ -160,61 +165,69 @@ class Pipeline {
   const PipelineOptions& options() const;
   const ResolvedOptions& resolved() const;
 
-  // The stages link and iterate: Link(), then the solver's steps until none is left (SolveStepByStep).
-  // Continues from the present step. If cancelled, keeps the solution of the last complete step. Calls the
-  // observer, if any, after each step. Throws InputError if a dense system is too large.
+  // Makes the stages "link" and "iterate": calls Link(), and then makes the solver's steps until none is left
+  // (SolveStepByStep). Solve() continues after the steps that have already been made. If cancelled, Solve()
+  // keeps the solution of the last complete step. Calls the observer, if any, after each step. Throws
+  // InputError if a dense system is too large.
   void Solve(const ExecutionContext& context, const StepObserver& observer = {});
 
-  // The same stages step by step, for inspection of each step's result. Unless stated otherwise, a cancelled
-  // step leaves solution and report unchanged.
+  // Link() and Step() make the stages of Solve() one by one, so that the result of each step can be
+  // inspected. Unless stated otherwise, a cancelled step leaves solution and report unchanged.
   //
-  // Link() computes the visibility between patches, and the links between roots; the scene is dark apart from
-  // emission. The other steps call Link() first if it has not been completed. If cancelled, Link() leaves the
-  // dark scene without links.
+  // Link() computes the visibility between patches, and the links between roots; afterwards, radiosity equals
+  // emittance. The other steps call Link() first if it has not been completed. If Link() is cancelled, the
+  // solution has no links.
   void Link(const ExecutionContext& context);
-  // LightSolver::Step(). False if cancelled.
+  // Calls LightSolver::Step(). Returns false if cancelled.
   bool Step(SolverStep step, const ExecutionContext& context);
-  // One iteration: gathers until the light settles, refines, gathers. Nothing if cancelled, or if the solver
-  // has no iterations.
+  // Makes one iteration: gathers until the light has converged, refines links, and gathers over the new
+  // links. Returns nullopt if cancelled, or if the solver has no iterations.
   std::optional<IterationReport> Iterate(const ExecutionContext& context);
-  // True if the last iteration refined nothing and left a residual below the cut-off.
+  // True if the last iteration refined no link and ended with a residual below the cut-off.
   bool Converged() const;
-  // The next step; nothing before Link(), or if the solver has no step left.
+  // The next step of the solver; nullopt before Link() has been called, and after the last step.
   std::optional<SolverStep> NextStep() const;
-  // The passes of exact irradiance over the leaves, as many as the options request. If cancelled, returns
-  // false and keeps the complete passes.
+  // Makes all passes of deferred correction that the options request. If cancelled, returns false and keeps
+  // the corrections of the complete passes.
   bool Correct(const ExecutionContext& context) { return Step(SolverStep::kCorrect, context); }
-  // Computes the light after a change of emittances or reflectances, over the existing links, which may be
-  // those of the initial state. Discards corrections. Nothing if cancelled.
+  // Computes the light again after a change of emittances or reflectances. Uses the existing links, which may
+  // be those of the PipelineState passed to the constructor. Discards corrections. Returns nullopt if
+  // cancelled.
   std::optional<IterationReport> Relight(const ExecutionContext& context);
-  // Solves again after the materials of the scene have changed, with the links and form factors that exist:
-  // calls Relight() and then Correct(), and stops at the limits of time and memory that Solve() has. The
-  // function neither tests nor refines links.
+  // Solves again after the materials of the scene have changed, with the existing links and form factors:
+  // calls Relight() and then Correct(). The limits of time and memory hold as for Solve(). SolveOverLinks()
+  // neither tests nor refines links.
   void SolveOverLinks(const ExecutionContext& context);
 
-  // True if RefineLight() has an effect: the options request it, and the solver takes light.
+  // True if RefineLight() has an effect: ResolvedOptions::refine_light and LightSolver::TakesLight() are
+  // true.
   bool RefinesLight() const;
-  // The stage refine light. Alternates until the light settles: a mesh shows the light; the sources are cut
-  // by what the mesh shows, and get the means of the interpolants. The stage is the last correction, and the
-  // only stage after the solver that changes the solution. No effect if RefinesLight() is false. REQUIRES:
-  // Link() or a step that calls it.
+  // The stage "refine light" repeats two steps until the light has converged. The first step computes the
+  // interpolants of a mesh. The second step divides leaves where the interpolants vary into smaller sources,
+  // and sets the irradiance of each source to the mean of the interpolants over the source. RefineLight()
+  // replaces the last pass of deferred correction, and is the only stage after the solver that changes the
+  // solution. RefineLight() has no effect if RefinesLight() is false. REQUIRES: Link() or a step that calls
+  // it.
   void RefineLight(const ExecutionContext& context);
 
-  // The stages discontinuities, triangulate and interpolate, as far as the kind of mesh needs them. The
-  // stages do not change the solution. For kInterpolant, unless the option `refine` is kTransport, the stages
-  // also refine the mesh (RefineMesh) until the mesh meets the requested error; `as_it_is` prevents this
-  // refinement, for inspection of a single step. No effect if the mesh exists already. REQUIRES: Link() or a
-  // step that calls it.
+  // Makes the stages "discontinuities", "triangulate" and "interpolate", as far as the kind of mesh needs
+  // them. BuildMesh() does not change the solution. A mesh of kind kInterpolant is also refined (RefineMesh)
+  // until it meets the requested error, unless the option `refine` is kTransport. If `as_it_is` is true, the
+  // mesh is not refined, so that the result of a single step can be inspected. BuildMesh() has no effect if
+  // the mesh exists already. REQUIRES: Link() or a step that calls it.
   void BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is = false);
-  // Restarts the limits now, as Solve() does, for callers that make the steps of Solve() themselves.
+  // Restarts the limits of time and memory, as Solve() does at its beginning; for callers that make the steps
+  // of Solve() themselves.
   void CountLimits();
-  // Measures the energy balance, and checks scene, links and triangles. No effect if cancelled. REQUIRES:
-  // BuildMesh() after the last step.
+  // Measures the energy balance, and checks scene, links and triangles. If cancelled, the report remains
+  // unchanged. REQUIRES: BuildMesh() after the last step.
   void Diagnose(const ExecutionContext& context = ExecutionContext());
-  // Diagnose(), and the error at random points. REQUIRES: as for Diagnose(); this pipeline made the mesh.
+  // Calls Diagnose(), and measures the error at random points. REQUIRES: this pipeline has made the mesh,
+  // after the last step.
   void Measure(const ExecutionContext& context);
   // Adds a line to PipelineReport::unmet if a few random points, which take negligible time, clearly show
-  // that the requested error is missed. Measures nothing else. REQUIRES: BuildMesh() after the last step.
+  // that the requested error is missed. No other error is measured. REQUIRES: BuildMesh() after the last
+  // step.
   void CheckErrorRoughly(const ExecutionContext& context);
   // Sets PipelineOptions::error_points for later measurements.
   void SetErrorPoints(std::size_t points);
@@ -224,15 +237,17 @@ class Pipeline {
   const PointIrradiance& irradiance() const;  // exact, from the solution's leaves; valid until the next step
   const IrradianceMesh& mesh() const;         // REQUIRES: BuildMesh()
   std::optional<MeshKind> mesh_kind() const;  // of mesh(); nothing if it shows an earlier solution
-  // One per triangle of the mesh, zero where there was no reason to measure; empty if the mesh was not
-  // refined.
+  // The errors of the mesh's triangles; zero for triangles that were not measured because their interpolants
+  // agree with the neighbours. The list is empty if the mesh was not refined.
   std::span<const TriangleError> triangle_errors() const;
 
-  // The interpolants' irradiance, at least 0 [W/m^2], at a point of the patch or at most `reach` [m] beside
-  // it; nothing elsewhere. REQUIRES: BuildMesh().
+  // max(0, irradiance of the interpolants) [W/m^2] at a point of the patch. If the point lies outside the
+  // patch, the nearest point of the patch is used if its distance is at most `reach` [m]; otherwise, the
+  // result is nullopt. REQUIRES: BuildMesh().
   std::optional<Rgb> Interpolated(PatchId patch, const Vec3& point, double reach = 0) const;
 
-  // The discontinuities for a file (ListDiscontinuities); empty if a limit leaves no time to find them.
+  // The list of discontinuities that is written to files (ListDiscontinuities); empty if the time limit ends
+  // before they are found.
   DiscontinuityList Discontinuities() const;
 
   const PipelineReport& report() const;

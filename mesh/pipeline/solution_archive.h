@@ -1,7 +1,8 @@
 // mesh/pipeline/solution_archive.h
 //
-// Tables between the solver's data structures and the arrays of a solution file. Each column, a member of all
-// rows, is one array. The same description of a table serves writing and reading.
+// Converts the solver's data structures to the arrays of a solution file, and back. A vector of structs is a
+// table: each struct is a row, and each member is a column, which is stored as one array. The same
+// description of a table is used for writing and for reading.
 
 #pragma once
 
@@ -24,7 +25,8 @@
 
 namespace penumbra {
 
-// The layout of a value in a row of an array: kCount values of type Scalar, in the shape Shape().
+// Describes how one value is stored in a row of an array: as kCount numbers of type Scalar, arranged in the
+// shape Shape().
 template <class Value>
 struct Packed {
   static_assert(std::is_arithmetic_v<Value>);
@@ -35,7 +37,7 @@ struct Packed {
   static void Unpack(const Scalar* in, Value& value) { value = *in; }
 };
 
-// Values below kLimit, one byte each.
+// Stores each value in one byte. Values must be less than kLimit.
 template <class Value, std::uint8_t kLimit>
 struct PackedByte {
   using Scalar = std::uint8_t;
@@ -62,7 +64,7 @@ struct Packed<char> : PackedByte<char, 255> {
   static void Unpack(const Scalar* in, char& value) { std::memcpy(&value, in, 1); }
 };
 
-// Three coordinates or channels.
+// Stores a vector as three coordinates or three channels.
 template <class Vector>
 struct PackedVector {
   using Scalar = double;
@@ -105,7 +107,7 @@ struct Packed<std::array<Part, kParts>> {
   }
 };
 
-// The six coefficients in the order a, 2b, 2c, d, 2e, f, three channels each.
+// Stores the coefficients of an interpolant in the order a, b2, c2, d, e2, f, each with three channels.
 template <>
 struct Packed<QuadraticInterpolant> {
   using Six = std::array<Rgb, 6>;
@@ -134,11 +136,11 @@ class ArchiveWriter {
  public:
   explicit ArchiveWriter(Hdf5Writer* file) : file_(file) {}
 
-  // Only the reader counts rows.
+  // Does nothing, because only the reader counts rows.
   template <class Row>
   void CountRows(const std::string&, const std::vector<Row>&, std::size_t = 0) {}
 
-  // Writes one value of each row: the value to which access(row) refers.
+  // Writes one column: the values access(row) of all rows.
   template <class Row, class Access>
   void Column(const std::string& path, const std::vector<Row>& rows, const Access& access) {
     using Value = std::remove_cvref_t<std::invoke_result_t<Access, const Row&>>;
@@ -149,8 +151,9 @@ class ArchiveWriter {
     file_->Write(path, ScalarTypeOf<Scalar>::value, ShapeOfRows<Value>(rows.size()), values.data());
   }
 
-  // A list per row, one after another in one array. PATH_first holds the start of each list, and the end of
-  // the last.
+  // Writes a column whose values are lists: one array holds the lists access(row) of all rows one after
+  // another. The array PATH_first holds the index where each list starts, and the index where the last one
+  // ends.
   template <class Row, class Access>
   void Lists(const std::string& path, const std::vector<Row>& rows, const Access& access) {
     using Value = typename std::remove_cvref_t<std::invoke_result_t<Access, const Row&>>::value_type;
@@ -175,7 +178,7 @@ class ArchiveReader {
  public:
   explicit ArchiveReader(const Hdf5Reader* file) : file_(file) {}
 
-  // Sets the number of rows to the number of the array's rows, minus `more`.
+  // Resizes `rows` to n - more elements, where n is the number of rows of the array at `path`.
   template <class Row>
   void CountRows(const std::string& path, std::vector<Row>& rows, std::size_t more = 0) {
     const ArrayShape shape = file_->Shape(path);
@@ -214,7 +217,8 @@ class ArchiveReader {
   const Hdf5Reader* file_;
 };
 
-// The columns of one table, below a common path. The first column determines the number of rows.
+// Reads or writes the columns of one table, whose paths begin with a common path. The first column determines
+// the number of rows.
 template <class Archive, class Rows>
 class Table {
  public:

@@ -1,7 +1,7 @@
 // mesh/pipeline/solution_check.h
 //
-// Checks of data from a solution file: all indices are in range, all numbers are finite, all trees are trees.
-// The checks cover every property on which the stages rely.
+// Checks of data from a solution file: all indices are in range, all numbers are finite, and the links
+// between parents and children form trees. The checks cover every property on which the stages rely.
 
 #pragma once
 
@@ -18,7 +18,7 @@ namespace penumbra {
 
 void CheckScene(const Scene& scene);
 void CheckVisibility(const Scene& scene, const PatchVisibility::Rows& rows);
-// The forest with exactly these elements, obtained by subdivision of the roots.
+// Makes a forest by subdividing the roots, such that its elements are exactly `elements`.
 ElementForest RestoreForest(const Scene& scene, std::span<const Element> elements);
 void CheckLight(const RadiositySolution& solution);
 void CheckMesh(const Scene& scene, const IrradianceMesh& mesh);

@@ -2,8 +2,8 @@
 //
 // Solved scenes as files. A file is a header of 512 bytes and an HDF5 image. The header identifies the file
 // and contains a digest of the whole file, so that damage is detected before anything is read.
-// thesis_notes/solution_file.md describes the contents. A file contains no times: the same solution gives the
-// same bytes.
+// thesis_notes/solution_file.md describes the contents. A file contains no dates or times, so that equal
+// solutions give equal bytes.
 
 #pragma once
 
@@ -33,8 +33,8 @@ struct StoredSolution {
 inline constexpr std::size_t kSolutionHeaderSize =
     512;  // bytes before the HDF5 image; HDF5 libraries look for an image at this offset
 
-// True if the bytes are the start of a solution file, or of another file that is not text; DecodeSolution()
-// then reports what is wrong. `beginning` holds the first kSolutionHeaderSize bytes, or the whole file if it
+// True if the bytes are the start of a solution file, or of another binary file, for which DecodeSolution()
+// throws an appropriate error. `beginning` holds the first kSolutionHeaderSize bytes, or the whole file if it
 // is shorter.
 bool LooksLikeSolution(std::string_view beginning);
 
@@ -43,8 +43,8 @@ bool LooksLikeSolution(std::string_view beginning);
 std::string EncodeSolution(const Pipeline& pipeline, const std::string& options, const std::string& report,
                            const std::string& version);
 
-// The solution in the bytes. Throws InputError, "FILE: error: …", unless the bytes are complete, have this
-// version of the layout, and pass all checks.
+// Decodes the bytes of a solution file. Throws InputError, "FILE: error: …", unless the bytes are complete,
+// have this version of the layout, and pass all checks.
 StoredSolution DecodeSolution(std::string_view bytes, const std::string& file);
 
 }  // namespace penumbra

@@ -1,7 +1,8 @@
 // mesh/pipeline/solution_schema.h
 //
-// The layout of a solution file, for writing and for reading; the type of the archive determines which
-// (solution_archive.h). Every change in this header must increment kSolutionSchema (solution_file.h).
+// The layout of a solution file. Each function writes if `archive` is an ArchiveWriter, and reads if it is an
+// ArchiveReader (solution_archive.h). Every change in this header must increment kSolutionSchema
+// (solution_file.h).
 
 #pragma once
 
@@ -56,7 +57,7 @@ void DescribeVisibility(Archive& archive, Rows& rows) {
   Table(archive, "visibility/blockers", rows.blockers).Column("patch", std::identity());
 }
 
-// The positions of elements follow from their patches and corners.
+// Positions of elements are not stored, because they follow from patches and lattice corners.
 template <class Archive, class Elements>
 void DescribeElements(Archive& archive, Elements& elements) {
   Table(archive, "elements", elements)
@@ -93,7 +94,7 @@ void DescribeLight(Archive& archive, Solution& solution) {
       .Lists("polygon", &Fragment::polygon);
 }
 
-// `kind` has one row.
+// `kind` is a vector with one element.
 template <class Archive, class Mesh, class Kind>
 void DescribeMesh(Archive& archive, Mesh& mesh, Kind& kind) {
   Table(archive, "mesh", kind).Column("kind", std::identity());
@@ -105,7 +106,7 @@ void DescribeMesh(Archive& archive, Mesh& mesh, Kind& kind) {
   Table(archive, "mesh/triangles", mesh.irradiance).Column("interpolant", std::identity());
 }
 
-// For other programs: Penumbra does not read discontinuities, but finds them again.
+// Discontinuities are stored for other programs only; Penumbra does not read them, but computes them again.
 inline void DescribeDiscontinuities(ArchiveWriter& archive, const DiscontinuityList& list) {
   Table(archive, "discontinuities", list.ends).Column("ends", std::identity());
   Table(archive, "discontinuities", list.all)

@@ -1,8 +1,8 @@
 // mesh/refinement/local_pass.h
 //
-// The local pass (Lischinski, Tampieri and Greenberg), the second half of the offline computation: from the
-// solution of the global pass to the irradiance mesh, by way of discontinuities, DSets, the triangulation of
-// leaves, and interpolants.
+// The local pass (Lischinski, Tampieri and Greenberg), the second half of the offline computation. The local
+// pass computes the irradiance mesh from the solution of the global pass in four steps: discontinuities,
+// DSets, the triangulation of leaves, and interpolants.
 
 #pragma once
 
@@ -25,7 +25,8 @@
 
 namespace penumbra {
 
-// The inputs of a mesh besides the solution and its options. Refinement adds to the plan.
+// The leaves and the requested discontinuities from which a mesh is computed, in addition to the solution and
+// the options. Refinement of the mesh adds leaves and discontinuities to the plan.
 struct MeshPlan {
   ElementForest forest;                            // the solution's, or grown from it
   std::vector<std::vector<Discontinuity>> wanted;  // per patch; patches beyond its end have none
@@ -38,8 +39,8 @@ struct MeshResult {
   MeshReport report;
 };
 
-// Data that one local pass leaves for the next one over the same scene, for example after an iteration or
-// after a division of leaves. The cache changes no result.
+// Data that one local pass computes and a later local pass over the same scene reuses, for example after an
+// iteration or after a division of leaves. The cache saves time and does not change results.
 class LocalPassCache {
  public:
   // Scene and visibility must outlive the cache.
@@ -50,37 +51,38 @@ class LocalPassCache {
   std::vector<LeafMeshCache> leaves;  // per patch
 };
 
-// The largest radiosity of each patch, over the patch's leaves and the channels [W/m^2].
+// For each patch, the maximum radiosity over the patch's leaves and the channels [W/m^2].
 std::vector<double> SourceStrengths(const RadiositySolution& solution);
 
-// The discontinuities of a patch that are no edges of the mesh, although refinement may request them.
+// The discontinuities found on a patch, and those of them that are not edges of the mesh but may be requested
+// by refinement.
 struct OmittedOfPatch {
   std::vector<Discontinuity> found;
   std::vector<OmittedDiscontinuity> omitted;
 };
 
-// The plan of a first mesh: the solution's leaves, divided towards the ends of contacts
-// options.corner_divisions times.
+// The plan of the first mesh. The leaves of the plan are the solution's leaves, except that leaves at the
+// ends of contacts are divided options.corner_divisions times.
 MeshPlan BeginPlan(const PatchVisibility& visibility, const RadiositySolution& solution,
                    const DiscontinuityOptions& options);
 
-// Triangulates the patches of a scene. One object serves repeated divisions of leaves.
+// Triangulates the patches of a scene. The object can be used again after leaves have been divided.
 class PatchTriangulator {
  public:
-  // All arguments must outlive the object. Without `cache`, the object uses its own cache.
+  // All arguments must outlive the object. If `cache` is null, the object uses its own cache.
   PatchTriangulator(const PatchVisibility& visibility, const RadiositySolution& solution,
                     const DiscontinuityOptions& options, const ExecutionContext& context,
                     LocalPassCache* cache = nullptr);
 
-  // After this call, ranking by the irradiance weight uses the sampler to find the irradiance at places where
-  // discontinuities compete for the room in a leaf (LeafIrradianceSamples). The sampler must outlive the
-  // object.
+  // After this call, if discontinuities are ranked by DiscontinuityWeight::kIrradiance and a leaf has no room
+  // for all of them, the sampler computes the irradiance at the discontinuities (LeafIrradianceSamples). The
+  // sampler must outlive the object.
   void RankWith(const IrradianceSampler& sampler) { sampler_ = &sampler; }
 
-  // Triangulates all patches along the leaves of the plan, and adds counts and seconds to `report`. The mesh
-  // may split leaves further: `leaves` of a triangulation names the leaf of the plan that contains each of
-  // the triangulation's leaves. `omitted`, if not null, gets one entry per patch unless the run was
-  // cancelled. REQUIRES: the quadtrees are balanced.
+  // Triangulates all patches along the leaves of the plan, and adds counts and seconds to `report`. Leaves
+  // may be split further for the mesh; for each leaf of a triangulation, PatchTriangulation::leaves holds the
+  // leaf of the plan that contains it. If `omitted` is not null, it receives one entry for each patch, unless
+  // the context is cancelled. REQUIRES: the quadtrees are balanced.
   std::vector<PatchTriangulation> Triangulate(const MeshPlan& plan, MeshReport& report,
                                               std::vector<OmittedOfPatch>* omitted = nullptr);
 
@@ -106,8 +108,8 @@ class PatchTriangulator {
   std::vector<double> strength_;  // SourceStrengths()
 };
 
-// The complete local pass. For constant interpolants, the function does not call the sampler. If cancelled,
-// the function returns an empty mesh. REQUIRES: the quadtrees are balanced.
+// The complete local pass. For constant interpolants, the sampler is not called. If cancelled, the function
+// returns an empty mesh. REQUIRES: the quadtrees are balanced.
 MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySolution& solution,
                         const IrradianceSampler& sampler, const MeshOptions& options,
                         const ExecutionContext& context, LocalPassCache* cache = nullptr);

@@ -1,8 +1,8 @@
 // mesh/refinement/mesh_refinement.h
 //
 // Representation-based refinement (thesis 4.4.2) of the shown mesh. Leaves where the error of the
-// interpolants is too large are divided or get more edges, for the mesh only. Sources and links remain
-// unchanged, so that a finer picture costs nothing but samples.
+// interpolants is too large are divided or get more edges. Refinement affects only the mesh: sources and
+// links remain unchanged, so that a finer mesh costs no more than additional samples.
 
 #pragma once
 
@@ -25,8 +25,9 @@
 namespace penumbra {
 
 struct MeshRefinementOptions {
-  // The relative error that a fraction 1 - kShareAbove of the area must meet, both of the fronts that are
-  // seen and of those that are not. Each part of the scene (PartsOf) must meet kPartError * error.
+  // The relative error must be at most `error` on a fraction 1 - kShareAbove of the area of the fronts that
+  // reflect (ReflectingAreas), and on the same fraction of the area of the other fronts. In each part of the
+  // scene (PartsOf), the limit is kPartError * error.
   double error = 0.02;
   double min_area = 0;  // no leaf becomes smaller than this [m^2]
   int samples = 1;      // per side of a triangle: samples^2 points measure it (thesis, Appendix A)
@@ -42,31 +43,33 @@ struct RefinedMesh {
   MeshPlan plan;  // with the leaves divided, and the discontinuities wanted, for the mesh
   std::vector<PatchTriangulation> triangulations;
   IrradianceMesh mesh;
-  // One per triangle; zero where the interpolants' gradients gave no reason to measure.
+  // The error of each triangle; zero for triangles that were not measured because the gradients of the
+  // interpolants indicate a small error.
   std::vector<TriangleError> errors;
   MeshReport report;
   double share_above = 0;        // fraction of the seen area on triangles with errors above `error`
   std::vector<ElementId> unmet;  // leaves with errors above `error` that cannot be divided
 };
 
-// The light that a mesh shows.
+// The light that a mesh represents by its interpolants.
 struct LightToShow {
   const PatchVisibility& visibility;
   const RadiositySolution& solution;
   IrradianceSampler sampler;
 };
 
-// Data from an earlier refinement; each member may be null.
+// Data from an earlier refinement that RefineMesh() reuses; each member may be null.
 struct RefinementMemory {
   LocalPassCache* local_pass = nullptr;
   const MeshPlan* start = nullptr;  // the initial plan; BeginPlan() if null
   SampleCache* samples = nullptr;   // samples of the same sampler
 };
 
-// Refines until at most kShareAbove of the area exceeds the error, no step helps, or max_rounds have been
-// done. A round takes the steps with the largest benefit / cost, as few as suffice. A step divides a leaf, or
-// makes an edge of a discontinuity that was too light for the mesh. If cancelled, the function returns an
-// empty mesh. REQUIRES: the leaves are balanced.
+// Refines the mesh until the fraction of the area where the error exceeds its limit is at most kShareAbove,
+// until no step reduces the error, or until max_rounds rounds have been made. Each round chooses the steps
+// with the largest benefit / cost, and no more steps than necessary. A step divides a leaf, or adds an edge
+// along a discontinuity that had been omitted because of its small weight. If cancelled, the function returns
+// an empty mesh. REQUIRES: the leaves are balanced.
 RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options,
                        const MeshRefinementOptions& options, const ExecutionContext& context,
                        const RefinementMemory& memory = {});

@@ -1,7 +1,7 @@
 // mesh/refinement/refinement_step.h
 //
-// Remedies for triangles with too large an error: a division of the triangle's leaf, or an edge along a
-// discontinuity that the mesh omits.
+// Steps that reduce the error of triangles. A step divides the leaf that contains the triangle, or adds an
+// edge along a discontinuity that the mesh omits.
 
 #pragma once
 
@@ -20,7 +20,7 @@
 namespace penumbra {
 
 struct RefinementStep {
-  // The area of a triangle, or a part of it, that is expected to meet the error after the step [m^2].
+  // A triangle, and the part of its area that is expected to meet the error limit after the step [m^2].
   struct Mended {
     std::uint32_t triangle = 0;  // index in the mesh
     double area = 0;
@@ -35,18 +35,20 @@ struct RefinementStep {
   bool Divides() const { return leaf != kNoElement; }
 };
 
-// All steps that help triangles with TriangleError::max above `error`: one for each leaf of such triangles,
-// and one for each omitted discontinuity whose jumps explain enough of the error of a triangle that the
-// discontinuity crosses. Discontinuities take part only if `omitted` has an entry for each patch. Errors are
-// relative to the irradiance, or to `floor` [W/m^2] if the irradiance is less.
+// All steps that may reduce the error of triangles with TriangleError::max > error. There is one step for
+// each leaf that contains triangles with too large an error. There is also one step for each omitted
+// discontinuity that crosses a triangle with too large an error, if its jumps cause a sufficiently large part
+// of the error. Discontinuities are considered only if `omitted` has an entry for each patch. Errors are
+// relative to max(irradiance, floor) [W/m^2].
 std::vector<RefinementStep> FindRefinementSteps(const IrradianceMesh& mesh,
                                                 std::span<const PatchTriangulation> triangulations,
                                                 std::span<const TriangleError> errors,
                                                 std::span<const OmittedOfPatch> omitted, double error,
                                                 double floor);
 
-// The indices of the steps with the largest (area mended) / cost, best first, until they mend `area` [m^2] or
-// no step is left. An area that several steps would mend counts for the first of them.
+// Chooses steps in order of decreasing (sum of Mended::area) / cost, until they mend `area` [m^2] in total or
+// no step is left; returns the indices of the chosen steps. If several steps would mend the same triangle,
+// its area is counted only for the first of these steps.
 std::vector<std::size_t> ChooseRefinementSteps(std::span<const RefinementStep> steps, double area);
 
 }  // namespace penumbra

@@ -1,8 +1,8 @@
 // mesh/refinement/shown_mesh.h
 //
-// The mesh that shows a solution, and its refinement by the error of what it shows (thesis 4.4.2). First the
-// sources are refined, whose light comes from the interpolants; then the leaves, until the interpolants meet
-// the requested error.
+// Computes and refines the mesh of a solution, controlled by the error of the interpolants (thesis 4.4.2).
+// First, leaves are divided into smaller sources, whose radiosities are computed from the interpolants.
+// Second, leaves are divided to refine the mesh, until the interpolants meet the requested error.
 
 #pragma once
 
@@ -44,58 +44,63 @@ struct MeshSeconds {
 
 class ShownMesh {
  public:
-  // All arguments must outlive the object. `irradiance` belongs to the solutions that are passed to the
-  // functions below.
+  // All arguments must outlive the object. `irradiance` must always be the exact irradiance from the solution
+  // that is passed to the functions below.
   ShownMesh(const Scene& scene, const PatchVisibility& visibility, CurrentIrradiance& irradiance,
             const ShownMeshOptions& options);
 
   // Makes the mesh of the solution's leaves. If cancelled, returns false and keeps the previous mesh.
   bool Make(const RadiositySolution& solution, const MeshOptions& options, const ExecutionContext& context);
-  // Refines the light of a solver. Makes a first mesh of the solver's leaves, then alternates until the light
-  // settles: cuts the sources by what the mesh shows, gives the means of the interpolants to the sources, and
-  // refines the mesh. If cancelled, returns false and leaves the last complete light. REQUIRES:
+  // Refines the light of a solver. Makes a first mesh of the solver's leaves. After the first mesh, repeats
+  // three steps until the light has converged: divides leaves where the interpolants vary into smaller
+  // sources; computes the radiosity of each source from the mean of the interpolants over the source; and
+  // refines the mesh. If cancelled, returns false and keeps the last complete light. REQUIRES:
   // solver.TakesLight().
   bool RefineLight(LightSolver& solver, const MeshOptions& options, const ExecutionContext& context);
-  // Refines the leaves of a mesh: of the mesh of RefineLight() if there is one, otherwise of a new mesh of
-  // the solution's leaves. If cancelled before there is a mesh, returns false. If cancelled later, keeps the
-  // last complete mesh and returns true.
+  // Makes a mesh that meets the requested error, by refining the mesh of RefineLight(), or, if RefineLight()
+  // was not called, a new mesh of the solution's leaves. If cancelled before there is a mesh, returns false.
+  // If cancelled later, keeps the last complete mesh and returns true.
   bool MakeRefined(const RadiositySolution& solution, const MeshOptions& options,
                    const ExecutionContext& context);
-  // For use after a change of the light: MakeRefined() will not start from the mesh of RefineLight().
+  // Must be called after the light has changed. The next MakeRefined() then does not start from the mesh of
+  // RefineLight().
   void Forget() {
     has_looked_ = false;
     light_plan_.reset();
   }
-  // Shows a mesh from elsewhere.
+  // Replaces the mesh by a mesh that another object has made.
   void Take(IrradianceMesh mesh);
-  // For use after another PatchVisibility has replaced the present one.
+  // Must be called after the PatchVisibility passed to the constructor has been replaced.
   void ForgetVisibility() { local_pass_.reset(); }
 
-  // The finest sources that the interpolants provide. Of no use if cancelled.
+  // The finest division of the leaves into sources that the interpolants support. The result is useless if
+  // cancelled.
   SourceCells FinestCells(const RadiositySolution& solution, const ExecutionContext& context);
-  // Exact irradiance from these sources. The sources include, over the
-  // links, the bounces of the difference from the solution's sources: between walls that face each other, a
-  // difference returns many times. Null if cancelled.
+  // Exact irradiance from sources that are better than those of the solution. If the radiosities of `finest`
+  // differ from those of the solution, the further reflections of this difference are computed over the links
+  // and added: between walls that face each other, a difference is reflected many times. Returns null if
+  // cancelled.
   std::unique_ptr<const PointIrradiance> BetterIrradiance(const RadiositySolution& solution,
                                                           const SourceCells& finest,
                                                           const ExecutionContext& context);
-  // The same without these bounces: one more bounce of the shown light, independent of all links. Where links
-  // transport light that should not exist, this result does not contain the bounces of that light.
+  // Exact irradiance from the sources `finest` alone, without the further reflections that BetterIrradiance()
+  // adds. The result is one reflection of the light in the mesh, independent of all links; if links transport
+  // light that should not exist, the result does not contain this light.
   std::unique_ptr<const PointIrradiance> ShownIrradiance(const RadiositySolution& solution,
                                                          const SourceCells& finest);
 
   const IrradianceMesh& mesh() const { return mesh_; }
-  // The triangulations of mesh(); empty if the mesh is from elsewhere.
+  // The triangulations of mesh(); empty if the mesh was set by Take().
   std::span<const PatchTriangulation> triangulations() const { return triangulations_; }
-  // One per triangle of the mesh, if the triangles were measured.
+  // The error of each triangle of the mesh; empty if the triangles were not measured.
   std::span<const TriangleError> triangle_errors() const { return triangle_errors_; }
 
-  // The report of the last of the functions above: the counts of the mesh, and the total work (evaluations
-  // and seconds) that led to the mesh.
+  // The report on the present mesh: its counts, and the total work (evaluations and seconds) by which it was
+  // made.
   const MeshReport& report() const { return report_; }
-  // Returns the seconds since the last call.
+  // Returns the seconds spent since the last call of TakeSeconds().
   MeshSeconds TakeSeconds();
-  // One line that says which error limits refinement could not meet; nothing if it met all.
+  // One line that says which error limits refinement could not meet; nullopt if it met all limits.
   const std::optional<std::string>& unmet() const { return unmet_; }
 
  private:

@@ -2,13 +2,14 @@
 //
 // Sources that are finer than the solution's leaves, derived from the interpolants. Each leaf that reflects
 // is the root of a tree of cells: the leaf's mesh triangles, and quarters of triangles. Each cell has the
-// exact mean of the interpolant over the cell. Cells need no links. A cut through the trees gives a set of
-// fragments (RadiositySolution).
+// exact mean of the interpolant over the cell. Cells need no links. A cut contains exactly one cell on every
+// path from a root to a cell without children; each cut defines a set of fragments
+// (RadiositySolution::fragments).
 //
-// A cell's score estimates the error that the cell's constant radiosity causes where its light arrives:
-// (deviation of the interpolant from its mean, relative to the light around) * (largest fraction of the view
-// that the cell fills from the nearest patch that sees it). Scores only compare cells with each other;
-// SourceCut determines the error for a given score.
+// The score of a cell estimates the error at receivers that is caused by treating the radiosity of the cell
+// as constant: (deviation of the interpolant from its mean, relative to the surrounding light) * (largest
+// form factor of a point of the nearest patch to the cell). Scores are used only to compare cells;
+// ChooseSourceCut() measures the error that corresponds to a score.
 
 #pragma once
 
@@ -36,7 +37,7 @@ struct SourceCell {
   double score = 0;              // [1]; at least the scores of all cells below
 };
 
-// A mesh, and the leaves and triangulations of the mesh.
+// A mesh, together with its leaves and triangulations.
 struct MeshWithLeaves {
   const ElementForest& forest;  // the forest of the patches' leaves
   std::span<const PatchTriangulation> patches;
@@ -45,26 +46,26 @@ struct MeshWithLeaves {
 
 class SourceCells {
  public:
-  // Divides cells while their score is above `finest`, a few levels at most. `exact` tells which patches a
-  // leaf sees. If cancelled, the object is incomplete. REQUIRES: the mesh's forest is the solution's or grown
-  // from it.
+  // Divides cells whose score is above `finest`, at most a few times in succession. `exact` is used to find
+  // the patches that a leaf sees. If cancelled, the object is incomplete. REQUIRES: the mesh's forest is the
+  // solution's forest or a refinement of it.
   SourceCells(const RadiositySolution& solution, const MeshWithLeaves& shown, const PointIrradiance& exact,
               double finest, const ExecutionContext& context = ExecutionContext());
 
-  // In the order of leaves, and depth first for each leaf.
+  // All cells, in the order of leaves, and in depth-first order for each leaf.
   std::span<const SourceCell> cells() const { return cells_; }
 
   // The irradiance of each element [W/m^2]: for leaves that reflect, the mean of the interpolants; otherwise
   // the solution's irradiance.
   std::vector<Rgb> LeafIrradiance() const;
 
-  // The change of the leaves' irradiance from the solution to the means of the interpolants: the value that 1
-  // % of the reflecting area exceeds. Changes are relative to max(mean of the leaf, 1 % of the mean over all
-  // leaves), the largest over the channels.
+  // The 99th percentile, by reflecting area, of the difference between the irradiance of a leaf in the
+  // solution and the mean of the interpolants over the leaf. Differences are relative to max(mean of the
+  // leaf, 1 % of the mean over all leaves); the largest channel counts.
   double Change() const;
 
-  // The indices of the first cells, on the way down from each leaf, that have a score of at most `score` or
-  // no children.
+  // Descends the tree of each leaf, and stops at cells whose score is at most `score` and at cells without
+  // children. Returns the indices of the cells where the descent stops.
   std::vector<std::int32_t> Cut(double score) const;
   // The cells of a cut as fragments. Cells that are whole leaves are included only if `whole_leaves` is true.
   std::vector<Fragment> Fragments(std::span<const std::int32_t> cut, bool whole_leaves) const;

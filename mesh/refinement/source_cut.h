@@ -1,6 +1,7 @@
 // mesh/refinement/source_cut.h
 //
-// The resolution of sources that makes the light they send sufficiently accurate.
+// Chooses how finely leaves are divided into sources, such that the irradiance from the sources is
+// sufficiently accurate.
 
 #pragma once
 
@@ -23,16 +24,16 @@ struct SourceCutOptions {
 
 struct SourceCut {
   double score = 0;  // argument of SourceCells::Cut()
-  // The 99th percentile of the relative error of the cut's cells as sources, compared with the finest cells
-  // (RelativeErrors). Each error is multiplied by PointIrradiance::Reverberation, which accounts for its
-  // repeated return.
+  // The 99th percentile of the relative error (RelativeErrors) of the irradiance from the cells of the cut;
+  // the true value is the irradiance from the finest cells. Each error is multiplied by
+  // PointIrradiance::Reverberation(), because an error of irradiance is amplified by repeated reflection.
   double p99 = 0;
 };
 
-// The coarsest cut by score whose p99 is at most options.error, at random points that are distributed
-// uniformly over the reflecting fronts; if no cut is good enough, the finest cut. The function evaluates
-// every point once, with the finest sources, and computes the irradiance from coarser sources from the same
-// form factors. If cancelled, the result is meaningless.
+// The coarsest cut with p99 <= options.error, measured at random points that are distributed uniformly over
+// the reflecting fronts; if there is no such cut, the finest cut. Form factors are computed once for each
+// point, for the finest sources; the irradiance from coarser sources is computed from these form factors. If
+// cancelled, the result is meaningless.
 SourceCut ChooseSourceCut(const RadiositySolution& solution, const SourceCells& cells,
                           const PointIrradiance& exact, const SourceCutOptions& options,
                           const ExecutionContext& context = ExecutionContext());

@@ -14,8 +14,9 @@
 namespace penumbra {
 
 // Appends counter-clockwise triangles, as indices in `outline`. The outline has at least three points in
-// counter-clockwise order and is convex up to rounding; points in the interior of a side are allowed. Ties
-// between diagonals are resolved by the lower index. The time is quadratic in the number of points.
+// counter-clockwise order and is convex up to rounding; points in the interior of a side are allowed. If four
+// or more points lie on one circle, the point with the lowest index is preferred as corner of a triangle. The
+// time is quadratic in the number of points.
 void TriangulateConvex(std::span<const Vec2> outline, std::vector<std::array<std::int32_t, 3>>& triangles);
 
 }  // namespace penumbra

@@ -3,8 +3,9 @@
 // The triangles of a patch: every leaf of the quadtree is triangulated along its active discontinuities
 // (thesis 5.2, 5.5). The interior of the patch has no T-vertex (3.6, cases A and B).
 //
-// Neighbouring leaves agree because PatchBorders determines the vertices on their common border once per
-// patch. Vertices inside a leaf concern no other leaf, and keep a distance from the border (leaf_margins.h).
+// Neighbouring leaves have the same vertices on their common border, because PatchBorders computes these
+// vertices once per patch. Vertices inside a leaf do not affect other leaves, and keep a distance from the
+// border (leaf_margins.h).
 
 #pragma once
 
@@ -47,9 +48,9 @@ struct PatchTriangulation {
 // Triangulates the leaves of dsets.leaves, in parallel. The same input gives the same bytes, with or without
 // a cache. REQUIRES: the quadtree is balanced, and has not changed since `dsets` were computed.
 PatchTriangulation TriangulateLeaves(const ElementForest& forest, PatchId patch, const PatchDSets& dsets);
-// The same with given borders, constructed from the same arguments and possibly welded to the borders of
-// other patches. The cache must hold leaves of this patch. The function reuses the cached leaves with equal
-// borders and lines; afterwards, the cache holds exactly the present leaves.
+// Like TriangulateLeaves() above, with given borders: `borders` was constructed from the same arguments, and
+// may have been welded to the borders of other patches. Leaves of this patch that are in the cache are reused
+// if their borders and lines are equal; afterwards, the cache contains exactly the present leaves with lines.
 PatchTriangulation TriangulateLeaves(const ElementForest& forest, PatchId patch, const PatchDSets& dsets,
                                      PatchBorders borders, LeafMeshCache* cache = nullptr);
 

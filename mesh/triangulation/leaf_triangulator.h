@@ -1,7 +1,7 @@
 // mesh/triangulation/leaf_triangulator.h
 //
-// The triangles of one leaf, which depend only on the leaf's border and lines. Leaves with equal borders and
-// lines can therefore share triangles.
+// Triangulates one leaf. The triangles depend only on the leaf's border and lines; the triangles of a leaf
+// can therefore be reused for any leaf with the same border and lines.
 
 #pragma once
 
@@ -27,8 +27,8 @@ class LeafShape {
     std::size_t first = 0, first_contact = 0, end = 0;  // range in intervals_
   };
 
-  // Starts a new leaf: `border` holds the vertices around the leaf, `outline` its corners, both
-  // counter-clockwise; `snap` is the patch's snap distance [m].
+  // Starts a new leaf without lines. `border` holds the vertices around the leaf, and `outline` its corners,
+  // both counter-clockwise; `snap` is the patch's snap distance [m].
   void Reset(std::span<const Vec2> border, Polygon2 outline, double snap);
   void AddLine(const DiscontinuityLine& line);
 
@@ -43,7 +43,7 @@ class LeafShape {
     return std::span(intervals_).subspan(line.first_contact, line.end - line.first_contact);
   }
 
-  // The shape as a list of numbers. Equal lists have equal triangles.
+  // Converts the shape to a list of numbers, such that leaves with equal lists have equal triangles.
   void Encode(std::vector<double>* key) const;
 
  private:
@@ -72,11 +72,12 @@ struct LeafMesh {
   std::size_t dropped_segments = 0;  // too close to the border to be edges
 };
 
-// Triangulates one leaf after the other. Each thread needs its own object.
+// Triangulates leaves, and reuses its buffers. Each thread needs its own object.
 class LeafTriangulator {
  public:
-  // Each line gives the leaf at most one edge: the hull of the line's cover inside the leaf. Pieces of the
-  // border that lie on a line are marked. The function never splits or moves the border.
+  // Each line becomes at most one constrained edge of the leaf: the shortest segment that contains all
+  // intervals of the line that discontinuities cover inside the leaf. In the result, edges on the border that
+  // lie on a line are labelled with the line. Vertices of the border are neither added nor moved.
   LeafMesh Triangulate(const LeafShape& shape);
 
  private:
@@ -108,11 +109,11 @@ class LeafTriangulator {
   ConstrainedTriangulator triangulator_;
 };
 
-// The meshes of one patch's leaves that lines cross or touch, from the patch's latest triangulation. Leaves
-// without lines are not cached, because triangulating them takes less time than the search.
+// A cache of triangulated leaves of one patch, from the latest triangulation of the patch. Leaves without
+// lines are not cached, because triangulating such a leaf takes less time than searching the cache.
 class LeafMeshCache {
  public:
-  // The mesh of the shape with this key (LeafShape::Encode); null if there is none.
+  // The mesh of the leaf with this key (LeafShape::Encode); null if the cache does not contain it.
   std::shared_ptr<const LeafMesh> Find(const std::vector<double>& key) const;
   void Clear() { meshes_.clear(); }
   void Insert(std::vector<double> key, std::shared_ptr<const LeafMesh> mesh) {

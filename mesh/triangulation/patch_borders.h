@@ -1,8 +1,8 @@
 // mesh/triangulation/patch_borders.h
 //
-// The vertices on the borders of a patch's leaves: the corners of leaves, including hanging corners, and the
-// crossings of each stretch between two corners with the lines that are active in either leaf. Each vertex
-// has one position, which both leaves use (thesis 3.6, cases A and B).
+// The vertices on the borders of a patch's leaves: the corners of leaves, including hanging corners; and, on
+// each stretch between two corners, the crossings with the lines that are active in one of the two adjacent
+// leaves. Both adjacent leaves use the same position of a vertex (thesis 3.6, cases A and B).
 
 #pragma once
 
@@ -31,8 +31,9 @@ class PatchBorders {
 
   // The positions of the vertices on the patch's outline [m].
   std::vector<Vec3> OutlineVertices() const;
-  // Adds to the outline those of the points that lie on it. A vertex within the snap distance of such a point
-  // moves to the point. Other vertices stay in place.
+  // Adds those points that lie on the patch's outline as vertices of the outline. If a vertex of the outline
+  // lies within the snap distance of an added point, the vertex moves to this point. Other vertices of the
+  // outline remain unchanged.
   void Weld(std::span<const Vec3> points);
 
   std::vector<Vec3> positions;  // [m], by VertexId

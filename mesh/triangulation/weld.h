@@ -13,9 +13,9 @@
 
 namespace penumbra {
 
-// Adds to each patch's outline the vertices that other patches have there. Where two patches have vertices
-// within the snap distance of each other, both get the exact position of the patch with the lower number.
-// Of no use if cancelled. REQUIRES: borders[i] are the borders of patch i.
+// Adds to each patch's outline the vertices of other patches that lie on this outline. If vertices of two
+// patches lie within the snap distance of each other, both get the position of the vertex of the patch with
+// the lower number. If cancelled, the borders are useless. REQUIRES: borders[i] are the borders of patch i.
 void WeldOutlines(const Scene& scene, std::span<PatchBorders> borders,
                   const ExecutionContext& context = ExecutionContext());
 

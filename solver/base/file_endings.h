@@ -1,7 +1,7 @@
 // solver/base/file_endings.h
 //
-// File formats by the ending of a file's name. Registries of formats name each format by its ending, without
-// the dot.
+// Finds the format of a file by the ending of its name. In a registry of file formats, the name of a format
+// is its ending without the dot, such as "png".
 
 #pragma once
 
@@ -12,16 +12,16 @@
 
 namespace penumbra {
 
-// Without the dot; empty if the name has no ending.
+// The ending of the file's name, without the dot; empty if the name has no ending.
 std::string EndingOf(const std::string& path);
 
-// What to tell of a name that has none of the endings: "'a.txt' ends neither in .png nor in .exr".
+// The error message for a path that has none of the endings: "'a.txt' ends neither in .png nor in .exr".
 std::string EndingError(const std::string& path, const std::vector<std::string>& endings);
 
-// Each ending with its dot.
+// The given endings, each preceded by a dot.
 std::vector<std::string> Dotted(std::vector<std::string> endings);
 
-// The format that the ending of the path names; null if none has that name.
+// The format whose name is EndingOf(path); null if there is no such format.
 template <class Product, class... Options>
 const typename Registry<Product, Options...>::Method* FindByEnding(
     const Registry<Product, Options...>& formats, const std::string& path) {

@@ -16,7 +16,7 @@ namespace penumbra {
 template <class T>
 class LazyTable {
  public:
-  // Removes all entries, and allows numbers below `count`.
+  // Removes all entries, and permits requests for entries 0 to count - 1.
   void Begin(std::size_t count) {
     if (stamp_.size() < count) {
       stamp_.resize(count, 0);
@@ -33,8 +33,8 @@ class LazyTable {
     }
   }
 
-  // The entry, and true if the caller must compute the entry: this is the first request since the last
-  // removal.
+  // The entry, and whether the caller must compute its value: true at the first request for the entry since
+  // the last call of Begin() or Clear().
   std::pair<T&, bool> operator[](std::int32_t number) {
     const auto i = static_cast<std::size_t>(number);
     const bool is_new = stamp_[i] != now_;

@@ -1,7 +1,7 @@
 // solver/base/progress.h
 //
 // Progress reports and cancellation of long operations. The solver never prints; the caller of an operation
-// passes a listener.
+// passes a listener, which receives the progress.
 
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace penumbra {
 
-// A parameter of every long operation. Only one thread at a time may call Report(); any thread may call
-// Cancel().
+// Every long operation has a parameter of this type. Only one thread at a time may call Report(); any thread
+// may call Cancel().
 class ExecutionContext {
  public:
   using Listener = std::function<void(std::string_view phase, double fraction)>;
@@ -25,7 +25,7 @@ class ExecutionContext {
     if (listener_) listener_(phase, fraction);
   }
 
-  // Requests the operation to end early. The operation then leaves the valid results of its last complete
+  // Requests the operation to end early. A cancelled operation leaves the valid results of its last complete
   // step.
   void Cancel() { cancelled_ = true; }
   bool Cancelled() const { return cancelled_; }

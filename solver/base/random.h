@@ -50,9 +50,9 @@ class Random {
   std::uint64_t increment_;
 };
 
-// The fractional part of offset + i * alpha, in [0, 1). With the steps below, the points
-// (AdditiveRecurrence(i, kR2Alpha[0]), AdditiveRecurrence(i, kR2Alpha[1])) are evenly distributed over the
-// unit square; likewise kR4Alpha in four dimensions.
+// The fractional part of offset + i * alpha, in [0, 1). The points (AdditiveRecurrence(i, kR2Alpha[0]),
+// AdditiveRecurrence(i, kR2Alpha[1])), i = 0, 1, ..., are evenly distributed over the unit square. The four
+// constants kR4Alpha give evenly distributed points in the four-dimensional unit cube.
 inline double AdditiveRecurrence(std::uint64_t i, double alpha, double offset = 0.5) {
   const double x = offset + alpha * static_cast<double>(i);
   return x - std::floor(x);

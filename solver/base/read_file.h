@@ -1,7 +1,7 @@
 // solver/base/read_file.h
 //
-// Reads all bytes of a file or fails. A standard stream that ends early because memory or a disk fails looks
-// like the end of the file; these functions report an error instead.
+// Reads all bytes of a file or fails. If memory or a disk fails, a standard stream ends early as if the file
+// had ended; ReadFileBytes() and ReadFileStart() report an error instead.
 
 #pragma once
 
@@ -11,11 +11,12 @@
 
 namespace penumbra {
 
-// A file cannot be read. what() is the reason in a few words: "there is no such file", "it is a directory".
+// The error that a file cannot be read. what() is the reason in a few words: "there is no such file", "it is
+// a directory".
 class ReadFailure : public std::runtime_error {
  public:
   ReadFailure(const std::string& why, bool opened) : std::runtime_error(why), opened_(opened) {}
-  // False: the file could not be opened. True: the file was opened, and reading it failed.
+  // False if the file could not be opened; true if the file was opened but could not be read.
   bool Opened() const { return opened_; }
 
  private:
@@ -26,7 +27,8 @@ class ReadFailure : public std::runtime_error {
 // memory is exhausted.
 std::string ReadFileBytes(const std::string& path);
 
-// The first `count` bytes of a file, or all bytes of a shorter file. Throws what ReadFileBytes() throws.
+// The first `count` bytes of a file, or all bytes of a shorter file. Throws the same exceptions as
+// ReadFileBytes().
 std::string ReadFileStart(const std::string& path, std::size_t count);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // solver/base/registry.h
 //
-// A list of alternative methods for one task, by name. Command line, help, reports and window all list the
-// methods of a registry; no other code contains such a list.
+// A list of alternative methods for one task, each with a name. The command line, the help, the reports and
+// the window take the methods' names from the registry; no other code lists them.
 
 #pragma once
 
@@ -16,9 +16,9 @@
 
 namespace penumbra {
 
-// The methods that make a `Product` from `Options`. A method's file describes the method by a function that
-// returns a Method; the file that defines the registry lists these functions; a program may add its own
-// methods before it solves anything.
+// A registry of methods, each of which makes a `Product` from `Options`. A method's file describes the method
+// by a function that returns a Method; the file that defines the registry lists these functions; a program
+// may add its own methods before it solves anything.
 template <class Product, class... Options>
 class Registry {
  public:
@@ -34,7 +34,8 @@ class Registry {
     for (Method& method : methods) Add(std::move(method));
   }
 
-  // Appends a method to the list. REQUIRES: no other method has its name, and no thread reads the registry.
+  // Appends a method to the list. REQUIRES: no other method has the same name, and no thread reads the
+  // registry.
   void Add(Method method) {
     for (const Method& other : methods_) PENUMBRA_CHECK(other.name != method.name);
     methods_.push_back(std::move(method));
@@ -49,7 +50,7 @@ class Registry {
     return names;
   }
 
-  // The method called `name`. Throws InputError, which lists all names, if there is none.
+  // The method called `name`. Throws InputError, which lists all names, if no method has this name.
   const Method& Find(std::string_view name) const {
     std::string names;
     for (const Method& method : methods_) {
@@ -59,7 +60,7 @@ class Registry {
     throw InputError("no " + kind_ + " is called '" + std::string(name) + "'; give one of: " + names);
   }
 
-  // A new product of the method called `name`. Throws InputError if there is none.
+  // A new product of the method called `name`. Throws InputError if no method has this name.
   std::unique_ptr<Product> Make(std::string_view name, const Options&... options) const {
     return Find(name).make(options...);
   }

@@ -1,7 +1,7 @@
 // solver/base/scratch.h
 //
-// Working memory that outlives its use, so that inner loops do not allocate again and again. No other file of
-// the project keeps data per thread.
+// Reuses working memory from call to call, so that inner loops do not allocate again and again. No other file
+// of the project keeps data per thread.
 
 #pragma once
 
@@ -39,14 +39,15 @@ void ClearScratch(T& object) {
 }  // namespace internal
 
 // Borrows an object of type T from the present thread for as long as the Scratch lives. The object is either
-// new, or one that an earlier Scratch of the thread has given back: cleared, but with its memory. Two
-// Scratches that live at the same time never hold the same object, even in recursion, or when a thread that
-// waits for a parallel loop runs other work. REQUIRES: T has clear() or Clear(), and behaves like a new
-// object afterwards.
+// new or was used by an earlier Scratch of the same thread; a used object has been cleared, but keeps its
+// allocated memory. Two Scratches that live at the same time never hold the same object, even in recursion,
+// or when a thread that waits for a parallel loop runs other work. REQUIRES: T has clear() or Clear(), and
+// behaves like a new object afterwards.
 //
-// A Scratch is a local variable, or a member of one: it belongs to the thread that created it, and must end
-// before that thread. PENUMBRA_DCHECK detects use by another thread. Borrowing takes a few nanoseconds:
-// borrow once per evaluation of irradiance, and pass the object on to functions for single polygons.
+// A Scratch must be a local variable or a member of a local variable: it belongs to the thread that created
+// it, and must be destroyed before that thread ends. PENUMBRA_DCHECK detects that another thread uses the
+// Scratch. Creating a Scratch takes a few nanoseconds: create one per evaluation of irradiance, and pass the
+// object on to functions for single polygons.
 template <class T>
 class Scratch {
  public:

@@ -1,6 +1,6 @@
 // solver/base/size.h
 //
-// The size of a container in the type that indices of meshes and scenes have.
+// The size of a container as std::int32_t, the type of all indices in meshes and scenes.
 
 #pragma once
 

@@ -13,7 +13,7 @@ namespace penumbra {
 
 // Writes the bytes to an unused name in the folder of `path` and then renames the file to `path`. A symbolic
 // link keeps its target, and a replaced file keeps its permissions. A file without write permission is not
-// replaced. Devices and pipes are written to directly. On failure, throws InputError, "PATH: error: cannot
+// replaced. Devices and pipes are written in place. On failure, throws InputError, "PATH: error: cannot
 // write: why; ...", and leaves no file behind.
 void WriteWholeFile(const std::string& path, std::string_view bytes);
 
@@ -21,21 +21,21 @@ struct FileToWrite {
   std::string path;
   std::string_view bytes;
 };
-// Writes several files that belong together: replaces none before all are written under their temporary
-// names. Otherwise as WriteWholeFile().
+// Writes several files that belong together: writes all of them under temporary names before it replaces the
+// first one. Each file is written as by WriteWholeFile().
 void WriteWholeFiles(std::span<const FileToWrite> files);
 
-// Checks that WriteWholeFile() can write to the path, and throws the same error if it cannot. Writes nothing.
+// Throws the error of WriteWholeFile() if WriteWholeFile() cannot write to the path. Writes nothing.
 void CheckCanWrite(const std::string& path);
 
-// True if the path names a device or a pipe. These are written in place, not by way of a renamed temporary
-// file.
+// True if the path names a device or a pipe. WriteWholeFile() writes devices and pipes in place, not by way
+// of a renamed temporary file.
 bool IsDevice(const std::string& path);
 
 // The target of a chain of symbolic links, whether or not this target exists.
 std::filesystem::path ResolveSymlinks(std::filesystem::path path);
 
-// Throws the InputError for a path that cannot be written.
+// Throws an InputError: the path cannot be written for the reason `why`.
 [[noreturn]] void FailToWrite(const std::string& path, const std::string& why);
 
 }  // namespace penumbra

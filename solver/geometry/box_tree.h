@@ -22,7 +22,7 @@ struct PlaneBox {
 
 class BoxTree {
  public:
-  // Replaces the tree by one over `boxes`. Time O(n log n).
+  // Builds a new tree over `boxes`, in time O(n log n).
   void Build(std::span<const PlaneBox> boxes);
 
   // Sets `found` to the indices of the boxes that intersect `box`, in unspecified order.

@@ -24,7 +24,8 @@ namespace penumbra {
 
 // Tags of constraints. Callers may use the tags 0, 1, 2, ... for their own purposes.
 inline constexpr std::int32_t kNoTag = -1;
-// The border of the region: closed loops that run around the inside in a constant sense.
+// The tag of the region's border. The border consists of closed loops, all of which run around the inside of
+// the region in the same sense.
 inline constexpr std::int32_t kBorder = -2;
 
 // The snap distance divided by the larger side of the points' bounding box: far above the rounding of a
@@ -85,19 +86,20 @@ class ConstrainedTriangulator {
   ConstrainedTriangulator& operator=(ConstrainedTriangulator&&) noexcept;
 
   // The triangulation, which stays valid until the next call. If all points lie on a line there are no
-  // triangles. The order of points and constraints decides between the two diagonals of four points on a
-  // circle, so the result is a function of the input. Null if crossings lie so close together, relative to
-  // the rounding of their coordinates, that no planar mesh was found. REQUIRES: finite coordinates, indices
-  // in range.
+  // triangles. For four points on a circle, the order of points and constraints determines which diagonal is
+  // used; the result is therefore deterministic. The result is null if crossings lie so close together,
+  // relative to the rounding of their coordinates, that no planar mesh was found. REQUIRES: coordinates are
+  // finite, and indices are in range.
   const ConstrainedTriangulation* TryTriangulate(std::span<const Vec2> points,
                                                  std::span<const ConstraintSegment> constraints);
-  // As TryTriangulate(), but never null. REQUIRES: a planar mesh is found, which is certain if the distances
-  // between points are large compared with kSnapDistance.
+  // Like TryTriangulate(), but the result is never null. REQUIRES: a planar mesh is found, which is certain
+  // if the distances between points are large compared with kSnapDistance.
   const ConstrainedTriangulation& Triangulate(std::span<const Vec2> points,
                                               std::span<const ConstraintSegment> constraints);
 
-  // The triangulation of pieces that SegmentSplitter::Split() has returned: splits and moves nothing. A piece
-  // has the tag of the constraint that is its source. REQUIRES: no two used points have equal coordinates.
+  // The triangulation of pieces that SegmentSplitter::Split() has returned; they are not split or snapped
+  // again. A piece has the tag of the constraint that is its source. REQUIRES: no two used points have equal
+  // coordinates.
   const ConstrainedTriangulation& TriangulatePieces(std::span<const Vec2> points,
                                                     const std::vector<bool>& used,
                                                     std::span<const SegmentPiece> pieces,

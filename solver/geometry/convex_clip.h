@@ -10,8 +10,8 @@
 
 namespace penumbra {
 
-// The points p of the convex polygon with outwards . (p - point) <= 0; empty if they lie on a line. Vertices
-// within `tolerance` of the border line count as lying on it.
+// The points p of the convex polygon with dot(outwards, p - point) <= 0; empty if they lie on a line.
+// Vertices within `tolerance` of the border line count as lying on it.
 Polygon2 ClipToHalfPlane(std::span<const Vec2> polygon, const Vec2& outwards, const Vec2& point,
                          double tolerance = 0);
 

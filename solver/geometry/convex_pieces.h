@@ -20,12 +20,13 @@ struct ConvexPiece {
   int Size() const { return vertex[3] < 0 ? 3 : 4; }
 };
 
-// A corner counts as straight if the sine of its turning angle is at most this: the effect of rounding the
-// coordinates of three points on a line, with a margin for lines far from the origin.
+// A corner counts as straight if the sine of its turning angle is at most kStraightSine. The value exceeds
+// the effect of rounding the coordinates of three points on a line, with a margin for lines far from the
+// origin.
 inline constexpr double kStraightSine = 1e-9;
 
-// The shape quality of a quadrilateral: the smallest sine of its corner angles, 1 for a rectangle. At most 0
-// if the quadrilateral is not convex or has a straight corner.
+// The shape quality of a quadrilateral: the smallest sine of its corner angles, 1 for a rectangle. The
+// quality is at most 0 if the quadrilateral is not convex or has a straight corner.
 double QuadrilateralQuality(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 
 // Indices of the outline's vertices, without those at straight corners; at least three remain.

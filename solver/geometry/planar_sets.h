@@ -19,8 +19,8 @@ void Subtract(const Polygon3& from, std::span<const Vec3> hole, const Vec3& norm
               std::vector<Polygon3>& left);
 
 // The intersection of `polygon` with the polygon `with` enlarged by `margin` [m]. The polygons are convex,
-// lie in a common plane with the unit normal `normal`, and are counter-clockwise about the normal. Empty if
-// they do not overlap.
+// lie in a common plane with the unit normal `normal`, and are counter-clockwise about the normal. The result
+// is empty if the polygons do not overlap.
 Polygon3 Intersect(Polygon3 polygon, std::span<const Vec3> with, const Vec3& normal, double margin);
 
 // The convex hull of points in a plane, counter-clockwise about the plane's unit normal; empty if the points

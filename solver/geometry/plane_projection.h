@@ -1,7 +1,8 @@
 // solver/geometry/plane_projection.h
 //
-// Projection of a plane along the coordinate axis nearest to the plane's normal. Two coordinates of a point
-// are kept to the bit, so that exact two-dimensional predicates are exact for the given points.
+// Projection of a plane along the coordinate axis nearest to the plane's normal. The projection copies two
+// coordinates of each point without rounding, so that exact two-dimensional predicates of the projections
+// hold exactly for the given points.
 
 #pragma once
 
@@ -24,7 +25,7 @@ class PlaneProjection {
 
   Vec2 ToPlane(const Vec3& p) const { return {p[x_], p[y_]}; }
 
-  // The point of the plane whose projection is p; its kept coordinates equal those of p to the bit.
+  // The point of the plane whose projection is exactly p.
   Vec3 FromPlane(const Vec2& p) const {
     Vec3 lifted;
     lifted[x_] = p.x();

@@ -16,9 +16,9 @@ namespace penumbra {
 using Polygon3 = std::vector<Vec3>;
 using Polygon2 = std::vector<Vec2>;
 
-// The vector area of the polygon: its length is the area [m^2], its direction the front normal. Newell's sum,
-// relative to the first vertex so that polygons far from the origin lose no digits. Zero for fewer than three
-// vertices.
+// The vector area of the polygon: its length is the area [m^2], its direction the front normal. The function
+// computes Newell's sum, relative to the first vertex, so that polygons far from the origin lose no digits.
+// The vector area is zero for fewer than three vertices.
 Vec3 VectorArea(std::span<const Vec3> polygon);
 
 // The centroid of the area; the mean of the vertices if the area is zero.
@@ -29,7 +29,7 @@ Vec3 Centroid(std::span<const Vec3> polygon);
 // largest.
 std::pair<std::size_t, std::size_t> FarthestPair(std::span<const Vec3> polygon);
 
-// The distance of the two vertices of FarthestPair() [m].
+// The distance between the two vertices that FarthestPair() returns [m].
 double Diameter(std::span<const Vec3> polygon);
 
 // The signed area of a polygon in the plane [m^2], positive for counter-clockwise polygons.
@@ -51,8 +51,8 @@ Frame MakeFrame(const Vec3& origin, const Vec3& normal);
 // length. REQUIRES: the polygon's area is not zero.
 Frame PolygonFrame(std::span<const Vec3> polygon);
 
-// The points p of the convex polygon with normal . (p - point) >= 0; empty if they have no area. Vertices v
-// with |normal . (v - point)| <= tolerance count as lying in the plane.
+// The points p of the convex polygon with dot(normal, p - point) >= 0; empty if they have no area. Vertices v
+// with |dot(normal, v - point)| <= tolerance count as lying in the plane.
 Polygon3 ClipToHalfSpace(std::span<const Vec3> polygon, const Vec3& normal, const Vec3& point,
                          double tolerance = 0);
 

@@ -1,11 +1,12 @@
 // solver/geometry/region_difference.h
 //
-// The difference of a polygon and other polygons in its plane. Borders may coincide exactly, to rounding, or
-// to the written digits of a file. Every input has a result.
+// The difference of a polygon and other polygons in its plane. Borders of the polygons may coincide exactly,
+// to within rounding errors, or to within the precision of the coordinates in a text file. The computation
+// succeeds for every input.
 //
 // First, corners and edges within a snap distance of each other are unified: the corners of the cutting
-// polygons move, never those of the outline. Then one constrained triangulation of all polygons distinguishes
-// inside from outside.
+// polygons move, never those of the outline. Second, one constrained triangulation of all polygons
+// distinguishes the inside of the difference from the outside.
 
 #pragma once
 
@@ -19,13 +20,14 @@
 
 namespace penumbra {
 
-// The distance within which two corners or edges count as one. The distance along a coordinate axis is the
-// rounding of this coordinate in the file (`step`). The distance in any direction is at least `base`.
+// The distance within which two corners or edges count as one. Along a coordinate axis, the distance is the
+// unit `step` to which this coordinate is rounded in the file. In every direction, the distance is at least
+// `base`.
 struct SnapTolerance {
   double base = 0;
   Vec2 step = Vec2::Zero();  // along each coordinate axis
 
-  // The distance along `normal`, the unit normal of an edge.
+  // The distance in the direction of `normal`, the unit normal of an edge.
   double Across(const Vec2& normal) const { return std::max(base, normal.cwiseAbs().dot(step)); }
   bool SamePlace(const Vec2& a, const Vec2& b) const {
     const Vec2 apart = (a - b).cwiseAbs();
@@ -34,11 +36,11 @@ struct SnapTolerance {
 };
 
 struct RegionDifference {
-  // First the vertices of the outline, to the bit; then those of the cuts, one cut after the other, moved by
-  // at most the snap distance; then crossings of edges. Every vertex of the outline and of the cuts has an
-  // entry, in input order.
+  // First the unchanged vertices of the outline; then the vertices of the cutting polygons, one polygon after
+  // the other, moved by at most the snap distance; then crossings of edges. Every vertex of the outline and
+  // of the cutting polygons has an entry, in input order.
   std::vector<Vec2> vertices;
-  // Counter-clockwise. Vertices at one place have one index, except where the common triangulation failed and
+  // Counter-clockwise. Coincident vertices share one index, except where the common triangulation failed and
   // convex parts were clipped instead.
   std::vector<std::array<std::int32_t, 3>> triangles;
 };
@@ -54,7 +56,7 @@ class RegionSubtractor {
   std::vector<Polygon2> ConvexParts(std::span<const Vec2> outline);
 
  private:
-  // The fallback: clips convex parts one by one, without a common mesh.
+  // The fallback if the triangulation fails: clips convex parts one by one, without a common mesh.
   RegionDifference SubtractByClipping(std::span<const Vec2> outline, std::span<const Polygon2> cuts,
                                       const SnapTolerance& reach);
 

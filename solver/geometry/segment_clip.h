@@ -13,7 +13,8 @@
 
 namespace penumbra {
 
-// The parameter interval [t0, t1] of the part of a segment a + t (b - a) that lies in all half-spaces so far.
+// The parameter interval [t0, t1] of the part of a segment a + t (b - a) that lies in all half-spaces passed
+// to Keep() so far.
 struct SegmentClip {
   double t0 = 0, t1 = 1;
 

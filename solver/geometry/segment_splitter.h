@@ -23,12 +23,12 @@ struct SegmentPiece {
 class SegmentSplitter {
  public:
   // Splits `pieces` in place and appends crossings to `vertices`, each computed once. A crossing within
-  // `snap` of a vertex uses this vertex. A vertex within `snap` of a piece splits the piece. Where many
-  // vertices lie within `snap` of each other, the last rounds join only what meets exactly. Vertices with
-  // used[i] == false are ignored. If the result is true, no two pieces cross (by an exact predicate), and no
-  // vertex lies in the interior of a piece. If it is false, crossings lay so close together that splitting
-  // did not terminate, and the contents of the arguments are unspecified. REQUIRES: snap is larger than the
-  // rounding error of the coordinates.
+  // `snap` of a vertex uses this vertex. A vertex within `snap` of a piece splits the piece. If snapping does
+  // not come to an end because many vertices lie within `snap` of each other, later passes merge only points
+  // that coincide exactly. Vertices with used[i] == false are ignored. If the result is true, no two pieces
+  // cross (by an exact predicate), and no vertex lies in the interior of a piece. If the result is false,
+  // crossings lay so close together that splitting did not terminate, and the contents of the arguments are
+  // unspecified. REQUIRES: snap is larger than the rounding error of the coordinates.
   [[nodiscard]] bool Split(std::vector<Vec2>& vertices, std::vector<bool>& used,
                            std::vector<SegmentPiece>& pieces, double snap);
 

@@ -1,6 +1,6 @@
 // solver/geometry/vec.h
 //
-// The vector types of the offline half: binary64 in all components.
+// The vector types of solver and mesh: binary64 in all components.
 
 #pragma once
 

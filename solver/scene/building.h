@@ -15,7 +15,7 @@
 
 namespace penumbra {
 
-// The largest number of rows, and of columns.
+// The largest number of rows, and the largest number of columns.
 inline constexpr int kMostRooms = 32;
 
 struct BuildingSize {

@@ -1,7 +1,7 @@
 // solver/scene/builtin_scenes.h
 //
-// The built-in scenes. Their geometry is an OBJ file in the folder scenes/, or is generated from the numbers
-// in the name (building.h).
+// The built-in scenes. The geometry of a built-in scene is an OBJ file in the folder scenes/, or is generated
+// from the numbers in the name (building.h).
 
 #pragma once
 
@@ -22,14 +22,15 @@ struct BuiltinScene {
   std::vector<Camera> cameras;
 };
 
-// All built-in scenes; of the buildings, only the smallest.
+// All built-in scenes, except that only the smallest of the buildings is included.
 const std::vector<BuiltinScene>& BuiltinScenes();
 
-// The built-in scene called `name`, with its cameras; nullopt if there is none. Throws InputError if the
-// options do not fit the scene.
+// The built-in scene called `name`, with its cameras; nullopt if there is no such scene. Throws InputError if
+// the options do not fit the scene.
 std::optional<Scene> LoadBuiltinScene(std::string_view name, const SceneOptions& options);
 
-// Their names, where no file has the same.
+// The reader of built-in scenes. The reader recognises the name of a built-in scene unless a file has the
+// same name.
 SceneReaderRegistry::Method BuiltinSceneReaderMethod();
 
 }  // namespace penumbra

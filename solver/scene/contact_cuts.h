@@ -13,15 +13,15 @@ namespace penumbra {
 // material and faces. The *feet* on a patch are the segments along which other patches stand on it, intersect
 // it, or hang closely above it. A foot is a wall if both of the following hold:
 //
-//  (1) Consider the line of the foot between the obstacles on either side: the outline of the patch, or other
-//      feet. The foot and other feet in the line cover at least three fifths of it. A doorway in a wall
-//      therefore does not matter.
+//  (1) Extend the foot along its line in both directions up to the nearest obstacle: the outline of the
+//      patch, or another foot. Feet cover at least three fifths of the extended segment. A wall with a
+//      doorway is therefore still a wall.
 //  (2) The foot, together with the feet that it touches, is not small relative to the patch, and the patch is
 //      not small relative to the largest patch of the scene.
 //
-// Feet of one convex solid are not obstacles for each other: a block on a floor covers what its feet enclose,
-// and is no wall unless it extends from wall to wall. REQUIRES: the solids of the scene are known
-// (FindConvexSolids). Afterwards the solids are those of the pieces.
+// Feet of one convex solid are not obstacles for each other: a block on a floor covers the area that its feet
+// enclose, and is no wall unless it extends from wall to wall. REQUIRES: the solids of the scene are known
+// (FindConvexSolids). The function also updates Scene::solids, such that their sides are the new pieces.
 void CutAtWalls(Scene& scene);
 
 }  // namespace penumbra

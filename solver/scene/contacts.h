@@ -17,12 +17,14 @@ struct Contact {
   PatchId other = kNoPatch;
 };
 
-// All contacts on the front of the receiver, sorted by the other patch. Patches within ContactGap() of the
-// receiver touch it. Contacts along the receiver's outline are omitted, because the receiver ends there.
+// All contacts on the front of the receiver, sorted by Contact::other. Patches within ContactGap() of the
+// receiver count as touching the receiver. Contacts along the receiver's outline are omitted, because the
+// receiver ends there.
 std::vector<Contact> FindContacts(const Scene& scene, PatchId receiver);
 
-// Largest height at which an edge above a patch still divides the patch, relative to the length of the edge.
-// As little light passes below the edge as under a door.
+// If an edge hangs above a patch, the patch is divided along the edge if (height of the edge) / (length of
+// the edge) is at most kMaxHangingHeight. Light that passes below an edge with a smaller ratio is negligible,
+// like light under a door.
 inline constexpr double kMaxHangingHeight = 0.02;
 
 // Finds the contacts of many receivers of one scene. The scene must outlive the object.
@@ -30,13 +32,13 @@ class ContactSearch {
  public:
   explicit ContactSearch(const Scene& scene);
 
-  // As the function FindContacts().
+  // Returns the same as FindContacts(scene, receiver).
   std::vector<Contact> Find(PatchId receiver) const;
 
-  // The feet of other patches on the front of the receiver. A patch that rises from the receiver has its
-  // contact as a foot. A patch that rises from an edge at a height of at most kMaxHangingHeight times the
-  // edge's length has the projection of this edge onto the receiver as a foot. Patches that lie flat on the
-  // receiver have no foot.
+  // The feet of other patches on the front of the receiver: the segments along which they stand on the
+  // receiver. A patch that rises from the receiver has its contact as a foot. A patch that rises from an edge
+  // at a height of at most kMaxHangingHeight times the edge's length has the projection of this edge onto the
+  // receiver as a foot. Patches that lie flat on the receiver have no foot.
   std::vector<Contact> FindWalls(PatchId receiver) const;
 
  private:

@@ -11,7 +11,7 @@ struct EmbeddedFile {
   std::string_view name, text;
 };
 
-// The files of the folder scenes/, sorted by name. The build generates the definition.
+// The files of the folder scenes/, sorted by name. The build generates the definition of this function.
 std::span<const EmbeddedFile> EmbeddedSceneFiles();
 
 }  // namespace penumbra

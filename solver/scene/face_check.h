@@ -13,12 +13,13 @@ namespace penumbra {
 
 // The largest distance of a vertex from its face's plane in a planar face, relative to the face's diameter.
 inline constexpr double kPlanarTolerance = 1e-6;
-// The largest such distance in a face that is cut into planar pieces. Surveyed walls and coordinates with few
-// decimals stay below it; a face with a larger deviation was not intended to be planar.
+// The largest distance of a vertex from its face's plane, relative to the face's diameter, in a face that is
+// cut into planar pieces. Surveyed walls and faces with few decimals deviate by less; a face with a larger
+// deviation was not intended to be planar.
 inline constexpr double kCutTolerance = 0.05;
 
-// A face of at most this width, relative to its diameter, has no reliable normal: rounding its coordinates
-// rotates the normal by more than 1e-4.
+// A face with width / diameter <= kZeroWidth has no reliable normal: rounding the coordinates rotates the
+// normal by more than 1e-4.
 inline constexpr double kZeroWidth = 1e-12;
 
 enum class FaceCondition {
@@ -39,10 +40,10 @@ struct FaceCheck {
 // removed vertices.
 int RemoveRepeatedVertices(Polygon3& face);
 
-// The condition of the face. If several apply, the first of: zero area, folded, self-crossing, uneven. A face
-// may touch itself, for instance if a doubled edge joins a hole to the outline. A face is self-crossing if
-// its winding number around some point is neither 0 nor 1 (for a reversed face, -1). The result does not
-// depend on the direction of the face or on its first vertex.
+// The condition of the face. If several conditions apply, the result is the first of: zero area, folded,
+// self-crossing, uneven. A face may touch itself, for instance if a doubled edge joins a hole to the outline.
+// A face is self-crossing if its winding number around some point is neither 0 nor 1 (for a reversed face,
+// -1). The result does not depend on the direction of the face or on its first vertex.
 FaceCheck CheckFace(const Polygon3& face);
 
 // The face itself if it is planar; otherwise triangles that fill it, whose vertices equal those of the face

@@ -13,7 +13,7 @@
 namespace penumbra {
 
 // The first difference, as a phrase that follows "the scenes differ: "; nullopt if all faces and all patches
-// are equal to the bit. Names, materials and objects may differ.
+// are equal to the bit. Names, materials and objects are not compared.
 std::optional<std::string> GeometryDifference(const Scene& one, const Scene& other);
 
 }  // namespace penumbra

@@ -17,14 +17,14 @@
 
 namespace penumbra {
 
-// Returns the text of the material library with the name that an `mtllib` line gives; nullopt if there is
-// none.
+// Returns the text of the material library with the name that an `mtllib` line gives; nullopt if there is no
+// such library.
 using MtlSource = std::function<std::optional<std::string>(std::string_view mtl_name)>;
 
-// The scene in the file, with its patches. Material libraries are searched in the folder of the file.
-// Scene::warnings has one line for each kind of repair, drop or clamping. A scene without faces is valid.
-// Throws InputError with one line, "FILE:LINE: error: what is wrong and how to mend it" (without LINE for a
-// file that cannot be read).
+// The scene in the file, including its patches. Material libraries are searched in the folder of the file.
+// Scene::warnings has one line for each kind of repaired faces, dropped faces and clamped values. A scene
+// without faces is valid. Throws InputError with one line, "FILE:LINE: error: what is wrong and how to mend
+// it" (without LINE for a file that cannot be read).
 Scene ReadObj(const std::filesystem::path& path, const SceneOptions& options);
 
 // Reads a scene from a text, as ReadObj() does. `file_name` is the name of the text in messages; its stem is
@@ -32,7 +32,7 @@ Scene ReadObj(const std::filesystem::path& path, const SceneOptions& options);
 Scene ReadObjText(std::string_view text, std::string_view file_name, const MtlSource& mtl_source,
                   const SceneOptions& options);
 
-// Files that end in .obj.
+// The reader of files whose names end in .obj.
 SceneReaderRegistry::Method ObjReaderMethod();
 
 }  // namespace penumbra

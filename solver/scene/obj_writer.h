@@ -13,9 +13,9 @@
 
 namespace penumbra {
 
-// The text of the OBJ file; `mtl_name` is the name of its library, in the same folder. Dropped faces become
-// faces without area, so that the other faces keep their numbers. Names that ReadObj() could not read back
-// are changed. Cameras are omitted.
+// The text of the OBJ file; `mtl_name` is the name of the material library, a file in the same folder.
+// Dropped faces become faces without area, so that the other faces keep their numbers. Names that ReadObj()
+// could not read back are changed. Cameras are omitted.
 std::string ObjText(const Scene& scene, std::string_view mtl_name);
 // The text of the material library: Kd is reflectance, Ke is emittance [W/m^2].
 std::string MtlText(const Scene& scene);

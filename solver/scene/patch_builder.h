@@ -28,8 +28,8 @@ struct PatchReport {
 //      first; the other outlines lose the overlap. Outlines of opposite orientation, such as the bottom of a
 //      box and the floor, remain. Planes and edges that differ by no more than the rounding of coordinates
 //      (Scene::coordinate_step) count as one.
-//  (4) Polygons that are then not convex triangles or quadrilaterals are triangulated, and the triangles are
-//      joined to few pieces.
+//  (4) Polygons that are still not convex triangles or quadrilaterals are triangulated, and the triangles are
+//      joined to few convex pieces.
 //
 // Patches narrower than a few times SnapDistance() are dropped.
 //

@@ -11,7 +11,7 @@ namespace penumbra {
 
 // The scene for pbrt, version 4: the patches as triangles; one-sided diffuse area lights of radiance
 // emittance / pi on the fronts of emitters; the camera, with a path tracer and an EXR film of width x height
-// pixels (height <= width). A limitation of pbrt: backs reflect as fronts do, where they are visible.
+// pixels (height <= width). A limitation of pbrt: visible backs of patches reflect like fronts.
 std::string PbrtText(const Scene& scene, const Camera& camera, int width, int height);
 
 SceneWriterRegistry::Method PbrtWriterMethod();

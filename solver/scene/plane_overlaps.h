@@ -15,33 +15,36 @@
 
 namespace penumbra {
 
-// Distance within which planes or edges are the same, relative to the larger diameter. This number exceeds
-// the effect of rounding coordinates to binary64 (1e-16, and 1e-12 for a small face far from the origin), and
-// is smaller than any intended distance.
+// Planes or edges of two faces count as the same if their distance is at most kCoplanarTolerance * (larger
+// diameter of the two faces). kCoplanarTolerance exceeds the effect of rounding coordinates to binary64
+// (1e-16, and 1e-12 for a small face far from the origin), and is smaller than any intended distance.
 inline constexpr double kCoplanarTolerance = 1e-9;
 
-// Largest distance within which planes are the same, relative to the scene's diagonal, for any number of
-// written digits: coordinates such as 1 and 2 may be exact.
+// The upper limit of the distance within which planes count as the same, relative to the scene's diagonal.
+// Without the limit kCoarsestPlane, coordinates such as 1 and 2, which may be exact, would have a tolerance
+// of about 1.
 inline constexpr double kCoarsestPlane = 1e-3;
 
-// The distances within which corners, edges and planes count as the same, given the written digits of
-// coordinates.
+// The distances within which corners, edges and planes count as the same, given the unit to which coordinates
+// are rounded.
 class PlaneTolerance {
  public:
   // `step`: the unit to which coordinates are rounded, per axis [m]; zero if they are exact.
   PlaneTolerance(const Vec3& step, double diagonal);
 
-  // The distance for corners and edges in a plane with this projection, of faces of this diameter.
+  // The distance within which corners and edges of two faces count as the same. The faces have the diameter
+  // `diameter`, and lie in a plane with the projection `projection`.
   SnapTolerance InPlane(const PlaneProjection& projection, double diameter) const;
 
-  // The distance for two planes with the unit normal `normal`, each defined by rounded corners [m].
+  // The distance within which two planes with the unit normal `normal` count as the same [m]. Each plane is
+  // defined by rounded corners.
   double Between(const Vec3& normal) const;
 
-  // The distance that holds for planes of any orientation [m]: within it things touch (ContactGap()), and a
-  // point on one plane lies on the other.
+  // The distance within which two planes always count as the same [m], whatever their orientation and the
+  // rounding of coordinates. It equals ContactGap().
   double Least() const { return least_; }
 
-  // The largest value of Between() [m].
+  // The largest distance within which two planes of any orientation count as the same [m].
   double Largest() const;
 
  private:

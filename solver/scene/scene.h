@@ -35,7 +35,8 @@ struct Material {
   Rgb emittance = Rgb::Zero();  // [W/m^2]
 };
 
-// An `f` line of the file. Outputs call its index in Scene::faces `patch`. Dropped faces keep their index.
+// A polygon as the user gave it, such as an `f` line of an OBJ file. Output files call the index of a face in
+// Scene::faces `patch`. Dropped faces keep their index.
 struct Face {
   Polygon3 vertices;          // as given; empty if the face was dropped
   std::int32_t material = 0;  // index in Scene::materials
@@ -62,13 +63,13 @@ struct Patch {
   std::span<const Vec3> Vertices() const { return {vertex.data(), static_cast<std::size_t>(size)}; }
 };
 
-// A patch with these vertices; computes normal, area and extent. REQUIRES: 3 or 4 vertices, a convex polygon,
-// nonzero area.
+// A patch with these vertices; computes normal, area and extent. REQUIRES: the polygon has 3 or 4 vertices,
+// is convex, and has an area > 0.
 Patch MakePatch(std::span<const Vec3> vertices, std::int32_t material, std::int32_t object,
                 std::vector<std::int32_t> faces);
 
-// Patches that are sides of one convex body. From any point outside the body, a single outline bounds what it
-// hides.
+// Patches that are sides of one convex body. Seen from any point outside the body, a single outline bounds
+// the region that the body hides.
 struct ConvexSolid {
   struct Side {
     PatchId patch = kNoPatch;    // first patch of the side; kNoPatch: missing, for instance below a block
@@ -96,7 +97,7 @@ struct Scene {
   std::vector<Object> objects;
   std::vector<Face> faces;
   // Per axis, the unit to which the file's coordinates are rounded [m]; 0 if they are exact. Planes, edges
-  // and corners that differ by no more than this rounding count as one.
+  // and corners count as one if they differ by no more than coordinate_step.
   Vec3 coordinate_step = Vec3::Zero();
   std::vector<Patch> patches;
   std::vector<ConvexSolid> solids;    // of the current patches: FindConvexSolids()

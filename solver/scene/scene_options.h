@@ -17,12 +17,13 @@ struct SceneOptions {
   bool two_sided = false;  // repeat every face, reversed, after the last: face n + i is the back of face i
   std::optional<double> max_reflectance =
       std::nullopt;  // in [0, 1): larger reflectances are clamped instead of refused
-  // A function that may change the materials that were read. The reader calls it before patches are built,
-  // because emittance decides which of two overlapping faces is visible.
+  // A function that may change the materials that were read. The reader calls the function before patches are
+  // built, because emittance decides which of two overlapping faces is visible.
   std::function<void(std::vector<Material>&)> change_materials = nullptr;
   bool strict = false;  // refuse what is otherwise repaired with a warning
   bool flip = false;    // reverse the vertices of every face
-  // Called with the path of every material library before the library is opened; may throw.
+  // A function that is called with the path of every material library before the library is opened; it may
+  // throw.
   std::function<void(const std::string& path)> before_library = nullptr;
 };
 

@@ -1,6 +1,6 @@
 // solver/scene/scene_reader.h
 //
-// How scenes are read: a reader for each kind of source behind one interface.
+// The interface of scene readers. Each kind of source, such as OBJ files, has its own reader.
 
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace penumbra {
 
-// What a user named, as a reader looks at it.
+// The scene that a user has named, with the data by which a reader decides whether it can read the scene.
 struct SceneSource {
   std::string name;            // as it was given
   bool is_file = false;        // it is a file, a pipe or a device, but no folder
@@ -25,15 +25,15 @@ class SceneReader {
  public:
   virtual ~SceneReader() = default;
 
-  // The endings of the files that it reads, without the dot.
+  // The endings of the names of the files that this reader reads, without the dot.
   virtual std::vector<std::string> Endings() const { return {}; }
 
-  // Whether it is the one to read the source. If not overridden: whether the source is a file with one of its
-  // endings.
+  // Whether this reader can read the source. By default, true if the source is a file whose name has one of
+  // Endings().
   virtual bool Recognises(const SceneSource& source) const;
 
-  // The scene, its patches built. Throws InputError, with a line "NAME:LINE: error: what is wrong and how to
-  // mend it".
+  // The scene, including its patches. Throws InputError with the message "NAME:LINE: error: what is wrong and
+  // how to mend it".
   virtual Scene Read(const std::string& name, const SceneOptions& options) const = 0;
 };
 

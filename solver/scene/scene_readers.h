@@ -9,7 +9,7 @@ namespace penumbra {
 // The registry of all scene readers. The first reader reads the files that no reader recognises.
 SceneReaderRegistry& SceneReaders();
 
-// True if the path has the ending of a file that one of the readers reads.
+// True if one of the readers reads files with the ending of this path.
 bool HasSceneEnding(const std::string& path);
 
 }  // namespace penumbra

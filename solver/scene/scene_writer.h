@@ -1,6 +1,6 @@
 // solver/scene/scene_writer.h
 //
-// Scenes for other programs: a writer for each format behind one interface.
+// The interface of scene writers, which export scenes to other programs. Each file format has its own writer.
 
 #pragma once
 
@@ -16,18 +16,19 @@ class SceneWriter {
  public:
   virtual ~SceneWriter() = default;
 
-  // Whether the format holds a camera.
+  // Whether files of this format contain a camera.
   virtual bool HasCamera() const { return false; }
 
-  // The paths of the files that the format needs beside the one at `path`.
+  // The paths of further files that the format needs in addition to the file at `path`.
   virtual std::vector<std::string> FilesBeside(const std::string& /*path*/) const { return {}; }
 
-  // What the files hold: those beside, in their order, and at last the one at `path`.
+  // The contents of all files: first of the files FilesBeside(path), in the same order, then of the file at
+  // `path`.
   virtual std::vector<std::string> Texts(const Scene& scene, const Camera& camera,
                                          const std::string& path) const = 0;
 };
 
-// SceneWriters() holds all writers. The name of each is the ending of its files.
+// SceneWriters() holds all writers. The name of a writer is the ending of its files, without the dot.
 using SceneWriterRegistry = Registry<const SceneWriter>;
 
 }  // namespace penumbra

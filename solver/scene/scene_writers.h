@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// The registry of all formats of scenes.
+// The registry of all scene writers.
 SceneWriterRegistry& SceneWriters();
 
 }  // namespace penumbra

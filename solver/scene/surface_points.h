@@ -22,11 +22,12 @@ struct SurfacePoint {
   Vec3 position = Vec3::Zero();
 };
 
-// One random point in each of `count` parts of equal area of all fronts, one patch after the other. The same
-// seed gives the same points. REQUIRES: the scene has patches.
+// Stratified random points: divides the fronts of all patches into `count` parts of equal area, one patch
+// after the other, and chooses one random point in each part. The same seed gives the same points. REQUIRES:
+// the scene has patches.
 std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::size_t count, std::uint64_t seed);
-// Distributes the points by `weights`, one weight per patch, instead of by areas. REQUIRES: at least one
-// weight is not 0.
+// Chooses points with a density in proportion to weight / area of the patch, instead of a constant density;
+// `weights` has one entry per patch. REQUIRES: at least one weight is not 0.
 std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::span<const double> weights, std::size_t count,
                                        std::uint64_t seed);
 

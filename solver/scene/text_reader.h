@@ -1,7 +1,7 @@
 // solver/scene/text_reader.h
 //
-// Common parts of the readers of line-based scene files: logical lines, words, numbers, and error messages
-// with line numbers.
+// Common functions of the readers of line-based scene files: logical lines, words, numbers, and error
+// messages with line numbers.
 
 #pragma once
 
@@ -27,7 +27,7 @@ std::string PlaceOf(std::string_view file, int line);
 // and \x1b. A text of more than `longest` bytes is truncated and ends in "...".
 std::string Printable(std::string_view text, std::size_t longest);
 
-// The text as Printable() gives it, in quotation marks, truncated to a length suitable for messages.
+// The result of Printable() in quotation marks, truncated to a length suitable for messages.
 std::string Quoted(std::string_view text);
 
 // The first of the names, quoted, and the number of further names.
@@ -37,7 +37,7 @@ std::string QuotedList(const std::vector<std::string>& names);
 // format, such as "an OBJ file".
 void RefuseForeignFormat(std::string_view text, std::string_view file, std::string_view wanted);
 
-// The warning for a text whose lines end in CR alone. Such line ends are accepted.
+// The warning for a text whose lines end in CR alone. Lines that end in CR alone are accepted.
 inline constexpr std::string_view kLinesEndInCr =
     "lines end in CR alone, as in files of old Macintoshes, and are read so";
 
@@ -56,7 +56,7 @@ class LineReader {
   std::string_view Take();
   // The 1-based number of the line that the next Take() returns.
   int NextLine() const { return next_line_; }
-  // The number of the first line so far that ends in CR alone; 0 if there is none.
+  // The number of the first line that ends in CR alone among the lines taken so far; 0 if there is none.
   int LineEndedByCr() const { return cr_line_; }
 
  private:
@@ -77,8 +77,8 @@ class StatementReader {
   std::string_view Keyword() const { return keyword_; }
   std::string_view Arguments() const { return arguments_; }  // what follows the keyword, trimmed
   std::vector<std::string_view> Words() const;               // the arguments, split at blanks
-  // The words of a statement without names, up to the first word that begins with #, which starts a comment
-  // in such statements.
+  // The words up to the first word that begins with #, which starts a comment. Use the function only for
+  // statements without names, because a name may contain #.
   std::vector<std::string_view> Values() const;
   int Line() const { return line_; }  // the 1-based number of the statement's first line
   const std::string& File() const { return file_; }
@@ -87,7 +87,7 @@ class StatementReader {
   // An error that refers to this statement, for the caller to throw.
   InputError Error(std::string_view message) const { return ErrorAt(file_, line_, message); }
 
-  // The binary64 number nearest to the number `word`. Throws InputError unless it is a finite number.
+  // The binary64 number nearest to the number `word`. Throws InputError unless `word` is a finite number.
   double Number(std::string_view word) const;
 
  private:

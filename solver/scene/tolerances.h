@@ -9,16 +9,16 @@
 namespace penumbra {
 
 // SnapDistance() is the distance on a patch within which two points, or a point and a line, count as one [m].
-// Projecting an edge through a point has an error of about 1e3 roundings of the patch's coordinates for
-// discontinuities of relevant weight. The snap distance is several decimal digits larger, and far smaller
-// than a picture or an interpolant resolves.
+// For discontinuities of relevant weight, projecting an edge through a point onto the patch has an error of
+// about 1e3 rounding errors of the patch's coordinates. The snap distance exceeds the projection error by
+// several orders of magnitude, and is far smaller than the details of pictures and interpolants.
 inline constexpr double kSnap = 1e-9;             // relative to the patch's diameter
 inline constexpr double kSnapCoordinate = 1e-12;  // relative to the patch's largest coordinate: 4e3 roundings
 double SnapDistance(const Patch& patch);
 
-// ContactGap() is the largest distance between things that are meant to touch [m]. Files with six decimals
-// leave half a micrometre between a wall and its floor, or let the wall sink into the floor. Light through
-// such a gap is an artefact.
+// ContactGap() is the largest distance between things that are meant to touch [m]. If the coordinates in a
+// file are rounded to six decimals, a wall may end half a micrometre above or below its floor. Light that
+// passes through the gap between wall and floor would be an artefact.
 inline constexpr double kContactGap =
     1e-6;  // relative to the scene's diagonal; the same number as kPlanarTolerance
 double ContactGap(const Scene& scene);

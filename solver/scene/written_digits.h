@@ -1,7 +1,7 @@
 // solver/scene/written_digits.h
 //
-// Infers the unit to which the coordinates of a text file were rounded from their written digits. Points that
-// differ by no more than this rounding count as the same.
+// Looks at the digits of the coordinates in a text file and infers the unit to which the coordinates were
+// rounded. Points that differ by no more than the inferred unit count as the same.
 
 #pragma once
 

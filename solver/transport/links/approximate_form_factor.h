@@ -14,25 +14,25 @@
 namespace penumbra {
 
 // The unoccluded form factor of a point to a disk of area A about `centre`: A cos cos / (pi r^2 + A)
-// (Wallace, Elmquist and Haines 1989). 0 if one does not face the other.
+// (Wallace, Elmquist and Haines 1989). The result is 0 if point and disk do not face each other.
 double DiskFactor(const Vec3& at, const Vec3& at_normal, const Vec3& centre, const Vec3& normal, double area);
 
-// Each sending part is a point at its centroid, each receiving part a disk of its area A: A cos cos / (pi r^2
-// + A) (Wallace, Elmquist and Haines 1989; Hanrahan, Salzman and Aupperle 1991). A pair is visible or hidden
-// as a whole, as the centroids are. The error is the difference from the result with each pair cut into 4 x 4
-// pairs: an indication, no bound.
+// Replaces each sending part by a point at its centroid, and each receiving part by a disk of the same area
+// A: A cos cos / (pi r^2 + A) (Wallace, Elmquist and Haines 1989; Hanrahan, Salzman and Aupperle 1991). A
+// pair counts as completely visible if the centroids see each other, and as completely hidden otherwise. The
+// error is the difference from the result if each part is cut into 4; it is an estimate, not a bound.
 FormFactorEstimate DiskFormFactor(const Scene& scene, std::span<const AreaPart> from,
                                   std::span<const AreaPart> to, const ExecutionContext& context = {});
 
-// The mean of exact visible point form factors over the points of Cubature() on each sending part, cut into
-// 16 pieces (thesis 4.2, method 3). The error is the difference from the result with 4 pieces: an indication,
-// no bound.
+// The mean of exact visible point form factors over the points of Cubature() on 16 pieces of each sending
+// part (thesis 4.2, method 3). The error is the difference from the result with 4 pieces; it is an estimate,
+// not a bound.
 FormFactorEstimate CubatureFormFactor(const Scene& scene, std::span<const AreaPart> from,
                                       std::span<const AreaPart> to, const ExecutionContext& context = {});
 
 // The fraction of `rays` random rays that first hit a receiving front. The rays start evenly distributed over
-// the sending parts, with cosine-distributed directions. The error is the standard error for one more hit in
-// one more ray, which is never 0.
+// the sending parts, with cosine-distributed directions. The error is the standard error that results if one
+// more ray is cast and hits; it is therefore never 0.
 FormFactorEstimate MonteCarloFormFactor(const Scene& scene, std::span<const AreaPart> from,
                                         std::span<const AreaPart> to, std::size_t rays, std::uint64_t seed,
                                         const ExecutionContext& context = {});

@@ -1,12 +1,13 @@
 // solver/transport/links/area_weighted_oracle.h
 //
 // Oracles that estimate the transport error of a link (thesis 4.4.1), in W/m^2 of irradiance, for the largest
-// channel. Point form factors are exact here for sources of any size, so a link has two errors only. The
-// receiver's irradiance varies over the receiver by B * deviation(F). The source's radiosity varies within
-// the source's quarters, by F * spread(B) * variation(F). The oracle multiplies both errors by sqrt(receiver
-// area / reference area). The sum of squared errors then equals the error over the scene, and refinement ends
-// along edges where walls meet, where form factors vary at every size. The error of an element of the
-// reference area is at most eps.
+// channel. Because point form factors are exact for sources of any size, a link has only two errors. The
+// receiver error B * deviation(F) arises because the irradiance varies over the receiver. The source error F
+// * spread(B) * variation(F) arises because the radiosity varies within the source's quarters. The oracle
+// multiplies both the receiver error and the source error by sqrt(receiver area / reference area), and
+// compares the products with eps. The factor sqrt(receiver area / reference area) has two effects: the sum of
+// the squared link errors equals the squared error over the scene; and refinement ends even along edges where
+// walls meet, where form factors vary at every scale.
 
 #pragma once
 
@@ -14,8 +15,8 @@
 
 namespace penumbra {
 
-// Splits the end of the link that causes the larger error. Derived classes define the deviation of the form
-// factor.
+// Splits the end of the link, receiver or source, that causes the larger error. Derived classes define
+// deviation(F), the deviation of the form factor over the receiver.
 class AreaWeightedOracle : public RefinementOracle {
  public:
   explicit AreaWeightedOracle(const OracleOptions& options) : options_(options) {}

@@ -17,9 +17,10 @@ struct CubaturePoint {
   double weight = 0;  // the weights of a rule add up to 1
 };
 
-// A rule for the mean over a convex planar polygon. On a triangle: 3 points, exact for polynomials of degree
-// 2. On a quadrilateral: 2 x 2 Gauss-Legendre points, exact for degree 3 in each parameter. Other polygons
-// are cut into a fan of triangles. Each level of `refinement` first splits the polygon into four.
+// A cubature rule for the mean over a convex planar polygon. The rule for a triangle has 3 points and is
+// exact for polynomials of degree 2. The rule for a quadrilateral has 2 x 2 Gauss-Legendre points and is
+// exact for degree 3 in each parameter. Other polygons are cut into a fan of triangles. Before the rule is
+// applied, each polygon is split into four polygons, `refinement` times in succession.
 std::vector<CubaturePoint> Cubature(std::span<const Vec3> polygon, int refinement = 0);
 
 }  // namespace penumbra

@@ -6,7 +6,8 @@
 
 namespace penumbra {
 
-// The mean over a few points of the receiver (FindByCubature).
+// The default method: the form factor of a link is the mean of exact point form factors at a few points of
+// the receiver (FindByCubature).
 LinkFormFactorRegistry::Method CubatureLinkFormFactorMethod();
 
 }  // namespace penumbra

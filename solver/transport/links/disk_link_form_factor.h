@@ -6,10 +6,12 @@
 
 namespace penumbra {
 
-// For comparison: the form factor to a disk in place of the source, from the centre of the receiver's part
-// before the source, times the fraction of the source's point form factor that blockers leave visible there.
-// The fraction is exact; Hanrahan, Salzman and Aupperle (1991) cast rays. Variation and shares are those of
-// the cubature.
+// A method for comparison: approximates the form factor of a link by (form factor of a point to a disk that
+// replaces the source) * (visible fraction of the source). The point is the centroid of the receiver's part
+// before the source's plane. The visible fraction is the exact ratio (form factor of the point to the visible
+// part of the source) / (form factor of the point to the whole source), whereas Hanrahan, Salzman and
+// Aupperle (1991) estimate the fraction by rays. Link::variation and Link::share are computed by
+// FindByCubature().
 LinkFormFactorRegistry::Method DiskLinkFormFactorMethod();
 
 }  // namespace penumbra

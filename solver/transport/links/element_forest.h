@@ -1,12 +1,12 @@
 // solver/transport/links/element_forest.h
 //
 // The quadtrees of elements, one for each patch (the thesis's Tree, 4.1): their geometry and topology only.
-// Arrays indexed by ElementId hold the light.
+// Radiosities are stored elsewhere, in arrays indexed by ElementId.
 //
 // All corners of elements lie on the integer lattice of their patch. With N = kLatticeSize, the corners of a
 // quadrilateral are (0,0), (N,0), (N,N) and (0,N); those of a triangle are (0,0), (N,0) and (0,N). Equal
-// lattice points have equal positions, to the bit: neighbours, shared corners and hanging vertices are found
-// by comparing integers, not distances.
+// lattice points have bit-identical positions: neighbours, shared corners and hanging vertices are found by
+// comparing integers, not distances.
 
 #pragma once
 
@@ -34,7 +34,7 @@ struct LatticePoint {
   auto operator<=>(const LatticePoint&) const = default;
 };
 
-// The midpoint of two lattice points. REQUIRES: it is on the lattice.
+// The midpoint of two lattice points. REQUIRES: the midpoint is on the lattice.
 inline LatticePoint Midpoint(const LatticePoint& a, const LatticePoint& b) {
   return {(a.x + b.x) / 2, (a.y + b.y) / 2};
 }
@@ -48,7 +48,7 @@ struct LatticePointHash {
 };
 
 // The position of a lattice point on a patch [m]: bilinear on a quadrilateral, affine on a triangle. The
-// positions of the corners equal the patch's vertices to the bit.
+// positions of the lattice's corners are bit-identical to the patch's vertices.
 Vec3 LatticePosition(const Patch& patch, const LatticePoint& p);
 
 struct Element {
@@ -66,7 +66,7 @@ struct Element {
   std::span<const LatticePoint> Corners() const { return {corner.data(), static_cast<std::size_t>(size)}; }
 };
 
-// The corners of the element's four children, whether or not they exist [m].
+// The corners of the element's four children [m], whether or not the children exist.
 std::array<std::array<Vec3, 4>, 4> Quarters(const Element& element);
 
 // All quadtrees of a scene. Ids stay valid while trees grow; references to elements do not.
@@ -99,8 +99,9 @@ class ElementForest {
   // The leaves of all patches, patch by patch.
   std::vector<ElementId> AllLeaves() const;
 
-  // The leaf of the patch that contains the point. For a point on a border, or outside by rounding, one of
-  // the nearest leaves. REQUIRES: the point lies in the patch's plane.
+  // The leaf of the patch that contains the point. For a point on a border between leaves, or outside the
+  // patch because of rounding, the result is one of the nearest leaves. REQUIRES: the point lies in the
+  // patch's plane.
   ElementId LeafAt(PatchId patch, const Vec3& point) const;
 
   // Calls visit(id) for the element and all its descendants, parents first.

@@ -6,8 +6,9 @@
 
 namespace penumbra {
 
-// The form factor between areas (AreaFormFactor), within LinkFormFactorOptions::tolerance; row sums and
-// reciprocity hold to the same tolerance. Variation and shares are those of the cubature.
+// The most accurate method: the exact form factor between two areas (AreaFormFactor), with an error of at
+// most LinkFormFactorOptions::tolerance; row sums and reciprocity hold to the same tolerance. Link::variation
+// and Link::share are computed by FindByCubature().
 LinkFormFactorRegistry::Method ExactLinkFormFactorMethod();
 
 }  // namespace penumbra

@@ -6,8 +6,10 @@
 
 namespace penumbra {
 
-// The deviation is that of a linear function with the gradient of the unoccluded form factor at the
-// receiver's centre; for partial links, the sampled deviation if that is larger.
+// An AreaWeightedOracle that approximates the form factor over the receiver by a linear function, which has
+// the gradient of the unoccluded form factor at the receiver's centre. The deviation of a link is the
+// deviation of the linear function; for links with blockers, it is max(deviation of the linear function,
+// Link::variation).
 OracleRegistry::Method GradientOracleMethod();
 
 }  // namespace penumbra

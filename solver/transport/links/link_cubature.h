@@ -9,9 +9,10 @@
 
 namespace penumbra {
 
-// Sets the form factor, the variation and the shares of each link, from the points of Cubature() on the
-// receiver's part before the source. Sources that reflect nothing keep equal shares, since their radiosity
-// stays constant. The values are useless if the context is cancelled.
+// Sets Link::form_factor, variation, share and source_variation of each link. Samples the point form factor
+// at the points of Cubature() on that part of the receiver that lies before the source's plane. For sources
+// that reflect nothing, all entries of Link::share stay 1/4, because their radiosity is constant. The values
+// are useless if the context is cancelled.
 void FindByCubature(ReceiverLinks* links, const ExecutionContext& context);
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // solver/transport/links/link_form_factor_method.h
 //
-// An interface to compute the form factors of links, for several methods.
+// The interface of methods that compute the form factors of links.
 
 #pragma once
 
@@ -13,15 +13,16 @@
 
 namespace penumbra {
 
-// The data of a link that its form factor is computed from.
+// The data from which the form factor of a link is computed.
 struct LinkView {
-  // Blockers of the link that decide which segments between its ends are blocked.
+  // A subset of the link's blockers that contains, for every blocked segment between the ends of the link, at
+  // least one patch that blocks the segment.
   std::vector<PatchId> blockers;
   Polygon3 lit;             // the receiver's part before the source's plane [m]; empty: all of the receiver
   double lit_fraction = 1;  // area of that part / area of the receiver
 };
 
-// The links of one receiver, with the view of each.
+// The links of one receiver, with a LinkView for each link.
 struct ReceiverLinks {
   const ElementForest& forest;
   ElementId receiver = kNoElement;
@@ -33,9 +34,9 @@ class LinkFormFactorMethod {
  public:
   virtual ~LinkFormFactorMethod() = default;
 
-  // Sets form_factor, variation, share and source_variation of all links. On entry they are those of a link
-  // without light. The part of the receiver behind the source's plane counts as dark. May be called from
-  // several threads. The values are useless if the context is cancelled.
+  // Sets form_factor, variation, share and source_variation of all links. On entry, the four members have the
+  // values for a link that transports no light. The part of the receiver behind the source's plane counts as
+  // dark. May be called from several threads. The values are useless if the context is cancelled.
   virtual void Find(ReceiverLinks* links, const ExecutionContext& context) const = 0;
 };
 

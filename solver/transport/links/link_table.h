@@ -13,19 +13,21 @@
 
 namespace penumbra {
 
-// All new links of one receiver. New links choose their blockers from those of the links that they replace.
+// All new links of one receiver. The blockers of a new link are chosen from the blockers of the link that it
+// replaces.
 struct LinkGroup {
   ElementId receiver = kNoElement;
   std::vector<LinkCandidate> candidates;
 };
 
-// Forms the links of all groups, one set for each group. Sets are empty after the context is cancelled.
+// Forms the links of all groups, one set for each group. If the context is cancelled, the remaining sets are
+// empty.
 std::vector<LinkSet> FormLinkGroups(const ElementForest& forest, std::span<const LinkGroup> groups,
                                     const LinkFormFactorMethod& form_factors,
                                     const ExecutionContext& context);
 
-// The links without a flag in `dropped` (one flag for each link; empty: no flags) and the links of `formed`,
-// ordered by receiver, then source. The result is useless if the context is cancelled.
+// The links l of `links` with dropped[l] == 0, together with the links of `formed`, ordered by receiver, then
+// by source. If `dropped` is empty, all links are kept. The result is useless if the context is cancelled.
 LinkSet ReplaceLinks(const LinkSet& links, std::span<const char> dropped, std::span<const LinkSet> formed,
                      const ExecutionContext& context = ExecutionContext());
 

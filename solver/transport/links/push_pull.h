@@ -22,15 +22,16 @@ enum class IterationScheme : std::uint8_t {
 
 class PushPull {
  public:
-  // Works on the light of the solution. The solution must outlive the object.
+  // The object reads and changes the irradiances and radiosities of `solution`, which must outlive the
+  // object.
   explicit PushPull(RadiositySolution& solution);
 
-  // Call it after links or elements have changed: rebuilds the index of links, gives new elements the light
-  // of their parents, and undoes Balance().
+  // Must be called after links or elements have changed. Rebuilds the index of links, gives new elements the
+  // light of their parents, and undoes Balance().
   void Update();
 
-  // Scales the light that links bring to each leaf: unit radiosity everywhere then gives leaf leaves()[i] the
-  // irradiance closure[i] [1].
+  // Scales the light that links bring to each leaf, such that unit radiosity of all elements gives leaf
+  // leaves()[i] the irradiance closure[i] [1].
   void Balance(std::span<const double> closure);
   bool IsBalanced() const { return !scale_.empty(); }
 
@@ -43,9 +44,9 @@ class PushPull {
   // The leaves, patch by patch, in the order of their creation.
   std::span<const ElementId> leaves() const { return leaves_; }
 
-  // One sweep: sets the irradiance of each leaf to the light of its links plus its `correction` (by element,
-  // or empty) [W/m^2], and its radiosity accordingly. Returns the largest change of a leaf's radiosity for
-  // each channel [W/m^2].
+  // One sweep: sets the irradiance of each leaf to the light of its links plus correction[leaf] [W/m^2], and
+  // updates the leaf's radiosity. `correction` is indexed by ElementId, or empty. Returns the largest change
+  // of a leaf's radiosity for each channel [W/m^2].
   Rgb Sweep(IterationScheme scheme, std::span<const Rgb> correction);
 
   // Sets the irradiance of a leaf [W/m^2] and the resulting radiosity.
@@ -55,8 +56,8 @@ class PushPull {
   // Computes RadiositySolution::radiosity_spread and spread_below.
   void UpdateSpreads();
 
-  // The irradiance of all elements over the links for the given radiosities of all elements. Negative
-  // radiosities may give negative irradiance.
+  // The irradiance [W/m^2] that all elements receive over the links if the elements have the given
+  // radiosities. Negative radiosities may give negative irradiance.
   std::vector<Rgb> Transport(std::span<const Rgb> radiosity) const;
 
   // The largest reflected radiosity, radiosity - emittance, over all leaves and channels [W/m^2].

@@ -1,6 +1,6 @@
 // solver/transport/links/refinement.h
 //
-// Refinement of links (thesis 4.4): which links are split, and which links replace them.
+// Refinement of links (thesis 4.4): chooses the links that are split, and the links that replace them.
 
 #pragma once
 
@@ -14,15 +14,16 @@
 
 namespace penumbra {
 
-// New links, and the links that they replace. The blockers of the groups point into the solution's links.
+// New links, and the links that they replace. The spans LinkCandidate::blockers refer to memory of the
+// solution's links.
 struct RefinementPlan {
   std::vector<char> dropped;  // one flag for each link
   std::vector<LinkGroup> groups;
   std::size_t links_split = 0;
 };
 
-// Judges all links once. Subdivides, in the solution's forest, the elements that the oracle wants to split.
-// REQUIRES: `push_pull` is up to date with the solution's links.
+// Lets the oracle judge every link once. In the solution's forest, subdivides the elements that the oracle
+// wants to split. REQUIRES: `push_pull` is up to date with the solution's links.
 RefinementPlan PlanRefinement(RadiositySolution& solution, const PushPull& push_pull,
                               const RefinementOracle& oracle);
 

@@ -1,7 +1,7 @@
 // solver/transport/links/refinement_oracle.h
 //
-// Refinement oracles: they find the links whose error is too large, and the end of the link to split (thesis
-// 4.4).
+// Refinement oracles decide which links have too large an error, and which end of such a link, receiver or
+// source, must be split (thesis 4.4).
 
 #pragma once
 
@@ -18,8 +18,8 @@ enum class Refinement : std::uint8_t { kAccept, kSplitReceiver, kSplitSource };
 class RefinementOracle {
  public:
   virtual ~RefinementOracle() = default;
-  // The decision on a link, given the current radiosities of the solution. May be called from several
-  // threads.
+  // Decides, given the current radiosities of the solution, whether to accept the link or which of its ends
+  // to split. May be called from several threads.
   virtual Refinement Judge(const RadiositySolution& solution, const Link& link) const = 0;
 };
 
@@ -31,8 +31,8 @@ struct OracleOptions {
 
 using OracleRegistry = Registry<const RefinementOracle, OracleOptions>;
 
-// True if the children of the element would have at least the area `min_area` [m^2], and its level is below
-// the last.
+// True if the children of the element would have at least the area `min_area` [m^2], and the level of the
+// element is below kMaxLevel.
 bool MaySplit(const Element& element, double min_area);
 
 }  // namespace penumbra

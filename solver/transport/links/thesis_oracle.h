@@ -6,8 +6,8 @@
 
 namespace penumbra {
 
-// The oracle as printed in the thesis (4.4.1): compares B * deviation(F) with eps, whatever the area, and
-// splits the larger element.
+// The oracle as printed in the thesis (4.4.1): compares B * deviation(F) with eps, without an area factor,
+// and splits the larger element of the link.
 OracleRegistry::Method ThesisOracleMethod();
 
 }  // namespace penumbra

@@ -6,7 +6,8 @@
 
 namespace penumbra {
 
-// Uses the deviation between the points at which the link was sampled.
+// An AreaWeightedOracle with deviation(F) = Link::variation, the deviation of the point form factors at the
+// points where the link was sampled.
 OracleRegistry::Method TransportOracleMethod();
 
 }  // namespace penumbra

@@ -6,8 +6,8 @@
 
 namespace penumbra {
 
-// The transport oracle with twice the deviation for partial links, because shadows may fall between the
-// sampled points.
+// Like the oracle of TransportOracleMethod(), but with twice the deviation for links with blockers, because
+// shadows may fall between the sample points.
 OracleRegistry::Method VisibilityOracleMethod();
 
 }  // namespace penumbra

@@ -1,8 +1,8 @@
 // solver/transport/points/factor_row.h
 //
-// The form factors of one point to nodes of the source trees: one row of the transport operator. Irradiance is
-// linear in the radiosities, so a row that is kept gives the irradiance for any later radiosities of the same
-// sources as a product, without a look at the scene.
+// The form factors of one point to nodes of the source trees: one row of the transport operator. Irradiance
+// is linear in the radiosities, so a row that is kept gives the irradiance for any later radiosities of the
+// same sources as a product, without a look at the scene.
 
 #pragma once
 
@@ -40,8 +40,8 @@ struct FactorRow {
   double returned = 0;  // the largest SentBack() of the sources [1]
 };
 
-// The irradiance from the terms [first, end) of a row [W/m^2]. Linear in the radiosities of the set; it may be
-// negative by the error of the slopes.
+// The irradiance from the terms [first, end) of a row [W/m^2]. Linear in the radiosities of the set; it may
+// be negative by the error of the slopes.
 Rgb Irradiance(const FactorRow& row, std::uint32_t first, std::uint32_t end, const SourceSet& sources);
 // The irradiance of the whole row, at least 0 [W/m^2].
 Rgb Irradiance(const FactorRow& row, const SourceSet& sources);

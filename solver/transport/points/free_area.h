@@ -1,7 +1,8 @@
 // solver/transport/points/free_area.h
 //
-// The free area of each patch. A box on a floor covers a part of the floor that no light reaches. The sum of
-// the floor's form factors is therefore free area / area, not 1.
+// The free area of each patch: the area that is not covered by other objects. For example, a box on a floor
+// covers a part of the floor, which no light reaches; the sum of the floor's form factors is therefore (free
+// area) / area instead of 1.
 
 #pragma once
 
@@ -12,11 +13,11 @@
 
 namespace penumbra {
 
-// For each patch, the total area of those parts between its contacts that see the front of another patch
-// [m^2]. Exact, except for slivers that CutLeavesAtContacts() does not cut off and for light through gaps
-// that count as closed (ContactGap). In an open scene, a part that sees only the sky does not count as free.
-// Parallel; the result does not depend on the number of threads. The result is useless if the context is
-// cancelled.
+// Contacts divide a patch into parts. The free area of the patch is the total area of those parts that see
+// the front of another patch [m^2]. The result is exact, except for slivers that CutLeavesAtContacts() does
+// not cut off and for light through gaps that count as closed (ContactGap). In an open scene, a part that
+// sees only the sky does not count as free. The function uses several threads; the result does not depend on
+// their number. The result is useless if the context is cancelled.
 std::vector<double> FreeAreas(const Scene& scene, const ExecutionContext& context = ExecutionContext());
 
 }  // namespace penumbra

@@ -489,7 +489,8 @@ void Gathering::Add(const FactorTerm& term) {
   const Node& node = sources_.NodeAt(static_cast<std::size_t>(term.node));
   irradiance_ += static_cast<double>(term.factor) * node.radiosity;
   if (node.skip > 1)
-    irradiance_ += (node.slope * Eigen::Map<const Eigen::Vector3f>(term.moment.data()).cast<double>()).array();
+    irradiance_ +=
+        (node.slope * Eigen::Map<const Eigen::Vector3f>(term.moment.data()).cast<double>()).array();
   if (row_) Record(term);
 }
 

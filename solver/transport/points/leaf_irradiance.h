@@ -23,8 +23,8 @@ enum class LeafSampling : std::uint8_t {
   kCubature,  // a rule of degree 2 or 3, refined where its points disagree
 };
 
-// The mean irradiance of a leaf and its fragments, from samples at points. With a positive tolerance, the
-// samples are those of PointIrradiance::NearlyOnPatch().
+// The mean irradiance of a leaf and its fragments, from samples at points. If the tolerance is positive, the
+// samples are computed by PointIrradiance::NearlyOnPatch().
 LeafIrradiance ExactLeafIrradiance(const RadiositySolution& solution, const PointIrradiance& irradiance,
                                    ElementId leaf, LeafSampling sampling, double tolerance = 0);
 

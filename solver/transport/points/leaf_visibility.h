@@ -1,8 +1,8 @@
 // solver/transport/points/leaf_visibility.h
 //
-// The sources that each leaf sees, and the blockers before each source. The lists of the patches are filtered
-// down the quadtrees with narrower and narrower tubes, so that irradiance at a point of a leaf has few
-// blockers to test.
+// The sources that each leaf sees, and the blockers before each source. The lists of a leaf are derived from
+// the lists of its patch: each level of the quadtree removes sources and blockers by means of narrower tubes,
+// so that few blockers remain to be tested at a point of the leaf.
 
 #pragma once
 
@@ -19,17 +19,17 @@ namespace penumbra {
 class LeafVisibility {
  public:
   LeafVisibility() = default;
-  // Useless if the context is cancelled.
+  // The object is useless if the context is cancelled.
   LeafVisibility(const ElementForest& forest, const PatchVisibility& patches,
                  const ExecutionContext& context = ExecutionContext());
 
-  // The source patches that a point in the leaf or just outside it may see, ascending.
+  // The source patches, in ascending order, that a point in the leaf or just outside the leaf may see.
   std::span<const PatchPair> SourcesOf(ElementId leaf) const {
     return {pairs_.data() + range_[static_cast<std::size_t>(leaf)].first,
             pairs_.data() + range_[static_cast<std::size_t>(leaf)].second};
   }
-  // Blockers that decide what is hidden: for any blocked segment between leaf and source, at least one of its
-  // blockers.
+  // A list of patches that contains, for every blocked segment between the leaf and the source, at least one
+  // patch that blocks the segment.
   std::span<const PatchId> Blockers(const PatchPair& pair) const {
     return {blockers_.data() + pair.first_blocker, pair.blocker_count};
   }
@@ -41,13 +41,14 @@ class LeafVisibility {
   std::vector<PatchId> blockers_;
 };
 
-// The visibility of the leaves of a forest that grows: found when it is first asked for after a change.
+// Caches the LeafVisibility of a forest whose leaves may change: Get() computes the visibility at the first
+// call after construction or Reset().
 class LeafVisibilityCache {
  public:
-  // Null if cancelled.
+  // Returns null if the context is cancelled.
   std::shared_ptr<const LeafVisibility> Get(const ElementForest& forest, const PatchVisibility& patches,
                                             const ExecutionContext& context);
-  // For use after leaves have changed.
+  // Must be called after leaves have changed.
   void Reset() { found_.reset(); }
 
  private:

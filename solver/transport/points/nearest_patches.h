@@ -11,17 +11,17 @@
 
 namespace penumbra {
 
-// The patches that may be the nearest to some point of a polygon, among those that the polygon sees: how near
-// they are says how much of their view the polygon can fill.
+// Among the patches that a polygon sees, those that may be the nearest ones to some point of the polygon. The
+// distances of patches() bound the solid angle that the polygon fills as seen from other patches.
 class NearestPatches {
  public:
   // The scene must outlive the object.
   NearestPatches(const Scene& scene, std::span<const Vec3> polygon, std::span<const PatchPair> seen);
 
   std::span<const PatchId> patches() const { return patches_; }
-  // From the point to the nearest point of the patch [m].
+  // The distance from the point to the nearest point of the patch [m].
   double DistanceTo(PatchId patch, const Vec3& point) const;
-  // From the point to the nearest of all patches [m]; infinite if there are none.
+  // The distance from the point to the nearest of patches() [m]; infinite if patches() is empty.
   double Distance(const Vec3& point) const;
 
  private:

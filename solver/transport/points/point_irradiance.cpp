@@ -165,8 +165,7 @@ PointIrradianceResult PointIrradiance::NearlyOnPatch(PatchId patch, const Receiv
   gathering.AllowAggregates(tolerance);
   GatherBrightestFirst(patch, at, DimSources::kLeaveOut, gathering);
   const Rgb light = gathering.irradiance();
-  if ((gathering.unhindered() <= kMostlyHidden * light).all())
-    return {light, gathering.one_sided(), nullptr};
+  if ((gathering.unhindered() <= kMostlyHidden * light).all()) return {light, gathering.one_sided(), nullptr};
   Gathering closer(scene_, sources_, at, options_, nullptr);
   closer.AllowAggregates(tolerance, light, /*mostly_hidden=*/true);
   GatherBrightestFirst(patch, at, DimSources::kLeaveOut, closer);

@@ -3,8 +3,9 @@
 // IrradianceAtPoint() (thesis, chapter 6): the irradiance at a point from the leaves of a solution, with
 // exact form factors and exact visibility. Blockers are cut out of the sources, never sampled.
 //
-// Contacts (thesis 6.3, 6.4) are limits without a distance: if the plane of a source or a blocker contains
-// the point, the point's approach direction decides on which side of the plane the point lies.
+// At contacts (thesis 6.3, 6.4), the irradiance is a one-sided limit, and no small distance is involved: if
+// the plane of a source or a blocker contains the point, the point's approach direction decides on which side
+// of the plane the point lies.
 
 #pragma once
 
@@ -27,8 +28,9 @@ namespace penumbra {
 
 struct PointIrradianceResult {
   Rgb irradiance = Rgb::Zero();  // [W/m^2]
-  // The approach direction affected the value. The limit from another side may differ, so triangles on
-  // different sides must not share the sample.
+  // True if the irradiance is a limit that depends on the approach direction. A one-sided limit may be
+  // different for another approach direction; triangles on different sides of a contact must therefore not
+  // share a one-sided sample.
   bool one_sided = false;
   // The form factors that led to the value; null if they were not asked for.
   std::shared_ptr<FactorRow> row;
@@ -36,28 +38,29 @@ struct PointIrradianceResult {
 
 class PointIrradiance {
  public:
-  // Irradiance from the leaves of a solution. Computes what the leaves see unless `leaves` is given. All
-  // arguments passed by reference must outlive the object.
+  // Irradiance from the leaves of a solution. If `leaves` is null, the constructor computes the visibility of
+  // the leaves. All arguments passed by reference must outlive the object.
   PointIrradiance(const RadiositySolution& solution, const PatchVisibility& visibility,
                   const PointIrradianceOptions& options = {},
                   std::shared_ptr<const LeafVisibility> leaves = nullptr);
-  // Irradiance from any set of sources, such as the emitters. The visibility gives the sources and blockers
-  // of each patch.
+  // Irradiance from any set of sources, such as the emitters. For a point on a patch, `visibility` gives the
+  // sources and blockers to be tested.
   PointIrradiance(const Scene& scene, const PatchVisibility& visibility, SourceSet sources,
                   const PointIrradianceOptions& options = {});
 
-  // The same geometry and options with other sources.
+  // A copy of this object with other sources.
   PointIrradiance WithSources(SourceSet sources) const;
 
-  // The irradiance at a point on the front of a patch. Tests only the sources of the leaf (without a
-  // solution: of the patch) and their blockers; the patch itself neither lights nor blocks. Sets `parts`,
-  // unless null, to the parts of the irradiance. May be called from any thread.
+  // The irradiance at a point on the front of a patch. Tests only the sources that the leaf at the point may
+  // see and their blockers; without a solution, those that the patch may see. The patch itself neither lights
+  // nor blocks. If `parts` is not null, sets it to the parts of the irradiance. May be called from any
+  // thread.
   PointIrradianceResult OnPatch(PatchId patch, const ReceiverPoint& at,
                                 IrradianceParts* parts = nullptr) const;
 
-  // The irradiance of OnPatch() within a tolerance, for interpolants. A subtree of a source may count as one
-  // polygon with one radiosity, if this changes the light of the source by at most about `tolerance`
-  // (Gathering::AllowAggregates).
+  // Like OnPatch(), but within a relative tolerance; for the samples of interpolants. A subtree of a source
+  // may be replaced by one polygon with one radiosity if this changes the light of the source by a fraction
+  // of at most about `tolerance` (Gathering::AllowAggregates).
   PointIrradianceResult NearlyOnPatch(PatchId patch, const ReceiverPoint& at, double tolerance) const;
 
   // NearlyOnPatch(), and the row of form factors in the result, if CanRecord(). Every source that lights the
@@ -70,23 +73,23 @@ class PointIrradiance {
   std::size_t Renew(PatchId patch, const ReceiverPoint& at, double tolerance,
                     std::span<const PatchId> new_sources, FactorRow& row) const;
 
-  // Returns the irradiance of OnPatch(), and sets factors[i] to the form factor of the visible part of leaf i
-  // of the source set. REQUIRES: factors.size() is the number of leaves of the source set.
+  // Returns the same irradiance as OnPatch(), and sets factors[i] to the form factor of the visible part of
+  // leaf i of the source set. REQUIRES: factors.size() is the number of leaves of the source set.
   Rgb OnPatch(PatchId patch, const ReceiverPoint& at, std::span<double> factors) const;
 
   const SourceSet& sources() const { return sources_; }
 
-  // The factor by which light at the point grows by going back and forth between `patch` and the patch that
-  // returns the largest fraction: 1 / (1 - rho rho' F^2), for the channel where it is largest. rho and rho'
-  // are the two reflectances, F the unoccluded form factor of the point to the other patch. For reflectances
-  // of 0.8, at most 1.2 next to an edge of a room, and 2.8 deep in a slot.
+  // The factor by which light at the point is amplified by repeated reflection between `patch` and another
+  // patch: the maximum of 1 / (1 - rho rho' F^2) over all other patches and channels, where rho and rho' are
+  // the reflectances of the two patches, and F is the unoccluded form factor of the point to the other patch.
+  // For reflectances of 0.8, the factor is at most 1.2 next to an edge of a room, and 2.8 deep in a slot.
   double Reverberation(PatchId patch, const ReceiverPoint& at) const;
 
   // The patches that a leaf of the solution sees. REQUIRES: the object was made from a solution.
   std::span<const PatchPair> SeenFrom(ElementId leaf) const { return leaves_->SourcesOf(leaf); }
 
-  // The irradiance at any point, also in free space. Every patch may light and block; a hierarchy finds the
-  // patches that do. May be called from any thread.
+  // The irradiance at any point, also in free space. Any patch may light the point or block light; a bounding
+  // volume hierarchy finds the patches that matter. May be called from any thread.
   PointIrradianceResult Anywhere(const ReceiverPoint& at, IrradianceParts* parts = nullptr) const;
 
  private:

@@ -1,6 +1,7 @@
 // solver/transport/solvers/anderson.h
 //
-// Anderson acceleration: reduces the number of sweeps in bright rooms by extrapolating a linear iteration.
+// Anderson acceleration: extrapolates a linear iteration, and thus reduces the number of sweeps in rooms of
+// high reflectance.
 
 #pragma once
 
@@ -11,16 +12,15 @@
 
 namespace penumbra {
 
-// Anderson acceleration of x <- G(x), for each channel separately (D. G. Anderson 1965). For linear G it is
-// GMRES over the last steps (Walker and Ni 2011).
+// Anderson acceleration of x <- G(x), for each channel separately (Anderson 1965). For linear G, Anderson
+// acceleration is essentially GMRES restricted to the last steps (Walker and Ni 2011).
 class AndersonAcceleration {
  public:
-  // `weight` is the weight of each unknown, its area.
+  // `weight` holds the weight of each unknown in scalar products: the area of its element.
   explicit AndersonAcceleration(std::vector<double> weight) : weight_(std::move(weight)) {}
 
-  // Records the step from x to g = G(x). Replaces g by a better estimate, if there is one: the combination of
-  // the last steps with the smallest residual. If the residual has grown, forgets the earlier steps and keeps
-  // g.
+  // Records the step from x to g = G(x). Replaces g by the linear combination of the last steps with the
+  // smallest residual. If the residual has grown, forgets the earlier steps and leaves g unchanged.
   void Improve(const std::vector<Rgb>& x, std::vector<Rgb>& g);
 
  private:

@@ -1,7 +1,7 @@
 // solver/transport/solvers/congruent_pairs.h
 //
-// Finds congruent pairs of polygons: regular meshes have many, and all pairs of one shape have the same form
-// factor.
+// Finds congruent pairs of polygons: regular meshes have many congruent pairs, and all pairs of the same
+// shape have the same form factor.
 
 #pragma once
 
@@ -14,9 +14,9 @@ namespace penumbra {
 
 // The squared distances between the vertices of two convex polygons [m^2], in an order that depends neither
 // on the order of the two polygons nor on their first vertices or orientations. Pairs of equal shape are
-// images of each other under a rigid motion or a reflection. Without blockers, they exchange the same flux up
-// to rounding of the coordinates. Empty if one polygon is not completely before the other's plane: distances
-// do not tell the front from the back.
+// images of each other under a rigid motion or a reflection. Without blockers, pairs of equal shape exchange
+// the same flux, up to rounding of the coordinates. The list is empty if one polygon is not completely before
+// the plane of the other, because distances alone do not distinguish front from back.
 using PairShape = std::vector<double>;
 PairShape ShapeOfPair(std::span<const Vec3> a, const Patch& patch_a, std::span<const Vec3> b,
                       const Patch& patch_b);

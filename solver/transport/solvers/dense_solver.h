@@ -1,7 +1,7 @@
 // solver/transport/solvers/dense_solver.h
 //
-// Direct solution of dense systems, for all three channels: reference solutions. DenseSolver is the
-// LightSolver of dense systems.
+// Direct solution of dense systems for all three channels, to compute reference solutions. DenseSolver
+// implements the interface LightSolver with a dense system.
 
 #pragma once
 
@@ -19,30 +19,32 @@ struct DenseLight {
   std::vector<Rgb> irradiance, radiosity;  // per unknown [W/m^2]
 };
 
-// Solves B = E + rho T B by LU factorisation with pivoting. `emittance` [W/m^2] and `reflectance` are for
-// each unknown; by default those of the scene's materials.
+// Solves B = E + rho T B by LU factorisation with pivoting. `emittance` [W/m^2] and `reflectance` have one
+// entry for each unknown; by default, they are taken from the scene's materials.
 DenseLight SolveDense(const DenseSystem& system);
 DenseLight SolveDense(const DenseSystem& system, std::span<const Rgb> emittance,
                       std::span<const Rgb> reflectance);
 
-// The irradiance at a point on the front of a patch [W/m^2], from the solution that is constant, linear or
-// quadratic over each element. Exact with any blockers, except for kSourceQuadratureError. May be called from
-// any thread.
+// The irradiance at a point on the front of a patch [W/m^2], from the solution, which is constant, linear or
+// quadratic over each element. Visibility is exact; the only error of the integration is
+// kSourceQuadratureError. May be called from any thread.
 Rgb DenseIrradiance(const DenseSystem& system, const DenseLight& light, const PatchVisibility& visibility,
                     PatchId patch, const ReceiverPoint& at);
 
-// The solution in the form that exact probes and meshes need: each leaf has its mean radiosity. Has no links.
+// Converts the solution to the form that exact probes and meshes need: each leaf has its mean radiosity. The
+// result has no links.
 RadiositySolution ToRadiositySolution(const DenseSystem& system, const DenseLight& light);
 
-// The largest number of unknowns: 4 GB, with the copy that is factored.
+// The largest number of unknowns. For kMostDenseUnknowns unknowns, the matrix and the copy that is factorised
+// need 4 GB of memory.
 inline constexpr std::size_t kMostDenseUnknowns = 16'000;
 
-// Solves the dense system of a uniform mesh in its constructor; no steps remain. Linear and quadratic
-// elements pass on their means. The light never changes after the solution.
+// Solves the dense system of a uniform mesh in its constructor; no steps remain. Other stages see only the
+// mean radiosity of linear and quadratic elements. The light never changes after construction.
 class DenseSolver final : public LightSolver {
  public:
   // Throws InputError if the system has more than kMostDenseUnknowns unknowns. If the context is cancelled,
-  // the solution has the roots only, lit by their emittance only.
+  // the solution consists only of the root elements, whose radiosity is their emittance.
   DenseSolver(const Scene& scene, const PatchVisibility& visibility, const DenseOptions& options,
               const ExecutionContext& context);
 

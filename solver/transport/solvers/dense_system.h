@@ -6,10 +6,11 @@
 // Constant elements use the Galerkin method with form factors between areas: the light that leaves an element
 // equals the light that arrives at the others, and the mean irradiance of a closed room is correct on every
 // mesh. Linear and quadratic elements use collocation at Gauss nodes inside the elements: a row is an
-// integral over sources only, and no node lies on an edge where walls meet. Rows of a closed room still add
-// up to 1. The irradiance that the solution sends to other points converges faster than the solution itself
-// (iterated collocation; Atkinson, The numerical solution of integral equations of the second kind, 1997).
-// With collocation, reciprocity holds only to the order of the method. No form factor is normalised.
+// integral over sources only, and no node lies on an edge where walls meet. With collocation, too, rows of a
+// closed room add up to 1. The irradiance that is computed from the solution at other points converges faster
+// than the solution itself (iterated collocation; Atkinson, The numerical solution of integral equations of
+// the second kind, 1997). With collocation, reciprocity holds only to the order of the method. No form factor
+// is normalised.
 
 #pragma once
 
@@ -30,13 +31,14 @@ namespace penumbra {
 struct DenseOptions {
   BasisDegree degree = BasisDegree::kConstant;
   int divisions = 4;  // elements along each side of a patch: a power of two (UniformForest)
-  // For form factors between constant elements with blockers: the relative error, and the largest number of
-  // points for one pair (AreaFormFactorOptions). Other form factors are exact up to rounding.
+  // Limits for the form factors between constant elements with blockers: the relative error, and the number
+  // of points for one pair (AreaFormFactorOptions). All other form factors are exact up to rounding.
   double tolerance = 1e-7;
   std::size_t max_points = 100'000;
 };
 
-// A leaf. If the degree is not constant, a leaf that is no parallelogram gives two triangles.
+// An element is a leaf of the forest, or, if the degree is not constant and the leaf is a quadrilateral but
+// no parallelogram, one of two triangles of the leaf.
 struct DenseElement {
   ElementId leaf = kNoElement;
   Polygon3 polygon;  // [m]
@@ -51,8 +53,9 @@ struct DenseSystem {
   std::vector<DenseElement> elements;           // by patch, then in depth-first order of the leaves
   std::vector<std::size_t> first_of_patch;      // in `elements`, and one past the last
   std::vector<std::size_t> element_of_unknown;  // index in `elements`
-  // transport(i, j): irradiance of unknown i for unit radiosity of unknown j [1]; the mean over a constant
-  // element, otherwise the value at the node.
+  // transport(i, j) is the irradiance of unknown i for unit radiosity of unknown j [1]. For constant
+  // elements, the irradiance of an unknown is the mean over the element; otherwise, it is the value at the
+  // node.
   Eigen::MatrixXd transport;
   double form_factor_error = 0;  // the largest sum over a row of the form factors' errors
 
@@ -64,7 +67,8 @@ struct DenseSystem {
   double Weight(std::size_t unknown) const;
 };
 
-// Two properties of the exact operator: rows sum to 1 in closed rooms, and weight * transport is symmetric.
+// Measures how well the system satisfies two properties of the exact operator: rows of `transport` sum to 1
+// in closed rooms, and weight * transport is symmetric.
 struct DenseClosure {
   double least_row_sum = 1, largest_row_sum = 0;
   double reciprocity =
@@ -75,13 +79,14 @@ DenseClosure MeasureClosure(const DenseSystem& system);
 // The number of unknowns on the leaves of a forest.
 std::size_t CountUnknowns(const ElementForest& forest, BasisDegree degree);
 
-// Computes the dense system. Parallel; the result does not depend on the number of threads. Has no unknowns
-// if the context is cancelled. REQUIRES: the visibility is that of the forest's scene.
+// Computes the dense system, with several threads; the result does not depend on their number. The system has
+// no unknowns if the context is cancelled. REQUIRES: the visibility is that of the forest's scene.
 DenseSystem AssembleDense(const ElementForest& forest, const PatchVisibility& visibility,
                           const DenseOptions& options, const ExecutionContext& context);
 
-// Adds to row[i] the irradiance at a point on the front of a patch for unit radiosity of unknown i [1]. Exact
-// with any blockers, except for kSourceQuadratureError. May be called from any thread.
+// Adds to row[i] the irradiance at a point on the front of a patch for unit radiosity of unknown i [1].
+// Visibility is exact; the only error of the integration is kSourceQuadratureError. May be called from any
+// thread.
 void AddTransport(const DenseSystem& system, const PatchVisibility& visibility, PatchId patch,
                   const ReceiverPoint& at, std::span<double> row);
 

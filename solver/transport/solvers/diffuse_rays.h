@@ -13,9 +13,9 @@ struct DiffuseRay {
   Vec3 origin, direction;  // [m]; unit
 };
 
-// Ray i of a low-discrepancy sequence of rays that leave a convex polygon evenly and cosine-distributed about
-// the unit vector `normal`. The rays start `lift` [m] before the polygon, so that they neither hit nor are
-// blocked by a polygon that lies on it with the opposite front.
+// Ray i of a low-discrepancy sequence of rays that start uniformly distributed over a convex polygon and have
+// cosine-distributed directions about the unit vector `normal`. The rays start `lift` [m] before the polygon,
+// so that they do not hit a coincident polygon that faces the opposite way.
 DiffuseRay MakeDiffuseRay(std::span<const Vec3> polygon, const Vec3& normal, double lift, std::size_t i,
                           std::uint64_t seed);
 

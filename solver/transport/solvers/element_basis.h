@@ -18,25 +18,27 @@ namespace penumbra {
 // parameters on parallelograms.
 enum class BasisDegree { kConstant = 0, kLinear = 1, kQuadratic = 2 };
 
-// Basis functions that are 1 at their own node and 0 at the other nodes. The nodes are those of rules for the
-// mean over the element. On a parallelogram: Gauss-Legendre rules with 1, 2 x 2 or 3 x 3 nodes. On a
-// triangle: rules of degree 1, 2 or 4 with 1, 3 or 6 nodes (Strang and Fix 1973; Dunavant 1985).
+// Basis functions that are 1 at their own node and 0 at the other nodes. The nodes are the nodes of a
+// quadrature rule for the mean over the element. Parallelograms have Gauss-Legendre rules with 1, 2 x 2 or 3
+// x 3 nodes. Triangles have rules of degree 1, 2 or 4 with 1, 3 or 6 nodes (Strang and Fix 1973; Dunavant
+// 1985).
 class ElementBasis {
  public:
   static constexpr std::size_t kMost = 9;  // largest number of functions
 
-  // REQUIRES: a triangle or a parallelogram; for kConstant, any quadrilateral.
+  // REQUIRES: the polygon is a triangle, a parallelogram, or, for kConstant, any quadrilateral.
   ElementBasis(std::span<const Vec3> polygon, BasisDegree degree);
 
   std::size_t size() const { return node_.size(); }
   const Vec3& Node(std::size_t i) const { return node_[i]; }  // [m]
   double Weight(std::size_t i) const { return weight_[i]; }   // of the rule for the mean; the sum is 1
 
-  // Sums over many positions are cheaper in monomials than in basis functions. Adds factor * (monomials at
-  // the position) to `monomials`.
+  // Adds factor * (monomials at the position) to `monomials`. To sum basis functions over many positions, it
+  // is faster to sum monomials and to convert the sum with FromMonomials().
   using Values = std::array<double, kMost>;
   void AddMonomials(const Vec3& position, double factor, Values& monomials) const;
-  // Converts a sum of monomials over positions to the same sum of each basis function.
+  // If monomials[m] is a weighted sum of monomial m over some positions, returns the same weighted sum of
+  // each basis function.
   Values FromMonomials(const Values& monomials) const;
 
   // The values of the basis functions at a position in the element's plane.
@@ -51,7 +53,8 @@ class ElementBasis {
   Eigen::MatrixXd coefficient_;  // of monomial m in function i
 };
 
-// True if opposite sides of the quadrilateral are equal, up to rounding of coordinates up to `extent` [m].
+// True if opposite sides of the quadrilateral are equal up to rounding. `extent` [m] is a bound of the
+// absolute values of coordinates.
 bool IsParallelogram(std::span<const Vec3> polygon, double extent);
 
 }  // namespace penumbra

@@ -1,6 +1,7 @@
 // solver/transport/solvers/energy.h
 //
-// The energy balance of a solution: emitted = absorbed + escaped. Each term is measured independently.
+// The energy balance of a solution: emitted = absorbed + escaped. The emitted, the absorbed and the escaped
+// energy are measured independently.
 
 #pragma once
 
@@ -20,8 +21,8 @@ struct EnergyBalance {
 };
 
 // Casts cosine-distributed low-discrepancy rays from the leaves and fragments; the number of rays of each is
-// proportional to its flux. The error of the rays is about 1 / rays in smooth scenes. Deterministic for a
-// given seed. The result is useless if the context is cancelled.
+// proportional to its flux. The error caused by the finite number of rays is about 1 / rays in smooth scenes.
+// The result is deterministic for a given seed. The result is useless if the context is cancelled.
 EnergyBalance MeasureEnergy(const RadiositySolution& solution, std::size_t rays = std::size_t{1} << 18,
                             std::uint64_t seed = 1, const ExecutionContext& context = ExecutionContext());
 

@@ -7,9 +7,9 @@
 // Links control refinement and make iterations cheap, but each link has an error of up to eps, and the errors
 // of sources add up to missing energy. The solver therefore corrects the converged solution (deferred
 // correction, Stetter 1978): it computes the exact irradiance of every leaf from all leaves
-// (IrradianceAtPoint), adds the difference from the links' irradiance to the leaf, and gathers the bounces of
-// the difference over the links. Each pass multiplies the error of the transport by the relative error of the
-// links, a few hundredths.
+// (IrradianceAtPoint), adds (exact irradiance - irradiance from the links) to the irradiance of the leaf, and
+// gathers the reflections of this difference over the links. Each pass multiplies the error of the light
+// transport by the relative error of the links, which is a few percent.
 
 #pragma once
 
@@ -35,7 +35,7 @@ class HierarchicalSolver final : public LightSolver {
   // visibility must outlive the solver.
   HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
                      const ExecutionContext& context = ExecutionContext());
-  // Continues from a solution of the same scene, with its links and its light including corrections.
+  // Continues from a solution of the same scene: takes over its links, and its light including corrections.
   HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
                      RadiositySolution solution, const ExecutionContext& context = ExecutionContext());
 
@@ -45,36 +45,37 @@ class HierarchicalSolver final : public LightSolver {
   bool Converged() const override { return links_.Converged(); }
   const RadiositySolution& solution() const override { return links_.solution(); }
   const SolverReport& report() const override { return report_; }
-  // Gathers over the existing links until the light settles; computes no form factors. The light is linear in
-  // the emittances.
+  // Gathers over the existing links until the light has converged; computes no form factors. The resulting
+  // light is a linear function of the emittances.
   bool Relight(const ExecutionContext& context) override;
   bool TakesLight() const override { return true; }
-  // One pass of deferred correction with exact irradiance from the caller.
+  // Makes one pass of deferred correction, with exact irradiance that the caller has computed.
   bool SetLight(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
                 const ExecutionContext& context) override;
   double PartOfTolerance() const override;
   std::shared_ptr<const LeafVisibility> SeenFromLeaves(
       const ExecutionContext& context = ExecutionContext()) override;
-  // Over the links, without corrections.
+  // The light is computed over the links, without corrections.
   std::vector<Rgb> MeanIrradianceByBounce(int bounces) const override;
 
   // One iteration: gathers with push-pull until the cut-off is met; splits every link that the oracle
   // rejects, and then rejected links among the new ones; gathers over the new links. Returns a report. The
-  // solution has converged when links_split == 0 and the residual is below the cut-off. Returns nothing if
-  // cancelled; the solution is then unchanged.
+  // solution has converged when links_split == 0 and the residual is below the cut-off. Returns nullopt, and
+  // leaves the solution unchanged, if cancelled.
   std::optional<IterationReport> Iterate(const ExecutionContext& context);
   // One pass of deferred correction. Returns the root mean square change of the leaves' irradiance, relative
-  // to the mean irradiance; nothing if cancelled. A later iteration that refines links drops the corrections.
-  // With SolverOptions::source_error > 0, the pass cuts the leaves into new parts, which determine the
-  // samples instead of `sampling`.
+  // to the mean irradiance; nullopt if cancelled. A later iteration that refines links drops the corrections.
+  // If SolverOptions::source_error > 0, the pass cuts the leaves into new parts and ignores `sampling`: the
+  // parts determine the sample points.
   std::optional<double> Correct(LeafSampling sampling, const ExecutionContext& context);
-  // All passes that the options request. False if cancelled; completed passes remain.
+  // Makes all passes of deferred correction that the options request. Returns false if cancelled; the
+  // corrections of completed passes are kept.
   bool CorrectAll(const ExecutionContext& context);
-  // All remaining steps. If cancelled, the solution is that of the last complete step. Returns the reports of
-  // the complete iterations.
+  // Makes all remaining steps. If cancelled, the solution is that of the last complete step. Returns the
+  // reports of the complete iterations.
   std::vector<IterationReport> Solve(const ExecutionContext& context);
 
-  // Links should have been split, but would have been too many (SolverOptions::max_links).
+  // True if refinement stopped because the number of links would have exceeded SolverOptions::max_links.
   bool Full() const { return links_.Full(); }
   RadiositySolution TakeSolution() && { return std::move(links_.solution()); }
 
@@ -90,7 +91,8 @@ class HierarchicalSolver final : public LightSolver {
   PointIrradianceOptions HowToSample() const;
   void TakeCorrectionsBack();
   std::optional<double> AddExact(LeafSampling sampling, const ExecutionContext& context);
-  // Correct() with parts of leaves that may cause the relative error `error`.
+  // Like Correct(), with parts of leaves so small that their constant radiosity causes a relative error of at
+  // most about `error`.
   std::optional<double> CorrectByCells(double error, const ExecutionContext& context);
 
   const Scene& scene_;

@@ -7,7 +7,7 @@
 
 namespace penumbra {
 
-// The work of one round of a solver, and the state after it.
+// The work of one iteration of a solver, and the state after the iteration.
 struct IterationReport {
   double residual = 0;  // bound of the error of any radiosity, relative to the largest reflected one
   double eps = 0;       // for which links were judged [W/m^2]

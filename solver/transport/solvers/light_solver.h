@@ -1,7 +1,7 @@
 // solver/transport/solvers/light_solver.h
 //
 // The interface of methods that solve for the light in a scene, step by step. Callers (Pipeline, the window,
-// user programs) depend on this interface only.
+// user programs) depend on LightSolver only.
 
 #pragma once
 
@@ -33,7 +33,7 @@ enum class SolverStep : std::uint8_t {
 // "iterate" or "correct".
 std::string_view StepName(SolverStep step);
 
-// The counts of a solver so far.
+// Statistics about the work that a solver has done so far.
 struct SolverReport {
   std::vector<IterationReport> iterations;
   int most_iterations = 0;  // the largest number that Next() asks for; 0: unknown
@@ -46,7 +46,8 @@ struct SolverReport {
   std::optional<Dense> dense;  // only of solvers that assemble a system
 };
 
-// The constructor of a solver makes links or assembles a system, which may be cancelled.
+// The constructor of a derived class makes links or assembles a system of equations; the user may cancel this
+// work.
 class LightSolver {
  public:
   virtual ~LightSolver() = default;
@@ -55,61 +56,64 @@ class LightSolver {
 
   // False if the construction was cancelled: the scene is then lit by emittance only.
   virtual bool Ready() const = 0;
-  // The step that brings the light closer to the solution. Nothing if the light is solved, or if the options
-  // allow no more steps.
+  // The next step towards the solution; nullopt if the light has converged, or if the options allow no more
+  // steps.
   virtual std::optional<SolverStep> Next() const = 0;
-  // Makes one step, whether or not Next() names it. False if the step was cancelled or the method has no such
-  // step. A cancelled round leaves the light unchanged; a cancelled correction keeps its completed passes.
+  // Makes one step, whether or not Next() returns this step. Returns false if the step was cancelled or the
+  // method has no such step. A cancelled iteration leaves the light unchanged; a cancelled correction keeps
+  // its completed passes.
   virtual bool Step(SolverStep step, const ExecutionContext& context) = 0;
-  // True if no round would change the light by more than the options allow.
+  // True if no further iteration would change the light by more than the options allow.
   virtual bool Converged() const = 0;
 
-  // The current light, as sources of further light.
+  // The current solution, whose leaves and fragments are the sources of light for other stages.
   virtual const RadiositySolution& solution() const = 0;
   virtual const SolverReport& report() const = 0;
 
-  // Recomputes the light after the scene's emittances or reflectances have changed, as one round, and drops
-  // corrections. False if cancelled, or if a new solver is necessary.
+  // Recomputes the light after the scene's emittances or reflectances have changed, as one iteration, and
+  // drops the corrections. Returns false if cancelled, or if a new solver is necessary.
   virtual bool Relight(const ExecutionContext& context) = 0;
-  // True if SetLight() is available: another stage may replace the light.
+  // True if SetLight() is available, by which another stage replaces the light.
   virtual bool TakesLight() const = 0;
-  // Takes the given irradiance as exact: that of the leaves, by element [W/m^2], and that of the fragments,
-  // which replace the solution's fragments. Adds the bounces of the change. False if cancelled; the light is
-  // then unchanged. REQUIRES: TakesLight(); the fragments ascend by leaf, tile their leaf, and have the
-  // leaf's irradiance as their area-weighted mean.
+  // Replaces the irradiance of the leaves by exact values: `irradiance`, indexed by ElementId [W/m^2], and
+  // the irradiances of `fragments`, which replace the solution's fragments. SetLight() then adds the light
+  // that arises from the change of irradiance by further reflections. Returns false, and leaves the light
+  // unchanged, if cancelled. REQUIRES: TakesLight() is true; the fragments are sorted by leaf and tile their
+  // leaf; the area-weighted mean of their irradiances is the irradiance of the leaf.
   virtual bool SetLight(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
                         const ExecutionContext& context) = 0;
 
-  // PointIrradianceOptions::part_of_tolerance for the amount of light that returns in this scene [1].
+  // The value of PointIrradianceOptions::part_of_tolerance that suits the reflectances of this scene [1].
   virtual double PartOfTolerance() const = 0;
-  // The visibility of the solution's leaves. Null if its computation was cancelled.
+  // The visibility of the solution's leaves; null if the computation was cancelled.
   virtual std::shared_ptr<const LeafVisibility> SeenFromLeaves(const ExecutionContext& context) = 0;
   // The area-weighted mean irradiance of the front sides of all patches, for each bounce [W/m^2]: entry 0
-  // is light from emitters, entry k light that was reflected k times. Empty if the method does not provide
-  // it.
+  // is light from emitters, entry k light that was reflected k times. The list is empty if the method does
+  // not compute means by bounce.
   virtual std::vector<Rgb> MeanIrradianceByBounce(int bounces) const = 0;
 
  protected:
   LightSolver() = default;
 };
 
-// Called after each complete step.
+// A function that is called after each complete step.
 using StepObserver = std::function<void(SolverStep)>;
 
-// Makes the next step until there is none. All callers that solve to the end use this loop. False if
-// cancelled.
+// Makes the step Next() until Next() returns nullopt. All callers that solve to the end use
+// SolveStepByStep(). Returns false if cancelled.
 bool SolveStepByStep(LightSolver& solver, const ExecutionContext& context, const StepObserver& observer = {});
 
 // The input of a solver. Scene and visibility must outlive the solver.
 struct SolverScene {
   const Scene& scene;
   const PatchVisibility& visibility;
-  // A solution of the same scene by the same method. The solver takes the solution and continues from it.
-  // Null: none. A method that cannot Relight() leaves the solution alone and makes no solver, but null.
+  // If not null, a solution of the same scene by the same method. The new solver moves the solution into
+  // itself and continues from there. A method without Relight() does not touch the solution, and makes a null
+  // pointer instead of a solver.
   RadiositySolution* goes_on_from = nullptr;
 };
 
-// The methods make solvers that are ready to step, unless the context is cancelled.
+// A method makes a solver that is ready for its first step, unless the context is cancelled.
 using LightSolverRegistry = Registry<LightSolver, SolverScene, LightSolverOptions, ExecutionContext>;
 
 }  // namespace penumbra

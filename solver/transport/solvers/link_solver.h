@@ -1,7 +1,7 @@
 // solver/transport/solvers/link_solver.h
 //
-// The part of the hierarchical solver that works on links (thesis, chapter 4): light settles on the links,
-// and oracles split them.
+// The part of the hierarchical solver that works on links (thesis, chapter 4): solves for the light that the
+// links transport, and splits links by means of an oracle.
 
 #pragma once
 
@@ -20,8 +20,8 @@
 
 namespace penumbra {
 
-// Solves for the light on elements over the links between them. Holds elements, links, light, and how far
-// the links are refined.
+// Solves for the light on elements over the links between them. The object holds the elements, the links,
+// the light, and the state of refinement.
 class LinkSolver {
  public:
   // The state that a cancelled step restores.
@@ -34,7 +34,7 @@ class LinkSolver {
     bool converged = false;
   };
 
-  // Makes links between the roots. If the context is cancelled, there are no links. The scene and the
+  // Makes links between the roots. If the context is cancelled, the solver has no links. The scene and the
   // visibility must outlive the solver.
   LinkSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
              const ExecutionContext& context);
@@ -43,19 +43,19 @@ class LinkSolver {
              RadiositySolution solution, const ExecutionContext& context);
 
   Snapshot TakeSnapshot() const;
-  // Restores the state of the snapshot. True if the elements have changed.
+  // Restores the state of the snapshot. Returns true if the set of elements has changed.
   bool Restore(Snapshot snapshot);
 
   // Sweeps until the distance of every radiosity from its limit is at most `cutoff` times the largest
-  // reflected radiosity. Adds `correction` (by element, or empty) [W/m^2] to the light that links bring to
-  // the leaves. False if cancelled.
+  // reflected radiosity. Adds correction[leaf] [W/m^2] to the light that links bring to a leaf; `correction`
+  // is indexed by ElementId, or empty. Returns false if cancelled.
   bool Settle(std::span<const Rgb> correction, double cutoff, IterationReport& report,
               const ExecutionContext& context);
   bool Settle(std::span<const Rgb> correction, IterationReport& report, const ExecutionContext& context) {
     return Settle(correction, options_.relative_cutoff, report, context);
   }
-  // Splits every link that the oracle rejects, and then rejected links among the new ones. Drops the
-  // fragments if a link is split. False if cancelled.
+  // Splits every link that the oracle rejects, and then rejected links among the new ones. If any link is
+  // split, the fragments of leaves are deleted. Returns false if cancelled.
   bool Split(Snapshot& before, IterationReport& report, const ExecutionContext& context);
   // Completes the report of an iteration, tests for convergence, and lowers eps for the next iteration
   // (multigridding).
@@ -66,13 +66,13 @@ class LinkSolver {
 
   bool Linked() const { return linked_; }
   bool Converged() const { return converged_; }
-  // Links should have been split, but would have been too many (SolverOptions::max_links).
+  // True if refinement stopped because the number of links would have exceeded SolverOptions::max_links.
   bool Full() const { return full_; }
   // The eps of the next iteration [W/m^2].
   double eps() const { return eps_; }
-  // The residual at which the light has settled before links are judged; larger for a larger eps.
+  // The residual at which sweeps end before the oracle judges links; it increases with eps.
   double Cutoff() const;
-  // LightToCome() at the last Settle() [1].
+  // The result of LightToCome() in the last call of Settle() [1], for the largest channel.
   double to_come() const { return to_come_; }
   const RadiositySolution& solution() const { return solution_; }
   RadiositySolution& solution() { return solution_; }
@@ -96,8 +96,9 @@ class LinkSolver {
   std::size_t root_links_ = 0;
 };
 
-// A room counts as nearly white if LightToCome() exceeds this: reflectances above 0.95. Below it, the errors
-// of links, a few thousandths, return about twenty times, which corrections repair.
+// A room counts as nearly white if LightToCome() exceeds this number, which corresponds to reflectances above
+// 0.95. In rooms that are not nearly white, errors of links, which are a few thousandths, are amplified by a
+// factor of at most about twenty, and deferred corrections remove them.
 inline constexpr double kNearlyWhite = 20;
 
 }  // namespace penumbra

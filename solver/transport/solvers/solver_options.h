@@ -17,32 +17,33 @@ namespace penumbra {
 struct SolverOptions {
   double eps = 0.1;        // largest transport error of a link [W/m^2] (thesis, Appendix A, 1)
   double min_area = 1e-5;  // smallest area of an element [m^2] (Appendix A, 2)
-  // Converged when the distance of every radiosity from its limit, relative to the largest reflected
-  // radiosity, is at most this (Appendix A, 7).
+  // The light has converged if |radiosity - limit| / (largest reflected radiosity) is at most relative_cutoff
+  // for every element (Appendix A, 7).
   double relative_cutoff = 1e-4;
   int max_iterations = 100;  // each gathers until the light settles, then refines
-  // Refinement stops before the number of links exceeds that between the roots by more than this: about 800
-  // MB.
+  // Refinement stops before (number of links) - (number of links between the roots) exceeds max_links. The
+  // default limits the memory of links to about 800 MB.
   std::size_t max_links = 8'000'000;
   IterationScheme scheme = IterationScheme::kJacobi;
   Acceleration acceleration = Acceleration::kAnderson;
   std::string oracle = "transport";  // a name in RefinementOracles()
-  // Starts with a larger eps, and lowers it from iteration to iteration (Hanrahan, Salzman and Aupperle
-  // 1991).
+  // If true, the first iteration uses a larger eps, and each iteration lowers eps (Hanrahan, Salzman and
+  // Aupperle 1991).
   bool multigrid = false;
   std::string form_factors = "cubature";  // a name in LinkFormFactorMethods()
   int max_corrections = 2;  // passes of exact irradiance over the leaves; 0: links only, as in the thesis
-  // Another stage makes the last of these passes, through LightSolver::SetLight().
+  // If true, another stage makes the last pass of correction, through LightSolver::SetLight().
   bool last_correction_elsewhere = false;
-  // Tolerance of the samples of corrections (PointIrradiance::NearlyOnPatch); 0: exact.
+  // The tolerance of the irradiance samples of corrections (PointIrradiance::NearlyOnPatch); 0 makes the
+  // samples exact.
   double correction_tolerance = 0;
-  // About the largest relative error of irradiance that constant radiosity may cause at receivers.
-  // Corrections cut leaves into as many parts as this requires (LeafCells), after some passes with fewer
-  // parts. 0: only contacts cut leaves.
+  // The approximate limit of the relative error of irradiance at receivers that is caused by treating
+  // radiosity as constant over parts of leaves. Corrections cut leaves into as many parts as source_error
+  // requires (LeafCells), after some passes with fewer parts. With 0, leaves are cut only at contacts.
   double source_error = 0;
 };
 
-// Options of all solvers; each solver uses its own part.
+// The options of all solvers; each solver uses only the member that is named after it.
 struct LightSolverOptions {
   SolverOptions hierarchical;
   DenseOptions dense;

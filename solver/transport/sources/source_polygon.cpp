@@ -57,7 +57,8 @@ std::optional<SourcePolygon> JoinQuarters(const SourcePolygon& a, const SourcePo
   SourcePolygon whole;
   whole.size = size;
   if (size == 3) {
-    const bool joined = p[1] == q[0] && q[2] == r[1] && r[0] == p[2] && s[0] == q[2] && s[1] == p[2] && s[2] == p[1];
+    const bool joined =
+        p[1] == q[0] && q[2] == r[1] && r[0] == p[2] && s[0] == q[2] && s[1] == p[2] && s[2] == p[1];
     if (!joined) return std::nullopt;
     whole.vertex = {p[0], q[1], r[2], Vec3::Zero()};
     return whole;

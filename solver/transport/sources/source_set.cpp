@@ -53,9 +53,8 @@ std::vector<Piece> JoinFragments(std::span<const Fragment> fragments) {
     open.push_back(pieces.size() - 1);
     while (open.size() >= kQuarters) {
       const std::size_t* last = &open[open.size() - kQuarters];
-      const std::optional<SourcePolygon> whole =
-          JoinQuarters(pieces[last[0]].polygon, pieces[last[1]].polygon, pieces[last[2]].polygon,
-                       pieces[last[3]].polygon);
+      const std::optional<SourcePolygon> whole = JoinQuarters(
+          pieces[last[0]].polygon, pieces[last[1]].polygon, pieces[last[2]].polygon, pieces[last[3]].polygon);
       if (!whole) break;
       std::size_t count = 1;
       for (std::size_t k = 0; k < kQuarters; ++k) count += pieces[last[k]].pieces;

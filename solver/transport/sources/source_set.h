@@ -1,8 +1,8 @@
 // solver/transport/sources/source_set.h
 //
 // The light sources of IrradianceAtPoint(): the leaves of a solution with their radiosities, in depth-first
-// order of their trees. All receiver points use the same set, so that no steps appear between receiver
-// elements.
+// order of their trees. All receiver points use the same set, so that irradiance does not jump between
+// receiver elements.
 
 #pragma once
 
@@ -22,17 +22,17 @@ struct RadiositySolution;
 
 class SourceSet {
  public:
-  // A node of a source's quadtree, in depth-first order. A subtree with one radiosity is a single leaf: the
-  // integral over a polygon is exact whatever the size.
+  // A node of a source's quadtree, in depth-first order. A subtree whose elements all have the same radiosity
+  // becomes a single leaf, because the form factor of a polygon is exact for any size.
   struct Node {
-    // The members that a traversal reads first share cache lines.
+    // The members that a traversal reads first come first, so that they lie in the same cache lines.
     std::int32_t size = 0;  // corners: 3 or 4
     std::int32_t skip = 1;  // number of nodes in this subtree, including this node; 1 for a leaf
     std::int32_t first_leaf = 0, leaf_count = 1;  // range of the subtree's leaves in the set
     std::array<std::int32_t, 4> corner = {};      // indices of the vertices in Corners()
     std::int32_t fragment = -1;                   // index of the fragment that contains the node; -1: none
     // For a subtree: the root mean square deviation of the leaves' radiosities B from their mean, divided by
-    // max(mean, 1 % of the scene's mean reflected radiosity), for the worst channel [1].
+    // max(mean, 1 % of the scene's mean reflected radiosity), for the channel with the largest quotient [1].
     double spread = 0;
     double residual = 0;          // root mean square deviation from the best linear fit, divided alike
     Vec3 centre = Vec3::Zero();   // of the polygon [m]
@@ -41,9 +41,9 @@ class SourceSet {
     Rgb radiosity = Rgb::Zero();  // [W/m^2]; of a subtree, the area-weighted mean
 
     std::array<Vec3, 4> vertex;  // [m]
-    // One row for each channel: sum over leaves of (B - mean B) * area * centre of the leaf [W m].
+    // Row c is the sum over the leaves of (B - mean B) * area * centre of the leaf, for channel c [W m].
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
-    // One row for each channel: the slope of the best linear fit of B along the polygon [W/m^3].
+    // Row c is the gradient, in the polygon's plane, of the best linear fit of B, for channel c [W/m^3].
     Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();
     // sum over leaves of area * d d^T [m^4], where d is the leaf's centre minus the mean of the centres.
     Eigen::Matrix3d second_moment = Eigen::Matrix3d::Zero();
@@ -51,8 +51,8 @@ class SourceSet {
 
   // The leaves of the solution with their radiosities.
   static SourceSet FromSolution(const RadiositySolution& solution);
-  // The leaves of the solution with `fragments` instead of the solution's fragments. REQUIRES: `fragments`
-  // ascends by leaf.
+  // The leaves of the solution with `fragments` instead of the solution's fragments. REQUIRES: `fragments` is
+  // sorted by leaf.
   static SourceSet FromSolution(const RadiositySolution& solution, std::span<const Fragment> fragments);
   // The emitters with their emittances, for direct light.
   static SourceSet Emitters(const Scene& scene);
@@ -65,7 +65,7 @@ class SourceSet {
     return {nodes_.data() + first_[patch], nodes_.data() + first_[patch + 1]};
   }
 
-  // The corners of all nodes, each once for each patch [m].
+  // The corners of all nodes [m]; a corner that several nodes of a patch share occurs once.
   std::span<const Vec3> Corners() const { return corners_; }
 
   // The polygons and radiosities of all leaves, tree after tree.
@@ -90,7 +90,7 @@ class SourceSet {
   const Rgb& Emittance(PatchId patch) const { return emittance_[static_cast<std::size_t>(patch)]; }
 
  private:
-  // Computes everything that follows from the nodes' polygons and the leaves' radiosities.
+  // Computes all data that are derived from the polygons of nodes and the radiosities of leaves.
   void Measure();
   void NumberLeaves();
   void NumberCorners();

@@ -2,9 +2,9 @@
 //
 // Lines in a receiver's plane at which the topology of the visible part of a source may change: the traces of
 // wedges through a vertex and an edge (Heckbert, Discontinuity meshing for radiosity, 1992) and the traces of
-// the blockers' planes. An integration over the receiver may cut its cells along these lines. The lines are
-// candidates: an event may be hidden, and the size of the jump is unknown. The mesh's discontinuities, in
-// contrast, are exact visible segments with their jumps.
+// the blockers' planes. An integration over the receiver may cut its cells along the event lines. Event lines
+// are only candidates: an event may be hidden, and the size of the jump is unknown. The mesh's
+// discontinuities, in contrast, are exact visible segments with their jumps.
 
 #pragma once
 
@@ -17,8 +17,8 @@
 
 namespace penumbra {
 
-// Two lines, or a line and a corner, with a distance below this times the area's diameter coincide. The value
-// is a choice: far above the rounding of the lines, and too small to show in a sum.
+// Two lines, or a line and a corner, coincide if their distance is below kSameLine * (diameter of the area).
+// kSameLine is far above the rounding error of the lines, and too small to affect an integral noticeably.
 inline constexpr double kSameLine = 1e-10;
 
 // A part of a receiver and a part of a source, the input of the search for event lines.
@@ -38,7 +38,8 @@ struct Event {
   bool edge_on = false;
 };
 
-// A line at which visibility may change in kind, with the stretch on which the change is possible.
+// A line on which the topology of the visible part may change, and the stretch of the line where a change is
+// possible.
 struct EventLine {
   Vec2 normal = Vec2::UnitX();  // unit
   double offset = 0;            // normal . p [m]
@@ -51,18 +52,19 @@ struct EventLine {
   Vec2 Along() const { return {-normal.y(), normal.x()}; }
 };
 
-// The stretch of a line inside a convex polygon, along Along() [m]; high <= low if there is none.
+// The part of a line inside a convex polygon, as an interval of coordinates along Along() [m]; high <= low if
+// the part is empty.
 struct Stretch {
   double low = 0, high = 0;
 };
 Stretch Inside(const EventLine& line, std::span<const Vec2> polygon);
 
-// The smallest distance of the line's vertices and edges, along the line of sight, from three points of the
-// line: the two ends `low` and `high`, and their midpoint [m].
+// The smallest distance, measured along lines of sight, between the vertices and edges that cause the line
+// and three points of the line: the two ends `low` and `high`, and their midpoint [m].
 double Reach(const EventLine& line, double low, double high);
 
-// True if some event of the line has both owners, a and b, among `blockers` and the source. REQUIRES:
-// `blockers` ascends.
+// True if for at least one event of the line, both owners, a and b, are in `blockers` or are the source.
+// REQUIRES: `blockers` is sorted in ascending order.
 bool IsCastByAny(const EventLine& line, std::span<const PatchId> blockers);
 
 struct EventLines {

@@ -1,8 +1,8 @@
 // solver/visibility/area/kronrod_rule.h
 //
 // Gauss rules and their Kronrod extensions (Kronrod 1965; the numbers are from QUADPACK, Piessens et al.
-// 1983). A Gauss rule and its extension share their sample points. For smooth integrands, the difference of
-// their values is larger than the error of the Kronrod value.
+// 1983). A Gauss rule and its extension share their sample points. For smooth integrands, |Gauss value -
+// Kronrod value| exceeds the error of the Kronrod value.
 
 #pragma once
 
@@ -17,8 +17,8 @@ struct KronrodRule {
   std::array<double, N> node, kronrod, gauss;
 };
 
-// Makes a rule on [0, 1] from the nodes in [0, 1) of a rule on [-1, 1], largest first, and their weights. The
-// last node is the middle, 0.
+// Makes a rule on [0, 1] from a symmetric rule on [-1, 1]. The parameters are the nodes in [0, 1) of the
+// symmetric rule, in descending order, so that the last node is 0; and their weights.
 template <std::size_t N>
 constexpr KronrodRule<N> MakeKronrodRule(const std::array<double, (N + 1) / 2>& node,
                                          const std::array<double, (N + 1) / 2>& kronrod,

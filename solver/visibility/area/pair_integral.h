@@ -1,7 +1,7 @@
 // solver/visibility/area/pair_integral.h
 //
-// The integral of the exact visible form factor of a point over a part of a patch. AreaFormFactor() calls it
-// for each pair of parts that may see each other.
+// The integral of the exact visible form factor of a point over a part of a patch. AreaFormFactor() computes
+// the integral for each pair of parts that may see each other.
 
 #pragma once
 
@@ -20,12 +20,14 @@ struct PartPair {
   double sender_area = 0;  // of the unclipped part that sends the flux [m^2]
 };
 
-// The largest error that this tolerance allows for a factor (AreaFormFactorOptions::tolerance).
+// The largest permissible error of a form factor with the value `factor`: max(tolerance * max(factor,
+// tolerance), 2e-17), as for AreaFormFactorOptions::tolerance.
 double AllowedError(double factor, double tolerance);
 
-// The integral of the visible form factor over the tube's receiver [m^2], with an error as in
-// AreaFormFactor(). The integration is adaptive: where the two rules differ, cells are cut along the event
-// lines that cross them, the heaviest first, and then halved. REQUIRES: `blockers` ascends.
+// The integral of the visible form factor over the tube's receiver [m^2]. The error is estimated as in
+// AreaFormFactor(). The integration is adaptive: where the Gauss and the Kronrod rule differ, cells are cut
+// along the event lines that cross them, those of the largest weight first, and then halved. REQUIRES:
+// `blockers` is sorted in ascending order.
 FormFactorEstimate IntegratePair(const Scene& scene, const PartPair& pair, std::vector<PatchId> blockers,
                                  const AreaFormFactorOptions& options);
 

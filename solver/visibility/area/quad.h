@@ -12,10 +12,10 @@
 
 namespace penumbra {
 
-// Counter-clockwise. A triangle repeats its first corner.
+// The corners of a quadrilateral, counter-clockwise. A triangle repeats its first corner.
 using Quad = std::array<Vec2, 4>;
 
-// The bilinear map from the unit square.
+// The bilinear map from (s, t) in the unit square to the quadrilateral.
 inline Vec2 At(const Quad& q, double s, double t) {
   return (1 - t) * ((1 - s) * q[0] + s * q[1]) + t * ((1 - s) * q[3] + s * q[2]);
 }

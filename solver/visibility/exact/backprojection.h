@@ -2,7 +2,7 @@
 //
 // Backprojection (thesis, section 6.2): the outlines of all blockers, projected from the point onto the
 // source, are constraints of a Delaunay triangulation of the source. Each triangle is visible or hidden as a
-// whole. Uses exact numbers.
+// whole. All decisions use exact numbers.
 
 #pragma once
 
@@ -35,8 +35,9 @@ struct BackprojectedSource {
 class Backprojection final : public OcclusionMethod {
  public:
   // Collapses an edge of a blocker's outline into its midpoint if the edge's projection onto the image of the
-  // source is shorter than `min_segment` times the diameter of that image (thesis, Appendix A, item 6; the
-  // thesis needs this for a stable triangulation, this class only to save time). With 0 the result is exact.
+  // source is shorter than `min_segment` times the diameter of that image (thesis, Appendix A, item 6). The
+  // thesis collapses edges to keep the triangulation stable; this class collapses edges only to save time.
+  // With min_segment = 0, the result is exact.
   explicit Backprojection(double min_segment = 0) : min_segment_(min_segment) {}
 
   double VisibleFormFactor(const DirectionPolygon& source, std::span<const Occluder> occluders,

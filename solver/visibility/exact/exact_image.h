@@ -1,10 +1,11 @@
 // solver/visibility/exact/exact_image.h
 //
-// A source and its occluders as seen from a point, as a plane figure in exact numbers; the common basis of
-// backprojection and vertex tracing. Input doubles that coincide (shared corners, shared edges, three edges
-// through a point) are exactly equal here, and near coincidences are exact slivers. There are no tolerances.
+// The image of a source and its occluders as seen from a point: a plane figure in exact numbers, the common
+// basis of backprojection and vertex tracing. Coincidences of the input (shared corners, shared edges, three
+// edges through a point) remain exact coincidences of the image, and near coincidences become exact slivers.
+// There are no tolerances.
 //
-// A template over the CGAL kernel, so that only source files include CGAL.
+// The class is a template over the CGAL kernel, so that only source files include CGAL.
 
 #pragma once
 
@@ -31,7 +32,8 @@ struct ImagePlane {
   int i = 0, j = 1, k = 2;
   Vec2 origin = Vec2::Zero();
 
-  // The plane axis . p = 1, with the two coordinates whose axes are most perpendicular to `along`.
+  // Makes the plane axis . p = 1 with axis = along. The image coordinates i and j are the two coordinate axes
+  // that are most nearly perpendicular to `along`.
   explicit ImagePlane(const Vec3& along) : axis(along) {
     axis.cwiseAbs().maxCoeff(&k);
     i = (k + 1) % 3;
@@ -46,7 +48,8 @@ struct ImagePlane {
     base[k] = (1 - axis[i] * origin.x() - axis[j] * origin.y()) / axis[k];
     return base;
   }
-  // The vector of the plane for a vector of the image. Base() + Lift(p) is the direction of image point p.
+  // Converts a vector of image coordinates to the corresponding vector in space, which is parallel to the
+  // image plane. Base() + Lift(p) is the direction of image point p.
   Vec3 Lift(const Vec2& vector) const {
     Vec3 lifted;
     lifted[i] = vector.x();
@@ -56,7 +59,7 @@ struct ImagePlane {
   }
 };
 
-// A box in doubles that contains an exact point or figure.
+// A box of doubles that contains an exact point or figure.
 struct ImageBox {
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
   Vec2 high = Vec2::Constant(-std::numeric_limits<double>::infinity());
@@ -66,7 +69,7 @@ struct ImageBox {
   }
 };
 
-// The owner of an edge.
+// The figure to whose outline an edge belongs.
 class EdgeOwner {
  public:
   // The outline of the source.
@@ -95,7 +98,8 @@ class ExactImage {
   using Point = typename Kernel::Point_2;
   using Line = typename Kernel::Line_2;
 
-  // A direction as image point (x / w, y / w). Directions behind the image plane have w < 0.
+  // A direction in homogeneous coordinates: its image point is (x / w, y / w). Directions behind the image
+  // plane have w < 0.
   struct Homogeneous {
     Number x, y, w;
     bool diagonal = false;  // of a corner: the edge that starts here is a diagonal, no edge of the outline
@@ -133,7 +137,7 @@ class ExactImage {
     FindPlaces();
   }
 
-  // Calls body(image) for images of parts of the source that together cover the source. A source that fills a
+  // Divides the source into parts, and calls body(image) with the image of each part. A source that fills a
   // hemisphere may need four images.
   template <class Body>
   static void ForEachPart(const DirectionPolygon& source, std::span<const Occluder> occluders,
@@ -143,14 +147,14 @@ class ExactImage {
 
   bool empty() const { return source_.last == 0; }
   const ImagePlane& plane() const { return plane_; }
-  // The edges of the source come first, then those of the occluders that no edge of the source separates from
-  // it.
+  // The edges of the source come first, then the edges of the occluders. Occluders that an edge of the source
+  // separates from the source are omitted.
   const Outline& source() const { return source_; }
   const std::vector<Outline>& occluders() const { return occluders_; }
   const std::vector<Edge>& edges() const { return edges_; }
-  // The normal of the plane through the viewpoint whose image is the line, on the positive side of the line.
-  // The error of each coordinate is at most kNormalError times the sum of the absolute values of the line's
-  // coordinates.
+  // The normal of the plane through the viewpoint whose image is the line; the normal points to the positive
+  // side of the line. The error of each coordinate is at most kNormalError times the sum of the absolute
+  // values of the line's coordinates.
   Vec3 NormalOf(const Line& line) const {
     const Number a = line.a(), b = line.b(), c = line.c() - a * plane_.origin.x() - b * plane_.origin.y();
     constexpr double kAny = std::numeric_limits<double>::infinity();
@@ -162,14 +166,15 @@ class ExactImage {
     return normal;
   }
   // The corners of the source, the corners of occluders inside the source, and the crossings of edges, in
-  // ascending lexicographic order: along any line, their numbers ascend or descend.
+  // lexicographic order of (x, y). Because of the lexicographic order, the indices of places on a line are
+  // monotonic along the line.
   const std::vector<Place>& places() const { return places_; }
-  // The places on the visible part of an edge, ascending.
+  // The indices of the places on the part of an edge that lies in the source, in ascending order.
   const std::vector<std::int32_t>& PlacesOn(std::int32_t edge) const {
     return on_edge_[static_cast<std::size_t>(edge)];
   }
 
-  // Bound of the error of each coordinate of a place's offset.
+  // A bound of the error of each coordinate of Place::offset.
   double offset_error() const { return kOffsetAccuracy * diameter_; }
 
   // The side of an edge's line on which a place lies: 1 inside the edge's outline, -1 outside, 0 on the line.
@@ -180,8 +185,7 @@ class ExactImage {
         places_[static_cast<std::size_t>(place)].point);
   }
 
-  // An exact number as a double. The error is at most the larger of `accuracy` and a rounding of the last
-  // digits.
+  // An exact number as a double. The error is at most max(accuracy, kLastDigits * |number|).
   static double ToDouble(const Number& number, double accuracy) {
     auto [low, high] = to_interval(number);
     if (high - low > std::max(2 * accuracy, kLastDigits * std::abs(low + high))) {
@@ -192,18 +196,20 @@ class ExactImage {
   }
 
  private:
-  // Accuracy of image coordinates where lengths are compared: the rounding of 1, the size of the image.
+  // The accuracy of image coordinates that are used to compare lengths: the rounding error of numbers near 1,
+  // the size of the image.
   static constexpr double kPlaceAccuracy = 1e-16;
   static constexpr double kLastDigits = 2 * std::numeric_limits<double>::epsilon();
 
   static constexpr std::size_t kNoPoint = std::numeric_limits<std::size_t>::max();
 
-  // Bound of the error of places' offsets, relative to the diameter of the source. The kernel's intervals are
-  // usually that narrow; otherwise exact numbers are computed.
+  // A bound of the error of Place::offset, relative to the diameter of the source. The kernel's interval
+  // arithmetic usually reaches the accuracy kOffsetAccuracy; otherwise, ToDouble() computes the exact number.
   static constexpr double kOffsetAccuracy = 2e-15;
 
-  // If the diameter of the source's image is below this, the intervals of lines and points are narrowed
-  // first. Crossings computed from them then keep their digits without exact numbers.
+  // If the diameter of the source's image is below kSmallSource, lines and points are evaluated exactly as
+  // soon as they are made. The kernel's intervals for crossings of lines that were evaluated exactly are
+  // narrow enough, so that crossings need no exact evaluation.
   static constexpr double kSmallSource = 0.03;
 
   static Homogeneous Cross(const Homogeneous& a, const Homogeneous& b) {
@@ -250,8 +256,8 @@ class ExactImage {
     return *point;
   }
 
-  // Adds the convex hull of the source, which differs from the polygon only by the rounding of its vertices.
-  // False if the hull has no interior.
+  // Adds the convex hull of the source, which differs from the source's polygon only because vertices are
+  // rounded. Returns false if the hull has no interior.
   bool ImageSource(std::span<const std::array<Number, 3>> source);
   void ImageOccluder(const Cone& cone, std::int32_t number, double min_segment);
   void AddOccluder(std::span<const Homogeneous> outline, std::int32_t number);
@@ -357,7 +363,7 @@ void ExactImage<Kernel>::ImageOccluder(const Cone& cone, std::int32_t number, do
   for (const Vec3& d : direction) outline.push_back(ToImage(d));
 
   // Removes a corner that rounding has turned inwards: the plane of a short edge could otherwise cut the cone
-  // in two. The planes of long edges are safe.
+  // in two. At long edges, a corner that is turned inwards does no harm.
   for (std::size_t k = 0; k < outline.size() && outline.size() >= 3;) {
     const std::size_t n = outline.size(), before = (k + n - 1) % n, after = (k + 1) % n;
     if (direction[before].dot(direction[after]) > 0 &&
@@ -431,8 +437,8 @@ void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::
   if (!before) region.box = source_.box;
 }
 
-// Finds the part of the last edge, from a to b, that lies in the source. Neighbouring edges share the points
-// of their common corner.
+// Finds the part of `edge`, the last of edges_, that lies in the source. The edge runs from a to b.
+// Neighbouring edges share the point of their common corner.
 template <class Kernel>
 void ExactImage<Kernel>::ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge,
                                       std::size_t& point_a, std::size_t& point_b) {
@@ -474,12 +480,12 @@ void ExactImage<Kernel>::ClipToSource(const Homogeneous& a, const Homogeneous& b
   };
   edge.from = add(from, point_a);
   edge.to = add(to, point_b);
-  // An edge that touches the source at both ends may touch it in one corner only.
+  // If both ends of an edge lie on the source's outline, the edge may touch the source only in a corner.
   edge.seen = from.on.empty() || to.on.empty() || point_[edge.from] != point_[edge.to];
   if (along >= 0) Meet(number, along);
 }
 
-// Finds the common points of the visible parts of two edges, except points that are ends of both.
+// Finds the common points of two edges inside the source, except points that are end points of both edges.
 template <class Kernel>
 void ExactImage<Kernel>::Meet(std::int32_t ia, std::int32_t ib) {
   const Edge &a = edges_[static_cast<std::size_t>(ia)], &b = edges_[static_cast<std::size_t>(ib)];
@@ -522,8 +528,9 @@ void ExactImage<Kernel>::FindPlaces() {
       boxes.push_back(
           {Join(BoxOf(point_[edge.from]), BoxOf(point_[edge.to])), e, static_cast<std::int32_t>(o)});
     }
-  // A sweep over the boxes, which are rounded outwards, finds the candidates. An outline does not cross
-  // itself, and its points on the source are known.
+  // A sweep over the boxes, which are rounded outwards, finds the candidates. Pairs of edges of one outline
+  // are skipped because an outline does not cross itself. Crossings with the outline of the source are
+  // already known.
   std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) {
     return a.box.low.x() != b.box.low.x() ? a.box.low.x() < b.box.low.x() : a.edge < b.edge;
   });
@@ -560,8 +567,8 @@ void ExactImage<Kernel>::FindPlaces() {
   }
 }
 
-// The part of a polygon of directions before a plane through the viewpoint. A cut that passes through the
-// zenith may be half a great circle; it then gets a vertex at the zenith.
+// The part of a polygon of directions before a plane through the viewpoint. The new edge may be half a great
+// circle through the zenith; if so, a vertex is added at the zenith, because edges must be shorter than pi.
 template <class Kernel>
 auto ExactImage<Kernel>::PartBefore(const Directions& polygon, const Vec3& plane,
                                     const std::array<Number, 3>& zenith) -> Directions {
@@ -602,7 +609,7 @@ void ExactImage<Kernel>::ForEachPart(const DirectionPolygon& source, std::span<c
   for (int v = 0; v < source.size(); ++v)
     whole.push_back({Number(source[v].x()), Number(source[v].y()), Number(source[v].z())});
 
-  // The smallest cosine between a direction and the axis, to limit the size of the image.
+  // The smallest permissible cosine between a direction and the axis, which limits the size of the image.
   constexpr double kLeastCosine = 0.2;
   Vec3 best = Vec3::Zero();
   double best_cosine = kLeastCosine;
@@ -620,8 +627,8 @@ void ExactImage<Kernel>::ForEachPart(const DirectionPolygon& source, std::span<c
     return;
   }
 
-  // Two planes through the normal cut the source into four parts. A quarter of the hemisphere lies within 55
-  // degrees of the sum of the three vectors.
+  // Two planes through the normal cut the source into four parts. All directions of each part lie within 55
+  // degrees of the axis normal + st * t + su * u.
   int across = 0;
   normal.cwiseAbs().minCoeff(&across);
   const Vec3 t = normal.cross(Vec3::Unit(across)).normalized(), u = normal.cross(t);

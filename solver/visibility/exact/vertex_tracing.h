@@ -1,7 +1,7 @@
 // solver/visibility/exact/vertex_tracing.h
 //
 // Vertex tracing (Stark and Riesenfeld 1999): finds the vertices of the visible region one by one, and the
-// visible angular spans of each vertex. Builds no polygon. Uses exact numbers.
+// visible angular spans of each vertex. The method builds no polygon. All decisions use exact numbers.
 
 #pragma once
 
@@ -13,11 +13,11 @@ namespace penumbra {
 
 struct TracedFormFactor {
   double form_factor = 0;
-  // The number of vertices of the visible region (intrinsic, apparent or conjunctive), and the number of
-  // borders of their visible spans.
+  // `vertices` is the number of vertices of the visible region (intrinsic, apparent or conjunctive). Each
+  // vertex has one or more visible angular spans; `borders` is the number of the borders of all these spans.
   std::int64_t vertices = 0, borders = 0;
-  // The number of borders whose contribution is the paper's formula. The contributions of the other borders
-  // are added up edge by edge.
+  // The number of borders of angular spans whose contribution is computed by the formula of Stark and
+  // Riesenfeld. The contributions of the other borders are computed edge by edge.
   std::int64_t formula_borders = 0;
 };
 

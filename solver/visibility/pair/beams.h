@@ -1,9 +1,10 @@
 // solver/visibility/pair/beams.h
 //
-// The part of a tube that walls leave open. Blockers in one plane, such as the parts of a wall around a
-// doorway, may hide together what none of them hides alone. Every visible segment between the tube's ends
-// crosses the plane of such a wall in an opening. The openings of one wall after another divide the tube into
-// narrower beams (the portals and antipenumbras of Teller 1992, without cells).
+// The part of a tube that walls leave open. Several blockers in one plane, such as the parts of a wall around
+// a doorway, may together hide one end of the tube from the other although no single blocker does. Every
+// visible segment between the tube's ends crosses the plane of a wall in one of the wall's openings. The
+// openings of successive walls divide the tube into narrower beams (like the portals and antipenumbras of
+// Teller 1992, but without cells).
 
 #pragma once
 
@@ -14,8 +15,9 @@
 
 namespace penumbra {
 
-// All segments between the ends of a tube that pass through one opening of each of several walls: those that
-// start in the first polygon, end in the last, and cross all others. Each polygon is convex.
+// All segments between the ends of a tube that pass through one opening of each of several walls: the
+// segments that start in the first polygon of `stations`, end in the last one, and cross all others. Each
+// polygon is convex.
 struct Beam {
   std::vector<Polygon3> stations;
 };
@@ -27,13 +29,14 @@ struct Beams {
 };
 
 // The beams from `a` to `b` through the walls that the blockers form in planes between them. Only walls that
-// hide a large part of the segments narrow the beams. Openings narrower than kCrack times the largest
-// coordinate count as closed: rounding leaves such cracks between polygons that touch. REQUIRES: `a` and `b`
-// are convex, each before the other's plane.
+// hide a large fraction of the tube are used. Openings narrower than kCrack times the largest coordinate
+// count as closed: rounding leaves such cracks between polygons that touch. REQUIRES: `a` and `b` are convex,
+// and each lies before the plane of the other.
 Beams FindBeams(const Scene& scene, std::span<const Vec3> a, std::span<const Vec3> b,
                 std::span<const PatchId> blockers);
 
-// True if FindBeams() would find no beam. Faster, because it ends at the first beam.
+// True if FindBeams() would find no beam. HiddenByWalls() is faster than FindBeams(), because it stops at the
+// first beam.
 bool HiddenByWalls(const Scene& scene, std::span<const Vec3> a, std::span<const Vec3> b,
                    std::span<const PatchId> blockers);
 

@@ -1,6 +1,7 @@
 // solver/visibility/pair/patch_hierarchy.h
 //
-// A bounding volume hierarchy over patches, to find the patches that may matter to a point.
+// A bounding volume hierarchy over patches, to find the patches in a convex region, such as a tube, that no
+// screen hides.
 
 #pragma once
 
@@ -16,14 +17,15 @@ namespace penumbra {
 class PatchHierarchy {
  public:
   PatchHierarchy() = default;
-  // A hierarchy over the given patches of the scene. Copies their bounding boxes.
+  // A hierarchy over the given patches of the scene. The constructor copies the bounding boxes of the
+  // patches.
   PatchHierarchy(const Scene& scene, std::vector<PatchId> patches);
 
   std::size_t size() const { return order_.size(); }
 
-  // Replaces `found` by the patches whose boxes reach into the region and lie in the shadow of no screen as a
-  // whole, ascending. No such patch is missing; because of rounding, some patches just outside the region may
-  // be included.
+  // Replaces `found` by the patches, in ascending order, whose bounding boxes intersect the region and do not
+  // lie completely in the shadow of one of the screens. The result is conservative: because of rounding, it
+  // may include patches just outside the region, but it omits none.
   void Find(const ConvexRegion& region, std::span<const Screen> screens, std::vector<PatchId>& found) const;
 
  private:

@@ -2,7 +2,7 @@
 //
 // The pairs of patches that may see each other, with the blockers in the tube of each pair (thesis 4.1;
 // Teller and Hanrahan 1993). The solver makes its initial links from the pairs. All links between two patches
-// choose their blockers from those of the pair.
+// choose their blockers from the list of the pair.
 
 #pragma once
 
@@ -16,7 +16,8 @@
 
 namespace penumbra {
 
-// The class of a pair's tube. Pairs that one blocker, or walls together, hide completely are not stored.
+// kVisible: no patch blocks light in the pair's tube. kPartial: some patches may block. Pairs that are hidden
+// completely by one blocker, or by several walls together, are not stored.
 enum class Visibility : std::uint8_t { kVisible, kPartial };
 
 // A source that the front of a receiver may see.
@@ -36,19 +37,21 @@ class PatchVisibility {
   };
 
   PatchVisibility() = default;
-  // Finds the pairs of the scene. Has no pairs if the context is cancelled.
+  // Finds the pairs of the scene. If the context is cancelled, the object has no pairs.
   explicit PatchVisibility(const Scene& scene, const ExecutionContext& context = ExecutionContext());
-  // Restores an object from the rows() of another.
+  // Restores an object from the result of rows() of another object.
   explicit PatchVisibility(Rows rows) : rows_(std::move(rows)) {}
 
-  // The sources that the receiver's front may see, ascending. Each of the two fronts has a part before the
-  // other's plane, and neither one blocker nor walls (HiddenByWalls) hide the pair completely. Symmetric: s
-  // is a source of r if and only if r is a source of s.
+  // The sources that the receiver's front may see, ascending. For each source in the list, a part of each of
+  // the two fronts lies before the plane of the other patch, and neither one blocker nor walls
+  // (HiddenByWalls) hide the pair completely. The relation is symmetric: s is a source of r if and only if r
+  // is a source of s.
   std::span<const PatchPair> SourcesOf(PatchId receiver) const {
     return {rows_.pairs.data() + rows_.first[receiver], rows_.pairs.data() + rows_.first[receiver + 1]};
   }
 
-  // The patches that meet the interior of the pair's tube, ascending. No patch that blocks is missing.
+  // The patches that intersect the interior of the pair's tube, in ascending order. The list contains every
+  // patch that blocks light between the pair.
   std::span<const PatchId> Blockers(const PatchPair& pair) const {
     return {rows_.blockers.data() + pair.first_blocker, pair.blocker_count};
   }

@@ -1,7 +1,7 @@
 // solver/visibility/pair/screens.h
 //
 // Screens: patches that hide a large part of the view. Patches in the shadow of a screen need no further
-// tests.
+// visibility tests.
 
 #pragma once
 
@@ -29,8 +29,8 @@ struct Screen {
   ConvexRegion shadow;
 };
 
-// The region that the patch hides from every one of the points, and thus from their convex hull. Empty if the
-// patch's plane contains one of the points or separates them.
+// The region that the patch hides from all points of `from`, and thus from their convex hull. The region is
+// empty if the patch's plane contains one of the points or separates the points.
 ConvexRegion ShadowRegion(std::span<const ReceiverPoint> from, const Patch& patch);
 
 // Finds screens among the largest patches of a scene. The scene must outlive the finder.
@@ -40,7 +40,8 @@ class ScreenFinder {
   explicit ScreenFinder(const Scene& scene);
 
   // Replaces `screens` by at most `count` patches whose estimated solid angle as seen from the points is at
-  // least `least` [sr], the largest first. No screen lies in the shadow of another.
+  // least `least` [sr], the largest first. No screen of the result lies completely in the shadow of another
+  // one.
   void Find(std::span<const ReceiverPoint> from, double least, std::size_t count,
             std::vector<Screen>& screens) const;
 

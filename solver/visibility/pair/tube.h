@@ -13,9 +13,9 @@
 
 namespace penumbra {
 
-// Bound of the height above a plane that rounding of vertices and normal can give to a point in the plane,
-// relative to the coordinates. Polygons whose heights above each other's planes are below this bound count as
-// coplanar.
+// For a point that lies in a plane, |computed height above the plane| / (largest coordinate) is at most
+// kCoplanar, because of the rounding errors of vertices and normal. Polygons whose heights above each other's
+// planes are at most kCoplanar * (largest coordinate) count as coplanar.
 inline constexpr double kCoplanar = 1e-12;
 
 // If |u x v| <= kParallel * |u| * |v|, the edges u and v count as parallel and span no plane.
@@ -31,10 +31,10 @@ class Tube {
   ConvexRegion Region() const;
 
   // True if the convex polygon, whose plane has the unit normal `normal`, does not meet the tube's interior
-  // and so cannot block. Conservative: may return false for a polygon just outside.
+  // and so cannot block. The test is conservative: it may return false for a polygon just outside the tube.
   bool Misses(std::span<const Vec3> polygon, const Vec3& normal) const;
 
-  // True if the convex polygon cuts every segment from a to b: it alone hides a from b.
+  // True if the convex polygon cuts every segment from a to b: the polygon alone hides a from b.
   bool HiddenBy(std::span<const Vec3> polygon, const Vec3& normal) const;
 
  private:

@@ -1,7 +1,8 @@
 // solver/visibility/pair/tube_blockers.h
 //
-// The blockers that may stand between two polygons. Each pair of patches gets a list of blockers once; each
-// pair of smaller polygons on the two patches filters the list of the pair above it.
+// The blockers that may stand between two polygons. The list of blockers of a pair of patches is computed
+// once; the list of a pair of parts of these patches is filtered from the list of the larger pair that
+// contains it.
 
 #pragma once
 
@@ -21,16 +22,19 @@ struct TubeEnds {
 };
 
 // The ends of the tube between a convex polygon in the plane of `receiver_patch` and one in the plane of
-// `source_patch`. Nothing if one polygon lies, up to rounding, in or behind the other's plane.
+// `source_patch`. The result is nullopt if one polygon lies, up to rounding, in or behind the plane of the
+// other.
 std::optional<TubeEnds> ClipToEachOther(std::span<const Vec3> receiver, const Patch& receiver_patch,
                                         std::span<const Vec3> source, const Patch& source_patch);
 
-// Appends the candidates that meet the interior of the tube, in their order; the two patches themselves do
-// not count. No candidate that blocks is missing. Returns false and appends nothing if one candidate or walls
-// (HiddenByWalls) hide the ends from each other completely.
+// Appends to `blockers` the candidates that intersect the interior of the tube, in the order of the
+// candidates; the two patches themselves are skipped. Every candidate that blocks light between the ends is
+// appended. Returns false and appends nothing if one candidate or walls (HiddenByWalls) hide the ends from
+// each other completely.
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       std::span<const PatchId> candidates, std::vector<PatchId>& blockers);
-// FindTubeBlockers() with all patches of the hierarchy as candidates; the blockers ascend.
+// Like FindTubeBlockers() above, with all patches of the hierarchy as candidates; the blockers are in
+// ascending order.
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       const PatchHierarchy& hierarchy, std::vector<PatchId>& blockers);
 
@@ -41,8 +45,8 @@ struct TubeBlockers {
   std::vector<PatchId> first;
 };
 
-// FindTubeBlockers() for both lists; replaces the contents of `found`. Both lists are empty if the ends are
-// hidden from each other.
+// Like FindTubeBlockers() above, but replaces the contents of `found` and computes both of its lists. Both
+// lists are empty if the ends are hidden from each other.
 bool FindTubeBlockers(const Scene& scene, const TubeEnds& ends, PatchId receiver, PatchId source,
                       std::span<const PatchId> candidates, TubeBlockers& found);
 

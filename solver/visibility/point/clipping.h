@@ -1,7 +1,7 @@
 // solver/visibility/point/clipping.h
 //
 // Occlusion by clipping: cuts the shadow of each blocker out of the source and keeps the rest as convex
-// pieces. Exact, and the fastest of the methods.
+// pieces. Clipping is exact, and the fastest of the occlusion methods.
 
 #pragma once
 
@@ -18,7 +18,7 @@
 namespace penumbra {
 
 // Cuts shadows out of the polygons of one image at a time. A clipper keeps its buffers from image to image;
-// lease one clipper for many images (Scratch).
+// use one clipper, borrowed by a Scratch, for many images.
 class Clipper {
  public:
   // A range on the clipper's stack of occluders.
@@ -34,20 +34,21 @@ class Clipper {
 
   // Forgets the image and its occluders.
   void Clear();
-  // Starts the image `frame` of the polygon `whole`, which contains all later polygons. Returns all occluders
-  // as candidates. The occluders must outlive their use by this object.
+  // Starts a new image with the projection `frame`. The polygon `whole` contains all polygons that are passed
+  // to Narrow() and CutOut() later. Returns all occluders as candidates. The occluders must exist until the
+  // next Begin() or Clear().
   Candidates Begin(const ImageFrame& frame, const ImagePolygon& whole, std::span<const Occluder> occluders);
 
-  // Tests how the candidates cover the polygon. kAll: one candidate covers all of it. kPart: pushes the
-  // candidates that may cover a part and returns them in `own`. REQUIRES: the candidates are on top of the
-  // stack.
+  // Tests how the candidates cover the polygon. Returns kAll if a single candidate covers the whole polygon.
+  // If Narrow() returns kPart, it has pushed the candidates that may cover a part of the polygon on the
+  // stack, and has set `own` to their range. REQUIRES: the candidates are on top of the stack.
   Overlap Narrow(const ImagePolygon& polygon, const Candidates& candidates, Candidates* own);
-  // Pops all that lies above the candidates.
+  // Pops the entries of the stack above the candidates.
   void Restore(const Candidates& candidates);
 
-  // Cuts the candidates out of the polygon and adds the remaining pieces to Visible(), with their owner and
-  // the labels of their edges. `label` holds the labels of the polygon's edges; by default they are edges of
-  // the source. REQUIRES: Narrow() returned the candidates for this polygon.
+  // Cuts the candidates out of the polygon and adds the remaining pieces to Visible(), with the owner `owner`
+  // and the labels of their edges. `label` holds the labels of the polygon's edges; by default, the polygon's
+  // edges are labelled as edges of the source. REQUIRES: Narrow() returned the candidates for this polygon.
   void CutOut(const ImagePolygon& polygon, const Candidates& candidates, PieceOwner owner,
               std::span<const EdgeLabel> label = {});
 
@@ -67,10 +68,10 @@ class Clipper {
 void ForEachVisiblePiece(const DirectionPolygon& source, std::span<const Occluder> occluders,
                          const Vec3& normal, const std::function<void(std::span<const Vec3>)>& visit);
 
-// Computes the form factors of the point to the unoccluded part of each of the parts of a source; faster than
-// one call for each part. Each error is at most kOcclusionError times the form factor of `whole`; for parts
-// much smaller than `whole`, this exceeds the error of Clipping. REQUIRES: the parts lie in `whole` and do
-// not overlap.
+// Sets factors[i] to the form factor of the point to the unoccluded part of parts[i], a part of a source;
+// faster than one call of VisibleFormFactor() for each part. Each error is at most kOcclusionError * (form
+// factor of `whole`); for parts much smaller than `whole`, the bound exceeds the error of
+// Clipping::VisibleFormFactor(). REQUIRES: the parts lie in `whole` and do not overlap.
 void VisibleFormFactors(const DirectionPolygon& whole, std::span<const DirectionPolygon> parts,
                         std::span<const Occluder> occluders, const Vec3& normal, std::span<double> factors);
 

@@ -13,7 +13,8 @@
 
 namespace penumbra {
 
-// Convex polygons of three or four vertices as a structure of arrays. A triangle repeats its last vertex.
+// A list of convex polygons of three or four vertices, stored as a structure of arrays. A triangle repeats
+// its last vertex.
 class PolygonBatch {
  public:
   std::size_t size() const { return coordinate_[0].size(); }
@@ -25,7 +26,8 @@ class PolygonBatch {
   const double* Coordinates(std::size_t k, std::size_t axis) const {
     return coordinate_[3 * k + axis].data();
   }
-  // Pointers to the coordinates from polygon `first` on; entry 3 k + axis is for vertex k.
+  // Pointers into the coordinate arrays at polygon `first`: entry 3 k + axis points to the coordinate `axis`
+  // of vertex k.
   std::array<const double*, 12> Columns(std::size_t first) const;
 
  private:
@@ -36,13 +38,14 @@ class PolygonBatch {
 // the batch, for begin <= i < end. The relative error is at most kFormFactorError. REQUIRES: the polygons lie
 // above the point's horizon, and their fronts face the point.
 //
-// Vectorised; the program chooses the vector width when it starts. The results are the same for every width.
+// The function is vectorised; the program chooses the vector width when it starts. The results are the same
+// for every width.
 void FormFactors(const PolygonBatch& batch, std::size_t begin, std::size_t end, const Vec3& position,
                  const Vec3& normal, double* out);
 
-// Computes edge sums without quadrature. The sums lose digits for polygons seen at a grazing angle or near
-// the horizon. Polygons with a small apparent size are summed about their first vertex, without cancellation
-// (thesis_notes/derivations.md, "Small polygons").
+// Computes form factors by edge sums only, without quadrature. Edge sums lose digits for polygons seen at a
+// grazing angle or near the horizon. For polygons with a small apparent size, vertices are taken relative to
+// the first vertex, so that the sum has no cancellation (thesis_notes/derivations.md, "Small polygons").
 class FormFactorSums {
  public:
   // Computes the sums; parameters and requirements are those of FormFactors().
@@ -51,7 +54,7 @@ class FormFactorSums {
 
   // The form factor to polygon begin + i.
   double Factor(std::size_t i) const { return factor_[i]; }
-  // The sum of the sizes of the terms that make up the factor. The error of the factor is at most
+  // The sum of the absolute values of the terms of the edge sum. The error of Factor(i) is at most
   // kFormFactorError * max(Factor(i), SizeAdded(i) / (2 pi kFormFactorCancellation)).
   double SizeAdded(std::size_t i) const { return size_added_[i]; }
 

@@ -1,6 +1,7 @@
 // solver/visibility/point/image_edges.h
 //
-// The outlines of many pieces of one image, and Lambert's sum over all their edges at once, vectorised.
+// Stores the outlines of many convex pieces of one image, and evaluates Lambert's formula as one vectorised
+// sum over all their edges.
 
 #pragma once
 
@@ -12,8 +13,8 @@
 
 namespace penumbra {
 
-// The origin of a piece: a part of the source, or a group of parts that counts as one. The caller chooses the
-// numbers of parts and groups. Uninitialised by default.
+// Identifies what a piece was cut from: a part of the source, or a group of parts that counts as one. The
+// caller numbers the parts and the groups. A default-constructed object is uninitialised.
 class PieceOwner {
  public:
   PieceOwner() = default;
@@ -41,8 +42,7 @@ class ImageEdges {
   };
 
   void Clear();
-  // Appends the edges of a convex polygon, from the image coordinates of its vertices and the labels of its
-  // edges.
+  // Appends a convex polygon, given by the image coordinates of its vertices and the labels of its edges.
   void AddPiece(const double* x, const double* y, const EdgeLabel* label, int size, PieceOwner owner);
 
   std::size_t Pieces() const { return start_.size(); }
@@ -55,10 +55,10 @@ class ImageEdges {
   Vec2 Centroid(std::size_t piece) const;
   EdgeLabel Label(std::size_t edge) const { return label_[edge]; }
 
-  // The sum over all edges for a point with unit normal `normal`. The result is the same for every vector
-  // width.
+  // Lambert's sum over the edges of all pieces, for a point with unit normal `normal`. The result is the same
+  // for every vector width.
   Sum FormFactorSum(const ImageFrame& frame, const Vec3& normal);
-  // 2 pi times the form factor of a piece, as in the last call of FormFactorSum().
+  // 2 pi times the form factor of a piece, as computed by the last call of FormFactorSum().
   double PieceSum(std::size_t piece) const;
   // The form factor of a piece by quadrature, without cancellation.
   double PieceByQuadrature(const ImageFrame& frame, const Vec3& normal, std::size_t piece) const;

@@ -59,8 +59,9 @@ class ImageFrame {
   Vec2 Image(const Vec3& direction) const {
     const double w = axis_.dot(direction);
     const Vec3 offset = direction - first_;
-    // Near the first vertex the difference keeps the digits. For a vertex near the point the difference would
-    // lose digits.
+    // For directions close to the first vertex, the formula with the difference `offset` loses no digits. For
+    // other directions, such as those of vertices close to the point, the difference itself would lose
+    // digits.
     if (offset.squaredNorm() > kNearFirstSquared * direction.squaredNorm())
       return Vec2(e1_.dot(direction), e2_.dot(direction)) / w - shift_;
     return (Vec2(e1_.dot(offset), e2_.dot(offset)) - axis_.dot(offset) * shift_) / w;
@@ -88,13 +89,14 @@ class ImageFrame {
     return {e1_.dot(direction) - w * shift_.x(), e2_.dot(direction) - w * shift_.y(), w};
   }
 
-  // The image of plane k of a cone. In small images the line's distance from the origin is a small sum of
-  // large terms; `digits` is the precision of that sum.
+  // The image of plane k of a cone. In small images, the line's distance from the origin, ImageLine::h, is a
+  // small sum of large terms; `digits` is the precision with which the sum is computed.
   ImageLine Line(const Cone& cone, int k, Digits digits) const;
 
  private:
-  // The square of 1/10, a bound of |direction - first vertex| / |direction|. Above the bound, coordinates
-  // that are not differences lose less than one digit.
+  // Image() uses the difference direction - first_ if |direction - first_| / |direction| is at most 1/10. The
+  // constant is the square of 1/10. If the ratio |direction - first_| / |direction| exceeds 1/10, computing
+  // image coordinates directly from the direction loses less than one digit.
   static constexpr double kNearFirstSquared = 0.01;
 
   Vec3 axis_, e1_, e2_;
@@ -103,8 +105,8 @@ class ImageFrame {
   Vec2 shift_;   // coordinates of origin_ along e1 and e2
 };
 
-// Says which edge, of the source or of a blocker, bounds a visible part of the source. Uninitialised by
-// default, so that arrays of labels cost nothing.
+// Identifies the edge, of the source or of a blocker, that bounds a visible part of the source. A
+// default-constructed label is uninitialised, so that arrays of labels cost nothing.
 class EdgeLabel {
  public:
   EdgeLabel() = default;
@@ -120,9 +122,9 @@ class EdgeLabel {
 
   constexpr bool IsInner() const { return occluder_ == kInner; }
   constexpr bool IsOfSource() const { return occluder_ == kSource; }
-  // REQUIRES: the label is of the source.
+  // REQUIRES: IsOfSource() is true.
   constexpr int SourceEdge() const { return edge_; }
-  // REQUIRES: the label is of an occluder.
+  // REQUIRES: IsInner() and IsOfSource() are false.
   constexpr std::size_t Occluder() const { return static_cast<std::size_t>(occluder_); }
   constexpr std::size_t Plane() const { return static_cast<std::size_t>(edge_); }
 
@@ -140,7 +142,7 @@ struct ImagePart {
   std::array<EdgeLabel, DirectionPolygon::kCapacity> label;  // labels of the edges
 };
 
-// The axis of an image that contains the polygon; zero if no axis has such an image.
+// An axis for an ImageFrame whose image contains the whole polygon; the zero vector if there is no such axis.
 Vec3 ImageAxis(const DirectionPolygon& polygon);
 
 // Appends the polygon as parts that each fit into an image: one part if the whole polygon fits, and otherwise

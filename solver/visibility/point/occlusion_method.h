@@ -1,7 +1,7 @@
 // solver/visibility/point/occlusion_method.h
 //
-// An interface to compute the part of a source that blockers leave visible from a point. The several methods
-// are alternatives, and checks of each other.
+// An interface to compute the part of a source that blockers leave visible from a point. The project has
+// several occlusion methods, so that their results can be compared.
 
 #pragma once
 
@@ -12,10 +12,10 @@
 
 namespace penumbra {
 
-// Bound of the error of the exact methods, relative to the form factor of the unoccluded source, if the given
-// directions and normal are taken as exact. Clipping moves a border by 8 roundings of the source's image,
-// about ten times. All methods sum form factors to kFormFactorError. A source seen at a grazing angle of 1e-5
-// loses one digit.
+// A bound of the error of the exact methods, relative to the form factor of the unoccluded source, if the
+// given directions and normal are taken as exact. Three errors contribute to the bound. Each of about ten
+// clippings moves an edge by 8 rounding errors of the image coordinates. The error of adding up form factors
+// is kFormFactorError. If the source is seen at a grazing angle of 1e-5, one digit is lost.
 inline constexpr double kOcclusionError = 1e-12;
 
 class OcclusionMethod {
@@ -30,8 +30,8 @@ class OcclusionMethod {
 };
 
 struct OcclusionOptions {
-  // Backprojection only: edges of blockers' outlines shorter than this times the source's diameter are left
-  // out (thesis, Appendix A, item 6). 0: none are left out.
+  // Backprojection only: edges of blockers' outlines that are shorter than min_backprojection_segment *
+  // (diameter of the source) are collapsed (thesis, Appendix A, item 6). With 0, no edges are collapsed.
   double min_backprojection_segment = 0;
 };
 

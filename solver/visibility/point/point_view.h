@@ -16,11 +16,11 @@
 
 namespace penumbra {
 
-// Use it as a local variable: its buffers are a lease of the thread that makes it (Scratch). All arguments
-// must outlive the object.
+// A PointView must be a local variable, because it borrows its buffers from the thread that creates it
+// (Scratch). All arguments must outlive the object.
 class PointView {
  public:
-  // Sources are seen as if lifted by `source_push_off` along the receiver's normal [m] (thesis 6.4).
+  // Sources are seen as if they were moved by `source_push_off` * (the receiver's normal) [m] (thesis 6.4).
   PointView(const Scene& scene, const ReceiverPoint& at, const OcclusionMethod& method = FastestExactMethod(),
             double source_push_off = 0);
   ~PointView();
@@ -31,37 +31,39 @@ class PointView {
   // The current source, which the last FaceSource() set.
   const Patch& Source() const { return *source_; }
 
-  // The viewpoint of sources: the receiver point, shifted by the push-off.
+  // The viewpoint from which sources are seen: the receiver point, shifted because of source_push_off.
   const Vec3& SourceEye() const { return source_at_.position; }
 
-  // Makes `source` the current source. False if no part of the source's front is above the receiver's horizon
-  // and faces the point.
+  // Makes `source` the current source. Returns false if no part of the source's front is above the receiver's
+  // horizon and faces the point.
   bool FaceSource(PatchId source);
 
-  // A convex part of the current source as seen, above the horizon.
+  // The directions of a convex part of the current source as seen from the point, clipped to the horizon.
   DirectionPolygon SeeSource(std::span<const Vec3> part) const;
 
-  // True if the current source lies above the horizon as a whole and its plane does not contain the point.
-  // The source's parts then need neither clipping nor limits.
+  // True if the current source lies above the horizon as a whole and its plane does not contain the point. If
+  // the result is true, the view of the source needs neither clipping to the horizon nor a one-sided limit.
   bool SourceIsPlain() const { return !source_in_contact_ && !source_crosses_horizon_; }
 
-  // True if the plane of the current source contains the point. The view of the source is then a limit.
+  // True if the plane of the current source contains the point, so that the view of the source is a one-sided
+  // limit.
   bool SourceInContact() const { return source_in_contact_; }
 
   // Appends the candidates that may hide parts of `seen`, clipped to the front of the current source's plane.
-  // `own`, the receiver's patch, does not block. Where the outline of a solid gives what the solid hides, one
-  // occluder stands for all sides of the solid. Returns false and appends nothing if one occluder hides all
-  // of `seen`. The occluders' cones are valid until the next FaceSource().
+  // `own`, the receiver's patch, does not block. If the outline of a solid bounds exactly what the solid
+  // hides, a single occluder represents all sides of the solid. Returns false and appends nothing if one
+  // occluder hides all of `seen`. The occluders' cones are valid until the next FaceSource().
   bool FindBlockers(std::span<const PatchId> candidates, PatchId own, const DirectionPolygon& seen,
                     std::vector<Occluder>& occluders);
 
-  // The form factor of the point to the part of `seen` that no occluder covers, by the method of the view.
+  // The form factor of the point to the part of `seen` that no occluder covers, computed by the occlusion
+  // method passed to the constructor.
   double VisibleFormFactor(const DirectionPolygon& seen, std::span<const Occluder> occluders) const;
 
-  // True if the point's approach direction has affected a result.
+  // True if a result since construction is a one-sided limit, which depends on ReceiverPoint::approach.
   bool one_sided() const { return one_sided_; }
 
-  // A buffer for occluders, empty at construction.
+  // A buffer for lists of occluders, for use by the caller; it is empty when the PointView is constructed.
   std::vector<Occluder>& occluder_stack();
 
  private:

@@ -1,7 +1,8 @@
 // solver/visibility/point/ray_caster.h
 //
-// Nearest-hit rays through a scene (Embree, robust and watertight). Embree computes in float: use these rays
-// where a set of misses of measure zero does not matter (escaped light, picking), never for exact visibility.
+// Nearest-hit rays through a scene (Embree, robust and watertight). Embree computes in float: use RayCaster
+// where missing a set of rays of measure zero does not matter (escaped light, picking), never for exact
+// visibility.
 
 #pragma once
 

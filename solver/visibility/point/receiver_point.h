@@ -11,10 +11,12 @@ struct ReceiverPoint {
   Vec3 position = Vec3::Zero();  // [m]
   Vec3 normal = Vec3::UnitZ();   // unit
   // For a one-sided limit, the direction from the point towards the region for which the limit is taken, of
-  // any length. Zero: no limit; a polygon whose plane contains the point then neither lights nor blocks.
+  // any length. If `approach` is zero, no limit is taken: a polygon whose plane contains the point neither
+  // lights the point nor blocks.
   Vec3 approach = Vec3::Zero();
   // The largest distance of `position` from the intended position [m], in addition to the rounding of the
-  // coordinates. Planes within this distance count as containing the point. 0 for points that users give.
+  // coordinates. Planes whose distance from the point is at most `uncertainty` count as containing the point.
+  // The uncertainty is 0 for points that users give.
   double uncertainty = 0;
 };
 

@@ -6,9 +6,10 @@
 
 namespace penumbra {
 
-// The first method of the thesis, which the thesis rejects (chapter 6). The source is divided into a regular
-// grid, and a cell counts if its centre is visible. Not exact: the error is about the fraction of the source
-// in cells on the borders of shadows, and the result jumps from point to point.
+// Occlusion by sampling: the method that chapter 6 of the thesis considers first and rejects. The source is
+// divided into a regular grid, and a cell counts if its centre is visible. The method is not exact: the error
+// is about the fraction of the source in cells that shadow borders cross, and the result jumps from point to
+// point.
 class SampledVisibility final : public OcclusionMethod {
  public:
   // Each quadrilateral or triangle of the source is divided into divisions^2 cells.

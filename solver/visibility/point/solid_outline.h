@@ -1,7 +1,7 @@
 // solver/visibility/point/solid_outline.h
 //
-// A convex solid as seen from a point: one polygon instead of the overlapping or adjacent polygons of its
-// sides.
+// The outline of a convex solid as seen from a point: one polygon replaces the overlapping or adjacent
+// polygons of the solid's sides.
 
 #pragma once
 
@@ -11,17 +11,18 @@
 namespace penumbra {
 
 struct SolidOutline {
-  // Empty if the sides define no single outline: the point lies inside the solid, the point lies in the plane
-  // of a side and has an approach, or light can pass through two missing sides. The patches then block one by
-  // one.
+  // The outline; empty if the sides define no single outline: the point lies inside the solid, the point lies
+  // in the plane of a side and has an approach direction, or light can pass through two missing sides. If the
+  // outline is empty, use the sides as separate blockers.
   DirectionPolygon seen;
-  // A missing side faces the point, so that light enters the solid. The outline then tells what the solid
-  // hides only if the whole solid lies before the plane of the observed patch.
+  // True if a missing side faces the point, so that light can enter the solid. If `entered` is true, the
+  // region that the solid hides on another patch is bounded by the outline only if the whole solid lies
+  // before the plane of that patch.
   bool entered = false;
 };
 
-// The outline of the solid as seen from the point; only of the part before the plane of `before`, unless
-// `before` is null. Edges of the outline equal edges of patches to the bit.
+// The outline of the solid as seen from the point. If `before` is not null, the outline is that of the part
+// of the solid before the plane of `before`. Edges of the outline are bit-identical to edges of patches.
 SolidOutline SeenOutline(const ReceiverPoint& at, const ConvexSolid& solid, const Patch* before);
 
 }  // namespace penumbra
