@@ -87,6 +87,7 @@ struct MeshReport {
     std::size_t triangles = 0;
     std::size_t interpolants = 0;
     std::size_t point_evaluations = 0;  // calls of IrradianceAtPoint()
+    std::size_t sources_renewed = 0;  // sources of samples that were gathered again, since the light changed
   };
   struct Seconds {
     double discontinuities = 0, triangulate = 0, interpolate = 0;

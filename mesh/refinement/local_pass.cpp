@@ -211,11 +211,11 @@ std::vector<PatchTriangulation> PatchTriangulator::Triangulate(const MeshPlan& p
 
 MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySolution& solution,
                         const IrradianceSampler& sampler, const MeshOptions& options,
-                        const ExecutionContext& context, LocalPassCache* cache) {
+                        const ExecutionContext& context, const LocalPassMemory& memory) {
   MeshResult result;
   result.plan = BeginPlan(visibility, solution, options.discontinuities);
   const bool constant = options.order == InterpolantOrder::kConstant;
-  PatchTriangulator triangulator(visibility, solution, options.discontinuities, context, cache);
+  PatchTriangulator triangulator(visibility, solution, options.discontinuities, context, memory.cache);
   if (!constant) triangulator.RankWith(sampler);
   result.triangulations = triangulator.Triangulate(result.plan, result.report);
   if (context.Cancelled()) return result;
@@ -224,7 +224,8 @@ MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySoluti
   if (constant) {
     result.mesh = BuildConstantMesh(patches, solution.irradiance);
   } else {
-    BuiltMesh built = BuildIrradianceMesh(solution.forest.scene(), patches, options.order, sampler, context);
+    BuiltMesh built = BuildIrradianceMesh(solution.forest.scene(), patches, options.order, sampler, context,
+                                          memory.samples);
     result.report.counts.point_evaluations += built.point_evaluations;
     if (context.Cancelled()) return result;
     result.mesh = std::move(built.mesh);

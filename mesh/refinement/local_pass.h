@@ -108,10 +108,16 @@ class PatchTriangulator {
   std::vector<double> strength_;  // SourceStrengths()
 };
 
+// Data from an earlier local pass; each member may be null.
+struct LocalPassMemory {
+  LocalPassCache* cache = nullptr;
+  SampleCache* samples = nullptr;  // samples of the same sampler
+};
+
 // The complete local pass. For constant interpolants, the sampler is not called. If cancelled, the function
 // returns an empty mesh. REQUIRES: the quadtrees are balanced.
 MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySolution& solution,
                         const IrradianceSampler& sampler, const MeshOptions& options,
-                        const ExecutionContext& context, LocalPassCache* cache = nullptr);
+                        const ExecutionContext& context, const LocalPassMemory& memory = {});
 
 }  // namespace penumbra

@@ -7,29 +7,26 @@
 #include <fmt/format.h>
 
 #include "mesh/interpolants/representation_error.h"
-#include "mesh/refinement/source_cut.h"
 #include "solver/base/stopwatch.h"
 #include "solver/transport/solvers/hierarchical_solver.h"
 
 namespace penumbra {
 namespace {
 
-// The fractions of the error for the interpolants and for their sources, each for a 99th percentile. Both
-// rarely reach their limits at one point, together with the largest error of near samples.
-constexpr double kInterpolantShare = 0.65, kSourceShare = 0.25;
-// The tolerance of the interpolants' samples for details of their sources, as a fraction of the error.
-// Samples before the last mesh use SolverOptions::correction_tolerance: their means correct the light of the
-// sources, so that a common error grows from bounce to bounce.
-constexpr double kNearShare = 0.2;
+// The fraction of the error for the interpolants, for a 99th percentile.
+constexpr double kInterpolantShare = 0.65;
+// The tolerance of the interpolants' samples for details of their sources, as a fraction of the error. The
+// means of the samples correct the light of the sources, so that a common error grows from bounce to bounce.
+constexpr double kSampleShare = 0.1;
 // Factors of the minimum weight. Refinement that may request edges starts with edges of kWeightToBegin times
 // the minimum weight; earlier meshes, which only determine sources, multiply that by kFirstWeight.
 constexpr double kWeightToBegin = 2, kFirstWeight = 2;
 // Sources are refined again while the means would still change by more than kSettledShare of the error, at
 // most kMostSourcePasses times. Most rooms need two to four passes; a narrow slot between white walls, where
 // light bounces many times, needs twenty. The passes end earlier if two passes leave more than kStill of a
-// change. The first kCutChoices passes choose the resolution of the sources.
+// change.
 constexpr double kSettledShare = 0.6, kStill = 0.95;
-constexpr int kMostSourcePasses = 40, kCutChoices = 2;
+constexpr int kMostSourcePasses = 40, kFewestSourcePasses = 3;
 // Measurements at centroids can overlook errors that random points show. Random points therefore test the
 // refined mesh, one per kEvaluationsALook evaluations of the refinement. While the 99th percentile may be
 // above kOverlooked times the error, the mesh is refined further; the new target is smaller by the ratio of
@@ -37,10 +34,9 @@ constexpr int kMostSourcePasses = 40, kCutChoices = 2;
 constexpr std::size_t kEvaluationsALook = 20, kFewestLooks = 1000, kMostLooks = 3000;
 constexpr double kOverlooked = 0.9, kLeastOnward = 0.5, kMostOnward = 0.9;
 constexpr int kMostTurns = 3;
-// Cells of sources are divided while their score is above this factor times the error.
-constexpr double kFinestScore = 1;
-// The number of random points that choose the sources.
-constexpr std::size_t kCutPoints = 300;
+// Sources are divided while their score is above this factor times the error, and for measurements of the
+// error further.
+constexpr double kFinestScore = 1, kMeasuredScore = 0.5;
 
 }  // namespace
 
@@ -58,7 +54,7 @@ void ShownMesh::Begin() {
 bool ShownMesh::Make(const RadiositySolution& solution, const MeshOptions& options,
                      const ExecutionContext& context) {
   Begin();
-  return FirstLook(solution, options, kNearShare * options_.error, context);
+  return FirstLook(solution, options, context);
 }
 
 namespace {
@@ -85,7 +81,7 @@ bool ShownMesh::RefineLight(LightSolver& solver, const MeshOptions& options,
                             const ExecutionContext& context) {
   Begin();
   const MeshOptions first = ForSources(options);
-  if (!FirstLook(solver.solution(), first, options_.solver.correction_tolerance, context)) return false;
+  if (!FirstLook(solver.solution(), first, context)) return false;
   has_looked_ = true;
   if (mesh_.triangles.empty()) return true;
   if (!SettleSources(solver, first, context)) return false;
@@ -101,9 +97,7 @@ bool ShownMesh::MakeRefined(const RadiositySolution& solution, const MeshOptions
     plan_ = *light_plan_;
     return RefineLeaves(solution, ToBeginWith(options), context);
   }
-  if (!shows_first_look &&
-      !FirstLook(solution, ForSources(options), options_.solver.correction_tolerance, context))
-    return false;
+  if (!shows_first_look && !FirstLook(solution, ForSources(options), context)) return false;
   if (!mesh_.triangles.empty()) RefineLeaves(solution, ToBeginWith(options), context);
   return true;
 }
@@ -124,8 +118,7 @@ std::unique_ptr<const PointIrradiance> ShownMesh::BetterIrradiance(const Radiosi
                                                                    const ExecutionContext& context) {
   if (context.Cancelled()) return nullptr;
   HierarchicalSolver better(scene_, visibility_, options_.solver, solution, context);
-  if (!better.SetLight(finest.LeafIrradiance(), finest.Fragments(finest.Cut(0), /*whole_leaves=*/true),
-                       context))
+  if (!better.SetLight(finest.LeafIrradiance(), finest.Fragments(/*whole_leaves=*/true), context))
     return nullptr;
   return std::make_unique<const PointIrradiance>(
       irradiance_.Get()->WithSources(SourceSet::FromSolution(better.solution())));
@@ -134,17 +127,20 @@ std::unique_ptr<const PointIrradiance> ShownMesh::BetterIrradiance(const Radiosi
 std::unique_ptr<const PointIrradiance> ShownMesh::ShownIrradiance(const RadiositySolution& solution,
                                                                   const SourceCells& finest) {
   return std::make_unique<const PointIrradiance>(irradiance_.Get()->WithSources(
-      SourceSet::FromSolution(solution, finest.Fragments(finest.Cut(0), /*whole_leaves=*/true))));
+      SourceSet::FromSolution(solution, finest.Fragments(/*whole_leaves=*/true))));
+}
+
+SourceCells ShownMesh::CellsOf(const RadiositySolution& solution, double finest,
+                               const ExecutionContext& context) {
+  return SourceCells(solution, {plan_.forest, triangulations_, mesh_}, *irradiance_.Get(), {finest, cells_},
+                     context);
 }
 
 SourceCells ShownMesh::FinestCells(const RadiositySolution& solution, const ExecutionContext& context) {
-  return SourceCells(solution, {plan_.forest, triangulations_, mesh_}, *irradiance_.Get(),
-                     kFinestScore * options_.error, context);
+  return CellsOf(solution, kMeasuredScore * options_.error, context);
 }
 
-IrradianceSampler ShownMesh::Sampler(double tolerance, const ExecutionContext& context) {
-  return WhileGoing(NearSampler(*irradiance_.Get(), tolerance), context);
-}
+double ShownMesh::Tolerance() const { return kSampleShare * options_.error; }
 
 LocalPassCache& ShownMesh::LocalPass() {
   if (!local_pass_) local_pass_ = std::make_unique<LocalPassCache>(scene_, visibility_);
@@ -154,6 +150,7 @@ LocalPassCache& ShownMesh::LocalPass() {
 // Replaces the counts by those of the latest mesh, and adds up the work.
 void ShownMesh::Add(MeshReport latest) {
   latest.counts.point_evaluations += report_.counts.point_evaluations;
+  latest.counts.sources_renewed += report_.counts.sources_renewed;
   latest.seconds.discontinuities += report_.seconds.discontinuities;
   latest.seconds.triangulate += report_.seconds.triangulate;
   latest.seconds.interpolate += report_.seconds.interpolate;
@@ -161,17 +158,21 @@ void ShownMesh::Add(MeshReport latest) {
 }
 
 // Makes a mesh of the solution's leaves. False if cancelled.
-bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& options, double tolerance,
+bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& options,
                           const ExecutionContext& context) {
   IrradianceSampler sampler;
   if (options.order != InterpolantOrder::kConstant) {
     const Stopwatch stopwatch;
     if (!irradiance_.Get(context)) return false;
     report_.seconds.interpolate += stopwatch.Seconds();
-    sampler = Sampler(tolerance, context);
+    sampler = WhileGoing(RecordingSampler(*irradiance_.Get(), Tolerance()), context);
   }
-  MeshResult result = RunLocalPass(visibility_, solution, sampler, options, context, &LocalPass());
-  if (context.Cancelled()) return false;
+  MeshResult result =
+      RunLocalPass(visibility_, solution, sampler, options, context, {&LocalPass(), &samples_});
+  if (context.Cancelled()) {
+    samples_.Clear();
+    return false;
+  }
   Add(result.report);
   mesh_ = std::move(result.mesh);
   triangulations_ = std::move(result.triangulations);
@@ -184,46 +185,40 @@ bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& 
 // changes return by the bounces between walls that face each other. False if cancelled.
 bool ShownMesh::SettleSources(LightSolver& solver, const MeshOptions& options,
                               const ExecutionContext& context) {
-  std::optional<double> score;
   double before = 0, ratio_before = 0;  // change of the last pass, and its ratio to the change before
   for (int pass = 1;; ++pass) {
-    if (pass <= kCutChoices) score.reset();
-    const std::optional<double> change = RefineSources(solver, score, context);
+    const std::optional<double> change = RefineSources(solver, context);
     if (!change) return false;
     const double ratio = before > 0 ? *change / before : 1;
     if (pass == 2) ratio_before = ratio;
     // Two factors alternate, because walls that face each other return each other's light.
     const double by_two = ratio * ratio_before, next = *change * std::max(ratio, ratio_before);
-    const bool still = pass > kCutChoices + 1 && by_two > kStill;
+    const bool still = pass > kFewestSourcePasses && by_two > kStill;
     const bool settled = by_two < 1 && next / (1 - std::sqrt(by_two)) <= kSettledShare * options_.error;
     if (settled || still || pass == kMostSourcePasses) return true;
     before = *change;
     ratio_before = ratio;
-    if (!Refine(solver.solution(), options, kInterpolantShare * options_.error,
-                options_.solver.correction_tolerance, nullptr, context))
-      return false;
+    if (!Refine(solver.solution(), options, kInterpolantShare * options_.error, context)) return false;
   }
 }
 
-// Gives the means of the interpolants to the leaves, and cuts leaves whose light varies too much for the
-// places where it arrives: by the score, which is chosen if there is none. Returns the change of the leaves'
-// irradiance (SourceCells::Change); nothing if cancelled.
-std::optional<double> ShownMesh::RefineSources(LightSolver& solver, std::optional<double>& score,
-                                               const ExecutionContext& context) {
+// Gives the means of the interpolants to the leaves and to the cells of leaves whose light varies, and gives
+// the samples the new light. Returns the change of the leaves' irradiance (SourceCells::Change); nothing if
+// cancelled.
+std::optional<double> ShownMesh::RefineSources(LightSolver& solver, const ExecutionContext& context) {
   const Stopwatch stopwatch;
   context.Report("refine sources", 0);
-  const SourceCells cells = FinestCells(solver.solution(), context);
+  SourceCells cells = CellsOf(solver.solution(), kFinestScore * options_.error, context);
   if (context.Cancelled()) return std::nullopt;
   const double change = cells.Change();
-  if (!score)
-    score = ChooseSourceCut(
-                solver.solution(), cells, *irradiance_.Get(),
-                {kFinestScore * options_.error, kSourceShare * options_.error, kCutPoints, options_.seed + 1},
-                context)
-                .score;
-  const bool done = solver.SetLight(cells.LeafIrradiance(),
-                                    cells.Fragments(cells.Cut(*score), /*whole_leaves=*/false), context);
+  const SourceSet before = irradiance_.Get()->sources();
+  const bool done = solver.SetLight(cells.LeafIrradiance(), cells.Fragments(/*whole_leaves=*/false), context);
   irradiance_.Reset();
+  if (done) cells_ = std::move(cells).TakeCells();
+  if (done && irradiance_.Get(context))
+    report_.counts.sources_renewed += samples_.Relight(before, *irradiance_.Get(), Tolerance(), context);
+  else
+    samples_.Clear();
   seconds_of_sources_ += stopwatch.Seconds();
   return done ? std::optional(change) : std::nullopt;
 }
@@ -232,19 +227,17 @@ std::optional<double> ShownMesh::RefineSources(LightSolver& solver, std::optiona
 // requested error. False if cancelled before the first mesh was refined.
 bool ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOptions& options,
                              const ExecutionContext& context) {
-  const double error = kInterpolantShare * options_.error, tolerance = kNearShare * options_.error;
-  SampleCache samples;
-  std::optional<RefinedMesh> refined = Refine(solution, options, error, tolerance, &samples, context);
+  const double error = kInterpolantShare * options_.error;
+  std::optional<RefinedMesh> refined = Refine(solution, options, error, context);
   if (!refined) return false;
   double onward = error;
   for (int turn = 1; refined && turn <= kMostTurns && refined->share_above <= kShareAbove; ++turn) {
     const std::size_t points =
         std::clamp(refined->report.counts.point_evaluations / kEvaluationsALook, kFewestLooks, kMostLooks);
-    const double seen =
-        LookAround(points, options_.seed + 1 + static_cast<std::uint64_t>(turn), tolerance, context);
+    const double seen = LookAround(points, options_.seed + 1 + static_cast<std::uint64_t>(turn), context);
     if (context.Cancelled() || seen <= kOverlooked * options_.error) return true;
     onward *= std::clamp(kOverlooked * options_.error / seen, kLeastOnward, kMostOnward);
-    refined = Refine(solution, options, onward, tolerance, &samples, context);
+    refined = Refine(solution, options, onward, context);
   }
   if (!refined || onward < error) return true;  // measurements report the rest
   double area = 0;
@@ -257,22 +250,19 @@ bool ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOption
 }
 
 // An upper bound of the 99th percentile of the interpolants' error, from `points` random points.
-double ShownMesh::LookAround(std::size_t points, std::uint64_t seed, double tolerance,
-                             const ExecutionContext& context) {
+double ShownMesh::LookAround(std::size_t points, std::uint64_t seed, const ExecutionContext& context) {
   const Stopwatch stopwatch;
-  const RepresentationError seen =
-      MeasureRepresentationError(scene_, mesh_, Sampler(tolerance, context), points, seed);
+  const IrradianceSampler sampler = WhileGoing(NearSampler(*irradiance_.Get(), Tolerance()), context);
+  const RepresentationError seen = MeasureRepresentationError(scene_, mesh_, sampler, points, seed);
   report_.counts.point_evaluations += points;
   report_.seconds.interpolate += stopwatch.Seconds();
   return seen.p99_at_most;
 }
 
 // Refines the leaves of the present mesh until the interpolants' error is at most `error`, and replaces the
-// mesh. `samples` belong to the same sources and tolerance, or are null. Nothing if cancelled; the mesh of
-// the result has been moved from.
+// mesh. Nothing if cancelled; the mesh of the result has been moved from.
 std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, const MeshOptions& options,
-                                             double error, double tolerance, SampleCache* samples,
-                                             const ExecutionContext& context) {
+                                             double error, const ExecutionContext& context) {
   const Stopwatch stopwatch;
   if (!irradiance_.Get(context)) return std::nullopt;  // from the present sources
   seconds_of_sources_ += stopwatch.Seconds();
@@ -280,9 +270,13 @@ std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, 
   refinement.error = error;
   refinement.min_area = options_.solver.min_area;
   refinement.samples = options_.error_samples;
-  RefinedMesh refined = RefineMesh({visibility_, solution, Sampler(tolerance, context)}, options, refinement,
-                                   context, {&LocalPass(), &plan_, samples});
-  if (context.Cancelled()) return std::nullopt;
+  const IrradianceSampler sampler = WhileGoing(RecordingSampler(*irradiance_.Get(), Tolerance()), context);
+  RefinedMesh refined = RefineMesh({visibility_, solution, sampler}, options, refinement, context,
+                                   {&LocalPass(), &plan_, &samples_});
+  if (context.Cancelled()) {
+    samples_.Clear();
+    return std::nullopt;
+  }
   mesh_ = std::move(refined.mesh);
   triangulations_ = std::move(refined.triangulations);
   plan_ = std::move(refined.plan);

@@ -67,13 +67,18 @@ class ShownMesh {
   void Forget() {
     has_looked_ = false;
     light_plan_.reset();
+    samples_.Clear();
+    cells_.clear();
   }
   // Replaces the mesh by a mesh that another object has made.
   void Take(IrradianceMesh mesh);
   // Must be called after the PatchVisibility passed to the constructor has been replaced.
-  void ForgetVisibility() { local_pass_.reset(); }
+  void ForgetVisibility() {
+    local_pass_.reset();
+    samples_.Clear();
+  }
 
-  // The finest division of the leaves into sources that the interpolants support. The result is useless if
+  // A division of the leaves into sources that is finer than that of RefineLight(). The result is useless if
   // cancelled.
   SourceCells FinestCells(const RadiositySolution& solution, const ExecutionContext& context);
   // Exact irradiance from sources that are better than those of the solution. If the radiosities of `finest`
@@ -105,19 +110,17 @@ class ShownMesh {
 
  private:
   void Begin();
-  bool FirstLook(const RadiositySolution& solution, const MeshOptions& options, double tolerance,
+  bool FirstLook(const RadiositySolution& solution, const MeshOptions& options,
                  const ExecutionContext& context);
   bool SettleSources(LightSolver& solver, const MeshOptions& options, const ExecutionContext& context);
-  std::optional<double> RefineSources(LightSolver& solver, std::optional<double>& score,
-                                      const ExecutionContext& context);
+  std::optional<double> RefineSources(LightSolver& solver, const ExecutionContext& context);
+  SourceCells CellsOf(const RadiositySolution& solution, double finest, const ExecutionContext& context);
   bool RefineLeaves(const RadiositySolution& solution, const MeshOptions& options,
                     const ExecutionContext& context);
   std::optional<RefinedMesh> Refine(const RadiositySolution& solution, const MeshOptions& options,
-                                    double error, double tolerance, SampleCache* samples,
-                                    const ExecutionContext& context);
-  double LookAround(std::size_t points, std::uint64_t seed, double tolerance,
-                    const ExecutionContext& context);
-  IrradianceSampler Sampler(double tolerance, const ExecutionContext& context);
+                                    double error, const ExecutionContext& context);
+  double LookAround(std::size_t points, std::uint64_t seed, const ExecutionContext& context);
+  double Tolerance() const;
   LocalPassCache& LocalPass();
   void Add(MeshReport latest);
 
@@ -131,6 +134,8 @@ class ShownMesh {
   MeshPlan plan_;  // the plan of triangulations_
   std::vector<TriangleError> triangle_errors_;
   std::unique_ptr<LocalPassCache> local_pass_;  // for the present visibility
+  SampleCache samples_;                         // for the present light
+  std::vector<SourceCell> cells_;  // the sources of the present light; empty before RefineLight()
   MeshReport report_;
   double seconds_of_sources_ = 0;
   bool has_looked_ = false;             // mesh_ is RefineLight()'s, for the present light

@@ -9,148 +9,140 @@
 #include <optional>
 #include <utility>
 
+#include "mesh/refinement/covered_light.h"
 #include "solver/base/parallel.h"
 #include "solver/transport/points/leaf_cells.h"
 #include "solver/transport/points/nearest_patches.h"
 #include "solver/transport/sources/error_floors.h"
+#include "solver/transport/sources/leaf_fragments.h"
 
 namespace penumbra {
 namespace {
 
-// The largest number of successive quarterings of a mesh triangle.
-constexpr int kMostQuartered = 3;
+// A cell is divided only while its area is above this times that of the largest triangle of the mesh that it
+// meets, and at most this many times in succession.
+constexpr double kLeastOfTriangle = 1.0 / 64;
+constexpr int kMostLevels = 12;
 // For Change(): the fraction of the area that may change by more.
 constexpr double kChangedArea = 0.01;
-
-using Triangle3 = std::array<Vec3, 3>;
-
-// A triangle with the six samples of a quadratic, in the order of kSampleAt.
-struct QuadraticPiece {
-  Triangle3 corner;
-  std::array<Rgb, 6> sample;
-
-  // The midpoint rule is exact for quadratics.
-  Rgb Mean() const { return (sample[1] + sample[3] + sample[5]) / 3; }
-};
-
-QuadraticPiece PieceOf(const IrradianceMesh& mesh, std::uint32_t triangle) {
-  QuadraticPiece piece;
-  for (std::size_t k = 0; k < 3; ++k) piece.corner[k] = mesh.positions[mesh.triangles[triangle].vertex[k]];
-  for (std::size_t i = 0; i < 6; ++i)
-    piece.sample[i] = mesh.irradiance[triangle].At(kSampleAt[i][0], kSampleAt[i][1]);
-  return piece;
-}
-
-std::array<QuadraticPiece, 4> Quarters(const QuadraticPiece& piece) {
-  const QuadraticInterpolant q = QuadraticInterpolant::Quadratic(piece.sample);
-  using Place = std::array<double, 2>;
-  const Place a = {0, 0}, b = {1, 0}, c = {0, 1}, ab = {0.5, 0}, bc = {0.5, 0.5}, ca = {0, 0.5};
-  const std::array<std::array<Place, 3>, 4> places = {{{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}}};
-  std::array<QuadraticPiece, 4> quarters;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Place &from = places[i][k], &to = places[i][(k + 1) % 3];
-      quarters[i].corner[k] = piece.corner[0] + from[0] * (piece.corner[1] - piece.corner[0]) +
-                              from[1] * (piece.corner[2] - piece.corner[0]);
-      quarters[i].sample[2 * k] = q.At(from[0], from[1]);
-      quarters[i].sample[2 * k + 1] = q.At(0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1]));
-    }
-  return quarters;
-}
-
-// True if a contact edge lies between two of the triangles.
-bool DividedByContacts(std::span<const PatchTriangulation::Triangle> triangles) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-  for (const PatchTriangulation::Triangle& triangle : triangles)
-    for (std::size_t k = 0; k < 3; ++k)
-      if (triangle.contact[k]) edges.push_back(std::minmax(triangle.vertex[k], triangle.vertex[(k + 1) % 3]));
-  std::sort(edges.begin(), edges.end());
-  return std::adjacent_find(edges.begin(), edges.end()) != edges.end();
-}
 
 // Divides the leaves of one patch into cells.
 class CellDivider {
  public:
-  CellDivider(const RadiositySolution& solution, const IrradianceMesh& mesh, const Rgb& mean_radiosity,
-              double finest, std::vector<SourceCell>& cells)
-      : solution_(solution), mesh_(mesh), mean_radiosity_(mean_radiosity), finest_(finest), cells_(cells) {}
+  CellDivider(const RadiositySolution& solution, const Rgb& mean_radiosity, const SourceCellOptions& options,
+              std::vector<SourceCell>& cells)
+      : solution_(solution), mean_radiosity_(mean_radiosity), options_(options), cells_(cells) {}
 
-  // `divided` is true if something stands on the leaf, so that each side has its own light.
-  void AddLeaf(ElementId leaf, std::uint32_t first, std::uint32_t end, bool divided,
-               std::span<const PatchPair> seen) {
+  // `light` is the mesh on the leaf, in the plane of `frame`; `pieces` are the pieces into which contacts cut
+  // the leaf.
+  void AddLeaf(ElementId leaf, const CoveredLight& light, const Frame& frame,
+               std::span<const Fragment> pieces, std::span<const PatchPair> seen) {
     const Element& element = solution_.forest[leaf];
     const Scene& scene = solution_.forest.scene();
+    leaf_ = leaf;
+    frame_ = frame;
     normal_ = scene.patches[static_cast<std::size_t>(element.patch)].normal;
     reflectance_ = scene.MaterialOf(element.patch).reflectance;
     near_.emplace(scene, element.Vertices(), seen);
-    std::vector<QuadraticPiece> pieces;
-    Rgb mean = Rgb::Zero();
-    double area = 0;
-    for (std::uint32_t t = first; t < end; ++t) {
-      pieces.push_back(PieceOf(mesh_, t));
-      const double a = VectorArea(pieces.back().corner).norm();
-      mean += a * pieces.back().Mean();
-      area += a;
+    const std::size_t before = FirstOf(leaf), end = before < options_.before.size() ? EndOf(before) : before;
+    if (pieces.empty()) {
+      Add(SourcePolygon(element.Vertices()), light, -1, Earlier{before, end}, 0);
+      return;
     }
-    // A leaf that is too narrow for its points has triangles of zero area, or none.
-    if (area > 0)
-      mean /= area;
-    else
-      mean = solution_.irradiance[static_cast<std::size_t>(leaf)];
-    Rgb deviation = Rgb::Zero();
-    for (const QuadraticPiece& piece : pieces)
-      for (const Rgb& sample : piece.sample) deviation = deviation.max((sample - mean).abs());
-    const std::size_t at = Add(leaf, -1, element.Vertices(), element.area, mean, deviation);
-    if (divided) cells_[at].score = std::numeric_limits<double>::infinity();
-    if (cells_[at].score > finest_)
-      for (const QuadraticPiece& piece : pieces) AddPiece(leaf, at, piece, 0);
-    Close(at);
+    const std::size_t root = Append(SourcePolygon(element.Vertices()), light, -1);
+    Earlier earlier{before + 1, end};
+    for (const Fragment& piece : pieces)
+      for (const SourcePolygon& part : Fan(piece.polygon)) {
+        Add(part, Within(part, light), static_cast<std::int32_t>(root), earlier, 0);
+        earlier.Next(options_.before);
+      }
+    Close(root);
   }
 
  private:
-  void AddPiece(ElementId leaf, std::size_t parent, const QuadraticPiece& piece, int quartered) {
-    const Rgb mean = piece.Mean();
-    Rgb deviation = Rgb::Zero();
-    for (const Rgb& sample : piece.sample) deviation = deviation.max((sample - mean).abs());
-    const std::size_t at = Add(leaf, static_cast<std::int32_t>(parent), piece.corner,
-                               VectorArea(piece.corner).norm(), mean, deviation);
-    if (cells_[at].score > finest_ && quartered < kMostQuartered)
-      for (const QuadraticPiece& quarter : Quarters(piece)) AddPiece(leaf, at, quarter, quartered + 1);
+  // The cells of an earlier light from a cell on, up to the end of the cell's siblings.
+  struct Earlier {
+    std::size_t at, end;
+    bool None() const { return at >= end; }
+    void Next(std::span<const SourceCell> cells) {
+      if (!None()) at += static_cast<std::size_t>(cells[at].skip);
+    }
+  };
+
+  std::size_t FirstOf(ElementId leaf) const {
+    const auto found = std::partition_point(options_.before.begin(), options_.before.end(),
+                                            [&](const SourceCell& cell) { return cell.leaf < leaf; });
+    const auto at = static_cast<std::size_t>(found - options_.before.begin());
+    return at < options_.before.size() && options_.before[at].leaf == leaf ? at : options_.before.size();
+  }
+  std::size_t EndOf(std::size_t cell) const {
+    return cell + static_cast<std::size_t>(options_.before[cell].skip);
+  }
+
+  CoveredLight Within(const SourcePolygon& polygon, const CoveredLight& light) const {
+    std::array<Vec2, 4> corner;
+    for (std::size_t k = 0; k < polygon.Vertices().size(); ++k) corner[k] = frame_.ToPlane(polygon.vertex[k]);
+    return light.Within({corner.data(), polygon.Vertices().size()});
+  }
+
+  // Adds a cell and the cells below it. `earlier` is at the cell of the same place, if there was one.
+  void Add(const SourcePolygon& polygon, const CoveredLight& light, std::int32_t parent,
+           const Earlier& earlier, int level) {
+    const std::size_t at = Append(polygon, light, parent);
+    const bool was_divided = !earlier.None() && options_.before[earlier.at].skip > 1;
+    const bool may_divide =
+        level < kMostLevels && cells_[at].area > kLeastOfTriangle * light.LargestTriangle();
+    if (was_divided || (cells_[at].score > options_.finest && may_divide)) {
+      Earlier below{0, 0};
+      if (was_divided) below = {earlier.at + 1, EndOf(earlier.at)};
+      for (const SourcePolygon& quarter : Quarters(polygon)) {
+        Add(quarter, Within(quarter, light), static_cast<std::int32_t>(at), below, level + 1);
+        below.Next(options_.before);
+      }
+    }
     Close(at);
   }
 
-  std::size_t Add(ElementId leaf, std::int32_t parent, std::span<const Vec3> polygon, double area,
-                  const Rgb& mean, const Rgb& deviation) {
+  std::size_t Append(const SourcePolygon& polygon, const CoveredLight& light, std::int32_t parent) {
     SourceCell cell;
-    cell.leaf = leaf;
+    cell.leaf = leaf_;
     cell.parent = parent;
-    cell.size = static_cast<std::int32_t>(polygon.size());
-    std::copy(polygon.begin(), polygon.end(), cell.vertex.begin());
-    cell.area = area;
+    cell.polygon = polygon;
+    cell.area = VectorArea(polygon.Vertices()).norm();
+    // A leaf that is too narrow for its points has triangles of zero area, or none.
+    const Rgb mean = light.area() > 0 ? light.Mean() : solution_.irradiance[static_cast<std::size_t>(leaf_)];
     cell.irradiance = mean.max(0.0);
+    const Rgb deviation = light.Deviation(mean);
     for (int c = 0; c < 3; ++c) {
       const double around = std::max(reflectance_[c] * cell.irradiance[c], kCellFloor * mean_radiosity_[c]);
       if (around > 0) cell.score = std::max(cell.score, reflectance_[c] * deviation[c] / around);
     }
-    cell.score *= ShareOfView(polygon);
+    cell.score *= LargestFactor(polygon.Vertices());
     cells_.push_back(cell);
     return cells_.size() - 1;
   }
 
+  // Ends the subtree of a cell. Its irradiance becomes the mean of its children's.
   void Close(std::size_t at) {
     cells_[at].skip = static_cast<std::int32_t>(cells_.size() - at);
-    for (std::size_t i = at + 1; i < cells_.size(); ++i)
-      cells_[at].score = std::max(cells_[at].score, cells_[i].score);
+    if (cells_[at].skip == 1) return;
+    Rgb sum = Rgb::Zero();
+    double area = 0;
+    for (std::size_t i = at + 1; i < cells_.size(); i += static_cast<std::size_t>(cells_[i].skip)) {
+      sum += cells_[i].area * cells_[i].irradiance;
+      area += cells_[i].area;
+    }
+    if (area > 0) cells_[at].irradiance = sum / area;
   }
 
   // The approximate largest form factor of the polygon to a point of another patch, including light that
   // returns repeatedly from there. The deviations of the polygon's light average out, so that their effect
   // falls with one more power of the distance.
-  double ShareOfView(std::span<const Vec3> polygon) const {
+  double LargestFactor(std::span<const Vec3> polygon) const {
     const Scene& scene = solution_.forest.scene();
     const Vec3 centre = Centroid(polygon);
     const double size = Diameter(polygon);
-    double share = 0;
+    double largest = 0;
     for (const PatchId id : near_->patches()) {
       const Patch& patch = scene.patches[static_cast<std::size_t>(id)];
       const double gap = 1 + std::max(0.0, near_->DistanceTo(id, centre) / size - 0.5);
@@ -158,17 +150,18 @@ class CellDivider {
       const double wedge = 0.5 * (1 - normal_.dot(patch.normal));
       const double factor = wedge / (gap * gap * gap);
       const double returned = (reflectance_ * scene.MaterialOf(id).reflectance).maxCoeff() * factor * factor;
-      share = std::max(share, factor / (1 - returned));
+      largest = std::max(largest, factor / (1 - returned));
     }
-    return share;
+    return largest;
   }
 
   const RadiositySolution& solution_;
-  const IrradianceMesh& mesh_;
   const Rgb mean_radiosity_;
-  const double finest_;
+  const SourceCellOptions& options_;
   std::vector<SourceCell>& cells_;
   // For the present leaf.
+  ElementId leaf_ = kNoElement;
+  Frame frame_;
   Vec3 normal_ = Vec3::Zero();
   Rgb reflectance_ = Rgb::Zero();
   std::optional<NearestPatches> near_;
@@ -177,7 +170,8 @@ class CellDivider {
 }  // namespace
 
 SourceCells::SourceCells(const RadiositySolution& solution, const MeshWithLeaves& shown,
-                         const PointIrradiance& exact, double finest, const ExecutionContext& context)
+                         const PointIrradiance& exact, const SourceCellOptions& options,
+                         const ExecutionContext& context)
     : solution_(solution) {
   const std::span<const PatchTriangulation> patches = shown.patches;
   const Scene& scene = solution.forest.scene();
@@ -190,18 +184,20 @@ SourceCells::SourceCells(const RadiositySolution& solution, const MeshWithLeaves
       id = shown.forest[id].parent;
     return id;
   };
+  const std::vector<Fragment> pieces = CutLeavesAtContacts(solution.forest, context);
   std::vector<std::vector<SourceCell>> by_patch(patches.size());
   ParallelFor(patches.size(), 1, [&](std::size_t p) {
     const PatchTriangulation& patch = patches[p];
     if (context.Cancelled()) return;
     if ((scene.MaterialOf(patch.patch).reflectance == 0).all()) return;
-    CellDivider divider(solution, shown.mesh, mean_radiosity, finest, by_patch[p]);
+    const Frame frame = PolygonFrame(scene.patches[p].Vertices());
+    CellDivider divider(solution, mean_radiosity, options, by_patch[p]);
     for (std::size_t begin = 0, end = 0; begin < patch.leaves.size() && !context.Cancelled(); begin = end) {
       const ElementId leaf = in_solution(patch.leaves[begin]);
       while (end < patch.leaves.size() && in_solution(patch.leaves[end]) == leaf) ++end;
-      const std::uint32_t from = patch.first_triangle[begin], to = patch.first_triangle[end];
-      const bool divided = DividedByContacts(std::span(patch.triangles).subspan(from, to - from));
-      divider.AddLeaf(leaf, first[p] + from, first[p] + to, divided, exact.SeenFrom(leaf));
+      const CoveredLight light(shown.mesh, first[p] + patch.first_triangle[begin],
+                               first[p] + patch.first_triangle[end], frame);
+      divider.AddLeaf(leaf, light, frame, FragmentsOf(pieces, leaf), exact.SeenFrom(leaf));
     }
   });
   Collect(by_patch);
@@ -256,26 +252,15 @@ double SourceCells::Change() const {
   return 0;
 }
 
-std::vector<std::int32_t> SourceCells::Cut(double score) const {
-  std::vector<std::int32_t> cut;
-  for (std::size_t i = 0; i < cells_.size();) {
-    const bool whole = cells_[i].score <= score || cells_[i].skip == 1;
-    if (whole) cut.push_back(static_cast<std::int32_t>(i));
-    i += whole ? static_cast<std::size_t>(cells_[i].skip) : 1;
-  }
-  return cut;
-}
-
-std::vector<Fragment> SourceCells::Fragments(std::span<const std::int32_t> cut, bool whole_leaves) const {
+std::vector<Fragment> SourceCells::Fragments(bool whole_leaves) const {
   const Scene& scene = solution_.forest.scene();
   std::vector<Fragment> fragments;
-  for (const std::int32_t i : cut) {
-    const SourceCell& cell = cells_[static_cast<std::size_t>(i)];
-    if (cell.parent < 0 && !whole_leaves) continue;
+  for (const SourceCell& cell : cells_) {
+    if (cell.skip > 1 || (cell.parent < 0 && !whole_leaves)) continue;
     const Material& material = scene.MaterialOf(solution_.forest[cell.leaf].patch);
     Fragment fragment;
     fragment.leaf = cell.leaf;
-    fragment.polygon.assign(cell.vertex.begin(), cell.vertex.begin() + cell.size);
+    fragment.polygon.assign(cell.polygon.Vertices().begin(), cell.polygon.Vertices().end());
     fragment.area = cell.area;
     fragment.irradiance = cell.irradiance;
     fragment.radiosity = material.emittance + material.reflectance * cell.irradiance;

@@ -30,7 +30,7 @@ void AppendFan(const Fragment& fragment, std::size_t number, std::vector<SourceS
 }
 
 // A fragment, or a polygon whose four quarters precede it in the list.
-struct Piece {
+struct JoinedFragment {
   SourcePolygon polygon;  // size 0: a fragment of more than four vertices
   std::size_t fragment = 0;
   std::size_t pieces = 1;  // number of pieces that form it, including itself; they precede it
@@ -38,9 +38,9 @@ struct Piece {
 
 // The fragments in their order. A polygon follows its last quarter if all four quarters exist: a quartered
 // polygon that is far away or hidden as a whole is then handled as one.
-std::vector<Piece> JoinFragments(std::span<const Fragment> fragments) {
+std::vector<JoinedFragment> JoinFragments(std::span<const Fragment> fragments) {
   constexpr std::size_t kQuarters = 4;
-  std::vector<Piece> pieces;
+  std::vector<JoinedFragment> pieces;
   std::vector<std::size_t> open;  // pieces that are no quarters so far
   for (std::size_t f = 0; f < fragments.size(); ++f) {
     const Polygon3& polygon = fragments[f].polygon;
@@ -67,13 +67,13 @@ std::vector<Piece> JoinFragments(std::span<const Fragment> fragments) {
 }
 
 // Appends the pieces as nodes, parents before children. A parent's radiosity follows from its children.
-void AppendPieces(std::span<const Piece> pieces, std::span<const Fragment> fragments, std::size_t first,
-                  std::vector<SourceSet::Node>& nodes) {
+void AppendPieces(std::span<const JoinedFragment> pieces, std::span<const Fragment> fragments,
+                  std::size_t first, std::vector<SourceSet::Node>& nodes) {
   // In reverse order a polygon precedes its quarters: roots are found backwards and appended forwards.
   std::vector<std::size_t> roots;
   for (std::size_t i = pieces.size(); i > 0; i -= pieces[i - 1].pieces) roots.push_back(i - 1);
   for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
-    const Piece& piece = pieces[*root];
+    const JoinedFragment& piece = pieces[*root];
     if (piece.pieces == 1) {
       AppendFan(fragments[piece.fragment], first + piece.fragment, nodes);
       continue;
