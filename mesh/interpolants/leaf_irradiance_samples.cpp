@@ -8,12 +8,13 @@
 namespace penumbra {
 
 LeafIrradianceSamples::LeafIrradianceSamples(const ElementForest& forest, PatchId patch,
-                                             const IrradianceSampler& sampler)
+                                             const IrradianceSampler& sampler, const SampleCache* known)
     : forest_(forest),
       id_(patch),
       patch_(forest.scene().patches[static_cast<std::size_t>(patch)]),
       sampler_(sampler),
-      uncertainty_(SampleUncertainty(forest.scene(), patch_)) {}
+      uncertainty_(SampleUncertainty(forest.scene(), patch_)),
+      known_(known) {}
 
 Rgb LeafIrradianceSamples::At(ElementId leaf, const Vec3& place) {
   const Element& element = forest_[leaf];
@@ -45,7 +46,9 @@ Rgb LeafIrradianceSamples::Sample(const Element& leaf, const Vec3& point) {
   at.normal = patch_.normal;
   at.approach = Centroid(leaf.Vertices()) - point;
   at.uncertainty = uncertainty_;
-  if (const PointIrradianceResult* known = samples_.Find(id_, at)) return known->irradiance;
+  if (known_ != nullptr)
+    if (const PointIrradianceResult* sample = known_->Find(id_, at)) return sample->irradiance;
+  if (const PointIrradianceResult* sample = samples_.Find(id_, at)) return sample->irradiance;
   const PointIrradianceResult sample = sampler_(id_, at);
   samples_.Insert(id_, at, sample);
   return sample.irradiance;

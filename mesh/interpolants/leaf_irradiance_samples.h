@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 
 #include "mesh/interpolants/irradiance_mesh_builder.h"
 #include "mesh/interpolants/sample_cache.h"
@@ -17,14 +18,18 @@ namespace penumbra {
 // several threads at once.
 class LeafIrradianceSamples {
  public:
-  // All arguments must outlive the object; the forest must not change.
-  LeafIrradianceSamples(const ElementForest& forest, PatchId patch, const IrradianceSampler& sampler);
+  // `known`, unless null, holds samples of the same sampler. All arguments must outlive the object; forest
+  // and `known` must not change.
+  LeafIrradianceSamples(const ElementForest& forest, PatchId patch, const IrradianceSampler& sampler,
+                        const SampleCache* known = nullptr);
 
   // The approximate irradiance at a point of the leaf [W/m^2]: linear interpolation between samples at the
   // leaf's corners, at the midpoints of its sides and at its centre.
   Rgb At(ElementId leaf, const Vec3& place);
   // The number of calls of the sampler since construction.
   std::size_t evaluations() const { return samples_.size(); }
+  // The samples of these calls.
+  SampleCache TakeSamples() && { return std::move(samples_); }
 
  private:
   Rgb Sample(const Element& leaf, const Vec3& point);
@@ -34,6 +39,7 @@ class LeafIrradianceSamples {
   const Patch& patch_;
   const IrradianceSampler& sampler_;
   const double uncertainty_;  // [m]
+  const SampleCache* known_;
   SampleCache samples_;
 };
 

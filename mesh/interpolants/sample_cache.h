@@ -33,6 +33,8 @@ class SampleCache {
                       const ExecutionContext& context);
   // Removes all samples.
   void Clear();
+  // Adds the samples of another cache, as far as their nodes are unknown.
+  void Merge(SampleCache&& other) { samples_.merge(other.samples_); }
   std::size_t size() const { return samples_.size(); }
 
  private:

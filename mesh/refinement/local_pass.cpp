@@ -136,12 +136,16 @@ void PatchTriangulator::ActivateAll(Work& work) const {
 void PatchTriangulator::ActivateByPlaces(Work& work) const {
   if (!sampler_ || !*sampler_ || !work.activating.ranks_by_error()) return;
   std::vector<std::size_t> evaluations(work.dsets.size());
+  std::vector<SampleCache> taken(work.dsets.size());
   ParallelFor(work.dsets.size(), 1, [&](std::size_t p) {
     if (work.dsets[p].refused == 0 || context_.Cancelled()) return;
-    LeafIrradianceSamples places(work.forest, static_cast<PatchId>(p), *sampler_);
+    LeafIrradianceSamples places(work.forest, static_cast<PatchId>(p), *sampler_, samples_);
     work.dsets[p] = Activate(work, p, &places);
     evaluations[p] = places.evaluations();
+    taken[p] = std::move(places).TakeSamples();
   });
+  if (samples_ && !context_.Cancelled())
+    for (SampleCache& samples : taken) samples_->Merge(std::move(samples));
   work.report.counts.point_evaluations +=
       std::accumulate(evaluations.begin(), evaluations.end(), std::size_t{0});
 }
@@ -216,7 +220,7 @@ MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySoluti
   result.plan = BeginPlan(visibility, solution, options.discontinuities);
   const bool constant = options.order == InterpolantOrder::kConstant;
   PatchTriangulator triangulator(visibility, solution, options.discontinuities, context, memory.cache);
-  if (!constant) triangulator.RankWith(sampler);
+  if (!constant) triangulator.RankWith(sampler, memory.samples);
   result.triangulations = triangulator.Triangulate(result.plan, result.report);
   if (context.Cancelled()) return result;
   const std::vector<PatchTriangulation>& patches = result.triangulations;

@@ -77,7 +77,11 @@ class PatchTriangulator {
   // After this call, if discontinuities are ranked by DiscontinuityWeight::kIrradiance and a leaf has no room
   // for all of them, the sampler computes the irradiance at the discontinuities (LeafIrradianceSamples). The
   // sampler must outlive the object.
-  void RankWith(const IrradianceSampler& sampler) { sampler_ = &sampler; }
+  // `samples`, unless null, holds samples of this sampler, and gets those that ranking takes.
+  void RankWith(const IrradianceSampler& sampler, SampleCache* samples = nullptr) {
+    sampler_ = &sampler;
+    samples_ = samples;
+  }
 
   // Triangulates all patches along the leaves of the plan, and adds counts and seconds to `report`. Leaves
   // may be split further for the mesh; for each leaf of a triangulation, PatchTriangulation::leaves holds the
@@ -102,6 +106,7 @@ class PatchTriangulator {
   DiscontinuityOptions options_;
   const ExecutionContext& context_;
   const IrradianceSampler* sampler_ = nullptr;
+  SampleCache* samples_ = nullptr;
   std::optional<LocalPassCache> own_cache_;
   LocalPassCache& cache_;
   ReferenceIrradiance light_;

@@ -165,6 +165,7 @@ RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options
       memory.local_pass ? memory.local_pass : &own.emplace(scene, light.visibility);
   PatchTriangulator triangulator(light.visibility, light.solution, mesh_options.discontinuities, context,
                                  local_pass);
+  triangulator.RankWith(light.sampler, samples);
   RefinedMesh refined;
   refined.plan = memory.start ? *memory.start
                               : BeginPlan(light.visibility, light.solution, mesh_options.discontinuities);
@@ -176,6 +177,7 @@ RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options
     refined.triangulations = triangulator.Triangulate(refined.plan, refined.report, &omitted);
     seconds.discontinuities += refined.report.seconds.discontinuities;
     seconds.triangulate += refined.report.seconds.triangulate;
+    evaluations += refined.report.counts.point_evaluations;
     const Stopwatch interpolating;
     if (context.Cancelled()) return {};
     BuiltMesh built = BuildIrradianceMesh(scene, refined.triangulations, mesh_options.order, light.sampler,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,10 +18,11 @@ namespace {
 constexpr double kInterpolantShare = 0.65;
 // The tolerance of the interpolants' samples for details of their sources, as a fraction of the error. The
 // means of the samples correct the light of the sources, so that a common error grows from bounce to bounce.
-constexpr double kSampleShare = 0.1;
+static double Env(const char* n,double d){ const char* v=std::getenv(n); return v?std::atof(v):d; }
+const double kSampleShare = Env("SAMPLE",0.2);
 // Factors of the minimum weight. Refinement that may request edges starts with edges of kWeightToBegin times
 // the minimum weight; earlier meshes, which only determine sources, multiply that by kFirstWeight.
-constexpr double kWeightToBegin = 2, kFirstWeight = 2;
+const double kWeightToBegin = Env("WBEGIN",2), kFirstWeight = Env("WFIRST",1);
 // Sources are refined again while the means would still change by more than kSettledShare of the error, at
 // most kMostSourcePasses times. Most rooms need two to four passes; a narrow slot between white walls, where
 // light bounces many times, needs twenty. The passes end earlier if two passes leave more than kStill of a
@@ -36,7 +38,7 @@ constexpr double kOverlooked = 0.9, kLeastOnward = 0.5, kMostOnward = 0.9;
 constexpr int kMostTurns = 3;
 // Sources are divided while their score is above this factor times the error, and for measurements of the
 // error further.
-constexpr double kFinestScore = 1, kMeasuredScore = 0.5;
+const double kFinestScore = Env("FINEST",2), kMeasuredScore = 1;
 
 }  // namespace
 
@@ -198,8 +200,25 @@ bool ShownMesh::SettleSources(LightSolver& solver, const MeshOptions& options,
     if (settled || still || pass == kMostSourcePasses) return true;
     before = *change;
     ratio_before = ratio;
-    if (!Refine(solver.solution(), options, kInterpolantShare * options_.error, context)) return false;
+    const bool shown = pass == 1 ? Refine(solver.solution(), options, kInterpolantShare * options_.error, context)
+                                       .has_value()
+                                 : ShowAnew(options, context);
+    if (!shown) return false;
   }
+}
+
+// Gives the present mesh the present light. False if cancelled.
+bool ShownMesh::ShowAnew(const MeshOptions& options, const ExecutionContext& context) {
+  const Stopwatch stopwatch;
+  if (!irradiance_.Get(context)) return false;
+  const IrradianceSampler sampler = WhileGoing(RecordingSampler(*irradiance_.Get(), Tolerance()), context);
+  BuiltMesh built = BuildIrradianceMesh(scene_, triangulations_, options.order, sampler, context, &samples_);
+  if (context.Cancelled()) return false;
+  mesh_ = std::move(built.mesh);
+  triangle_errors_.clear();
+  report_.counts.point_evaluations += built.point_evaluations;
+  report_.seconds.interpolate += stopwatch.Seconds();
+  return true;
 }
 
 // Gives the means of the interpolants to the leaves and to the cells of leaves whose light varies, and gives
@@ -210,15 +229,20 @@ std::optional<double> ShownMesh::RefineSources(LightSolver& solver, const Execut
   context.Report("refine sources", 0);
   SourceCells cells = CellsOf(solver.solution(), kFinestScore * options_.error, context);
   if (context.Cancelled()) return std::nullopt;
+  const double tcells=stopwatch.Seconds();
   const double change = cells.Change();
   const SourceSet before = irradiance_.Get()->sources();
   const bool done = solver.SetLight(cells.LeafIrradiance(), cells.Fragments(/*whole_leaves=*/false), context);
+  const double tset=stopwatch.Seconds();
   irradiance_.Reset();
+  if(done) irradiance_.Get(context);
+ const double tirr=stopwatch.Seconds();
   if (done) cells_ = std::move(cells).TakeCells();
   if (done && irradiance_.Get(context))
     report_.counts.sources_renewed += samples_.Relight(before, *irradiance_.Get(), Tolerance(), context);
   else
     samples_.Clear();
+  fmt::print(stderr,"cells {:.2f} set {:.2f} sources {:.2f} relight {:.2f} change {:.4f} samples {} renewed {} fragments {}\n",tcells,tset-tcells,tirr-tset,stopwatch.Seconds()-tirr,change,samples_.size(),report_.counts.sources_renewed,solver.solution().fragments.size());
   seconds_of_sources_ += stopwatch.Seconds();
   return done ? std::optional(change) : std::nullopt;
 }

@@ -119,6 +119,7 @@ class ShownMesh {
                     const ExecutionContext& context);
   std::optional<RefinedMesh> Refine(const RadiositySolution& solution, const MeshOptions& options,
                                     double error, const ExecutionContext& context);
+  bool ShowAnew(const MeshOptions& options, const ExecutionContext& context);
   double LookAround(std::size_t points, std::uint64_t seed, const ExecutionContext& context);
   double Tolerance() const;
   LocalPassCache& LocalPass();

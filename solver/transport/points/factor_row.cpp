@@ -3,16 +3,15 @@
 namespace penumbra {
 
 Rgb Irradiance(const FactorRow& row, std::uint32_t first, std::uint32_t end, const SourceSet& sources) {
-  Rgb sum = Rgb::Zero();
+  std::array<double, 3> sum = {0, 0, 0};
   for (std::uint32_t i = first; i < end; ++i) {
     const FactorTerm& term = row.terms[i];
-    const SourceSet::Node& node = sources.NodeAt(static_cast<std::size_t>(term.node));
-    sum += static_cast<double>(term.factor) * node.radiosity;
-    if (node.skip == 1) continue;  // constant
-    const Vec3 moment(term.moment[0], term.moment[1], term.moment[2]);
-    sum += (node.slope * moment).array();
+    const SourceSet::NodeLight& light = sources.LightOf(term.node);
+    for (std::size_t c = 0; c < 3; ++c)
+      sum[c] += term.factor * light.radiosity[c] + term.moment[0] * light.slope[3 * c] +
+                term.moment[1] * light.slope[3 * c + 1] + term.moment[2] * light.slope[3 * c + 2];
   }
-  return sum;
+  return {sum[0], sum[1], sum[2]};
 }
 
 Rgb Irradiance(const FactorRow& row, const SourceSet& sources) {

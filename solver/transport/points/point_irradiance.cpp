@@ -220,7 +220,7 @@ bool PointIrradiance::Holds(const FactorRow& row, const FactorRow::Source& sourc
   for (std::uint32_t i = source.first; i < source.end; ++i) {
     const FactorTerm& term = row.terms[i];
     if (term.node < 0) return false;
-    const SourceSet::Node& node = sources_.NodeAt(static_cast<std::size_t>(term.node));
+    const SourceSet::NodeLight& node = sources_.LightOf(term.node);
     const double error = term.by_spread * node.spread + term.by_residual * node.residual;
     if (error > allowed && error * term.factor > allowed * whole) return false;
   }

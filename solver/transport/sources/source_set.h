@@ -57,6 +57,15 @@ class SourceSet {
   // The emitters with their emittances, for direct light.
   static SourceSet Emitters(const Scene& scene);
 
+  // The light of a node in a compact form, for sums over many nodes. The members have the meaning of those of
+  // Node with the same names.
+  struct NodeLight {
+    std::array<float, 3> radiosity = {0, 0, 0};  // [W/m^2]
+    std::array<float, 9> slope = {};             // row by row [W/m^3]
+    float spread = 0, residual = 0;
+  };
+  const NodeLight& LightOf(std::int32_t node) const { return light_[static_cast<std::size_t>(node)]; }
+
   const Node& NodeAt(std::size_t i) const { return nodes_[i]; }
   std::size_t IndexOf(const Node& node) const { return static_cast<std::size_t>(&node - nodes_.data()); }
 
@@ -97,9 +106,11 @@ class SourceSet {
   void MeasurePolygons();
   Rgb MeanReflected() const;
   void MeasureSubtrees();
+  void CompactLight();
 
   std::vector<std::size_t> first_;  // of each patch, in nodes_
   std::vector<Node> nodes_;
+  std::vector<NodeLight> light_;
   std::vector<Vec3> corners_;
   PolygonBatch leaf_polygons_;
   std::vector<Rgb> leaf_radiosity_;
