@@ -14,11 +14,11 @@
 namespace penumbra {
 namespace {
 
+static double Env(const char* n,double d){ const char* v=std::getenv(n); return v?std::atof(v):d; }
 // The fraction of the error for the interpolants, for a 99th percentile.
 constexpr double kInterpolantShare = 0.65;
 // The tolerance of the interpolants' samples for details of their sources, as a fraction of the error. The
 // means of the samples correct the light of the sources, so that a common error grows from bounce to bounce.
-static double Env(const char* n,double d){ const char* v=std::getenv(n); return v?std::atof(v):d; }
 const double kSampleShare = Env("SAMPLE",0.2);
 // Factors of the minimum weight. Refinement that may request edges starts with edges of kWeightToBegin times
 // the minimum weight; earlier meshes, which only determine sources, multiply that by kFirstWeight.
@@ -28,6 +28,7 @@ const double kWeightToBegin = Env("WBEGIN",2), kFirstWeight = Env("WFIRST",1);
 // light bounces many times, needs twenty. The passes end earlier if two passes leave more than kStill of a
 // change.
 constexpr double kSettledShare = 0.6, kStill = 0.95;
+const int kRoughRounds = static_cast<int>(Env("ROUNDS",2));
 constexpr int kMostSourcePasses = 40, kFewestSourcePasses = 3;
 // Measurements at centroids can overlook errors that random points show. Random points therefore test the
 // refined mesh, one per kEvaluationsALook evaluations of the refinement. While the 99th percentile may be
@@ -187,6 +188,8 @@ bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& 
 // changes return by the bounces between walls that face each other. False if cancelled.
 bool ShownMesh::SettleSources(LightSolver& solver, const MeshOptions& options,
                               const ExecutionContext& context) {
+  MeshRefinementOptions rough = RefinementTo(kInterpolantShare * options_.error);
+  rough.max_rounds = kRoughRounds;
   double before = 0, ratio_before = 0;  // change of the last pass, and its ratio to the change before
   for (int pass = 1;; ++pass) {
     const std::optional<double> change = RefineSources(solver, context);
@@ -200,7 +203,7 @@ bool ShownMesh::SettleSources(LightSolver& solver, const MeshOptions& options,
     if (settled || still || pass == kMostSourcePasses) return true;
     before = *change;
     ratio_before = ratio;
-    const bool shown = pass == 1 ? Refine(solver.solution(), options, kInterpolantShare * options_.error, context)
+    const bool shown = pass == 1 ? Refine(solver.solution(), options, rough, context)
                                        .has_value()
                                  : ShowAnew(options, context);
     if (!shown) return false;
@@ -252,7 +255,7 @@ std::optional<double> ShownMesh::RefineSources(LightSolver& solver, const Execut
 bool ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOptions& options,
                              const ExecutionContext& context) {
   const double error = kInterpolantShare * options_.error;
-  std::optional<RefinedMesh> refined = Refine(solution, options, error, context);
+  std::optional<RefinedMesh> refined = Refine(solution, options, RefinementTo(error), context);
   if (!refined) return false;
   double onward = error;
   for (int turn = 1; refined && turn <= kMostTurns && refined->share_above <= kShareAbove; ++turn) {
@@ -261,7 +264,7 @@ bool ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOption
     const double seen = LookAround(points, options_.seed + 1 + static_cast<std::uint64_t>(turn), context);
     if (context.Cancelled() || seen <= kOverlooked * options_.error) return true;
     onward *= std::clamp(kOverlooked * options_.error / seen, kLeastOnward, kMostOnward);
-    refined = Refine(solution, options, onward, context);
+    refined = Refine(solution, options, RefinementTo(onward), context);
   }
   if (!refined || onward < error) return true;  // measurements report the rest
   double area = 0;
@@ -283,17 +286,22 @@ double ShownMesh::LookAround(std::size_t points, std::uint64_t seed, const Execu
   return seen.p99_at_most;
 }
 
-// Refines the leaves of the present mesh until the interpolants' error is at most `error`, and replaces the
-// mesh. Nothing if cancelled; the mesh of the result has been moved from.
-std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, const MeshOptions& options,
-                                             double error, const ExecutionContext& context) {
-  const Stopwatch stopwatch;
-  if (!irradiance_.Get(context)) return std::nullopt;  // from the present sources
-  seconds_of_sources_ += stopwatch.Seconds();
+MeshRefinementOptions ShownMesh::RefinementTo(double error) const {
   MeshRefinementOptions refinement;
   refinement.error = error;
   refinement.min_area = options_.solver.min_area;
   refinement.samples = options_.error_samples;
+  return refinement;
+}
+
+// Refines the leaves of the present mesh until the interpolants' error is at most `error`, and replaces the
+// mesh. Nothing if cancelled; the mesh of the result has been moved from.
+std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, const MeshOptions& options,
+                                             const MeshRefinementOptions& refinement,
+                                             const ExecutionContext& context) {
+  const Stopwatch stopwatch;
+  if (!irradiance_.Get(context)) return std::nullopt;  // from the present sources
+  seconds_of_sources_ += stopwatch.Seconds();
   const IrradianceSampler sampler = WhileGoing(RecordingSampler(*irradiance_.Get(), Tolerance()), context);
   RefinedMesh refined = RefineMesh({visibility_, solution, sampler}, options, refinement, context,
                                    {&LocalPass(), &plan_, &samples_});
