@@ -68,6 +68,7 @@ enum class InterpolantOrder : std::uint8_t {
 struct MeshOptions {
   DiscontinuityOptions discontinuities;
   InterpolantOrder order = InterpolantOrder::kQuadratic;
+  double smooth = 0;  // Interpolation::smooth
 };
 
 struct MeshReport {

@@ -1,15 +1,18 @@
 #include "mesh/interpolants/irradiance_mesh_builder.h"
 
 #include <algorithm>
+#include <iterator>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "mesh/discontinuities/discontinuity.h"
 #include "mesh/discontinuities/leaf_margins.h"
+#include "mesh/interpolants/midpoint_prediction.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
 #include "solver/scene/tolerances.h"
+#include "solver/transport/sources/error_floors.h"
 
 namespace penumbra {
 namespace {
@@ -173,37 +176,113 @@ double SampleUncertainty(const Scene& scene, const Patch& patch) {
   return Uncertainty(patch, ContactGap(scene));
 }
 
+namespace {
+
+// The kinds of nodes: the remainder of (number of the sample in kSampleAt) / 2.
+constexpr int kVertices = 0, kMidpoints = 1;
+
+// The irradiance at the nodes of a mesh.
+class NodeValues {
+ public:
+  NodeValues(const IrradianceMesh& mesh, bool midpoints, Sampling& sampling)
+      : mesh_(mesh),
+        sampling_(sampling),
+        nodes_(NumberNodes(mesh, midpoints)),
+        values_(nodes_.first.size()),
+        predicted_(nodes_.first.size(), 0) {}
+
+  // Samples the nodes of one kind that are not predicted: each node for its first triangle, and one-sided
+  // nodes for every other triangle as well.
+  void Sample(int kind, double done_before, double done_after) {
+    std::vector<Slot> slots;
+    std::vector<Node> at;
+    for (Slot slot = 0; slot < predicted_.size(); ++slot)
+      if (nodes_.first[slot].sample % 2 == kind && !predicted_[slot]) {
+        slots.push_back(slot);
+        at.push_back(nodes_.first[slot]);
+      }
+    constexpr double kFirstShare = 0.8;
+    const double done_first = done_before + kFirstShare * (done_after - done_before);
+    std::vector<PointIrradianceResult> sampled = sampling_.Evaluate(at, done_before, done_first);
+    for (std::size_t i = 0; i < slots.size(); ++i) values_[slots[i]] = std::move(sampled[i]);
+    at.clear();
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (int sample = kind; sample < 6; sample += 2) {
+        Slot& slot = nodes_.of_triangle[t][sample];
+        if (!values_[slot].one_sided || nodes_.first[slot].triangle == t) continue;
+        slot = static_cast<Slot>(values_.size() + at.size());
+        at.push_back(
+            {mesh_.triangles[t].patch, static_cast<std::uint32_t>(t), static_cast<std::uint8_t>(sample)});
+      }
+    sampled = sampling_.Evaluate(at, done_first, done_after);
+    std::move(sampled.begin(), sampled.end(), std::back_inserter(values_));
+  }
+
+  // Predicts midpoints where irradiance bends little (Interpolation::smooth), from the samples at vertices.
+  void PredictMidpoints(double smooth) {
+    std::vector<std::array<Rgb, 3>> corner(mesh_.triangles.size());
+    Rgb mean = Rgb::Zero();
+    for (std::size_t t = 0; t < corner.size(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        corner[t][static_cast<std::size_t>(k)] = Value(t, 2 * k);
+        mean += Value(t, 2 * k) / static_cast<double>(3 * corner.size());
+      }
+    const MidpointPrediction prediction(mesh_, corner);
+    std::vector<char> bends(predicted_.size(), 0);
+    for (std::size_t t = 0; t < corner.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Slot slot = nodes_.of_triangle[t][2 * k + 1];
+        const auto middle = prediction.At(t, k);
+        const Rgb allowed = 0.5 * smooth * middle.value.max(kErrorFloor * mean);
+        const bool one_sided = Result(t, 2 * k).one_sided || Result(t, 2 * ((k + 1) % 3)).one_sided;
+        if (one_sided || (middle.bend.abs() > allowed).any()) bends[slot] = 1;
+        // The mean of the predictions of both sides.
+        const bool is_first = !predicted_[slot];
+        Rgb& value = values_[slot].irradiance;
+        value = is_first ? middle.value : Rgb(0.5 * (value + middle.value));
+        predicted_[slot] = 1;
+      }
+    for (std::size_t slot = 0; slot < bends.size(); ++slot)
+      if (bends[slot]) predicted_[slot] = 0;
+  }
+
+  const Rgb& Value(std::size_t t, int sample) const {
+    return Result(t, static_cast<std::size_t>(sample)).irradiance;
+  }
+
+ private:
+  const PointIrradianceResult& Result(std::size_t t, std::size_t sample) const {
+    return values_[nodes_.of_triangle[t][sample]];
+  }
+
+  const IrradianceMesh& mesh_;
+  Sampling& sampling_;
+  Nodes nodes_;
+  std::vector<PointIrradianceResult> values_;  // by slot
+  std::vector<char> predicted_;                // by slot of the first triangles
+};
+
+}  // namespace
+
 BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangulation> patches,
-                              InterpolantOrder order, const IrradianceSampler& sampler,
+                              const Interpolation& how, const IrradianceSampler& sampler,
                               const ExecutionContext& context, SampleCache* cache) {
-  PENUMBRA_CHECK(order != InterpolantOrder::kConstant);
+  PENUMBRA_CHECK(how.order != InterpolantOrder::kConstant);
   BuiltMesh built;
   built.mesh = JoinPatches(patches);
   IrradianceMesh& mesh = built.mesh;
-  const bool quadratic = order == InterpolantOrder::kQuadratic;
-  Nodes nodes = NumberNodes(mesh, quadratic);
+  const bool quadratic = how.order == InterpolantOrder::kQuadratic;
   Sampling sampling(scene, mesh, sampler, cache, context);
-
-  // Evaluates each node for its first triangle, and each one-sided node for every other triangle as well.
-  constexpr double kFirstShare = 0.8;
-  std::vector<PointIrradianceResult> values = sampling.Evaluate(nodes.first, 0, kFirstShare);
-  std::vector<Node> again;
-  const int step = quadratic ? 1 : 2;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int sample = 0; sample < 6; sample += step) {
-      Slot& slot = nodes.of_triangle[t][sample];
-      if (!values[slot].one_sided || nodes.first[slot].triangle == t) continue;
-      slot = static_cast<Slot>(values.size() + again.size());
-      again.push_back(
-          {mesh.triangles[t].patch, static_cast<std::uint32_t>(t), static_cast<std::uint8_t>(sample)});
-    }
-  const std::vector<PointIrradianceResult> more = sampling.Evaluate(again, kFirstShare, 1);
-  values.insert(values.end(), more.begin(), more.end());
+  NodeValues nodes(mesh, quadratic, sampling);
+  constexpr double kVerticesShare = 0.4;
+  nodes.Sample(kVertices, 0, quadratic ? kVerticesShare : 1);
+  if (quadratic && how.smooth > 0) nodes.PredictMidpoints(how.smooth);
+  if (quadratic) nodes.Sample(kMidpoints, kVerticesShare, 1);
   built.point_evaluations = sampling.evaluations();
 
   mesh.irradiance.resize(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto value = [&](int sample) { return values[nodes.of_triangle[t][sample]].irradiance; };
+    const auto value = [&](int sample) { return nodes.Value(t, sample); };
     mesh.irradiance[t] =
         quadratic
             ? QuadraticInterpolant::Quadratic({value(0), value(1), value(2), value(3), value(4), value(5)})

@@ -38,6 +38,18 @@ IrradianceSampler WhileGoing(IrradianceSampler sampler, const ExecutionContext& 
 // The value of ReceiverPoint::uncertainty for samples on the patch [m].
 double SampleUncertainty(const Scene& scene, const Patch& patch);
 
+struct Interpolation {
+  InterpolantOrder order = InterpolantOrder::kQuadratic;
+  // The midpoint of an edge is not sampled where the samples at vertices show that the irradiance bends
+  // little: where the value predicted by the gradients at both ends (PredictMidpoint) differs from the mean
+  // of both ends by at most half of `smooth`, relative to max(irradiance, 1 % of the mean). 0: all midpoints
+  // are sampled.
+  double smooth = 0;
+
+  Interpolation(InterpolantOrder of, double smoothness = 0)  // NOLINT: an order is an interpolation
+      : order(of), smooth(smoothness) {}
+};
+
 struct BuiltMesh {
   IrradianceMesh mesh;
   std::size_t point_evaluations = 0;  // calls of the sampler, without the samples from the cache
@@ -48,7 +60,7 @@ struct BuiltMesh {
 // that are not in the cache are evaluated, and they are added to the cache. REQUIRES: patches[i] is the
 // triangulation of patch i of the scene; order is not kConstant.
 BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangulation> patches,
-                              InterpolantOrder order, const IrradianceSampler& sampler,
+                              const Interpolation& how, const IrradianceSampler& sampler,
                               const ExecutionContext& context, SampleCache* cache = nullptr);
 
 // The mesh of all patches with constant interpolants: each triangle has the irradiance of its leaf.

@@ -228,8 +228,8 @@ MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySoluti
   if (constant) {
     result.mesh = BuildConstantMesh(patches, solution.irradiance);
   } else {
-    BuiltMesh built = BuildIrradianceMesh(solution.forest.scene(), patches, options.order, sampler, context,
-                                          memory.samples);
+    BuiltMesh built = BuildIrradianceMesh(solution.forest.scene(), patches, {options.order, options.smooth},
+                                          sampler, context, memory.samples);
     result.report.counts.point_evaluations += built.point_evaluations;
     if (context.Cancelled()) return result;
     result.mesh = std::move(built.mesh);

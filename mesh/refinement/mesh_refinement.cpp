@@ -180,8 +180,9 @@ RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options
     evaluations += refined.report.counts.point_evaluations;
     const Stopwatch interpolating;
     if (context.Cancelled()) return {};
-    BuiltMesh built = BuildIrradianceMesh(scene, refined.triangulations, mesh_options.order, light.sampler,
-                                          context, samples);
+    BuiltMesh built =
+        BuildIrradianceMesh(scene, refined.triangulations, {mesh_options.order, mesh_options.smooth},
+                            light.sampler, context, samples);
     if (context.Cancelled()) return {};
     refined.mesh = std::move(built.mesh);
     evaluations += built.point_evaluations;

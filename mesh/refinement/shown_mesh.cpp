@@ -14,21 +14,24 @@
 namespace penumbra {
 namespace {
 
-static double Env(const char* n,double d){ const char* v=std::getenv(n); return v?std::atof(v):d; }
+static double Env(const char* n, double d) {
+  const char* v = std::getenv(n);
+  return v ? std::atof(v) : d;
+}
 // The fraction of the error for the interpolants, for a 99th percentile.
 constexpr double kInterpolantShare = 0.65;
 // The tolerance of the interpolants' samples for details of their sources, as a fraction of the error. The
 // means of the samples correct the light of the sources, so that a common error grows from bounce to bounce.
-const double kSampleShare = Env("SAMPLE",0.2);
+const double kSampleShare = Env("SAMPLE", 0.2);
 // Factors of the minimum weight. Refinement that may request edges starts with edges of kWeightToBegin times
 // the minimum weight; earlier meshes, which only determine sources, multiply that by kFirstWeight.
-const double kWeightToBegin = Env("WBEGIN",2), kFirstWeight = Env("WFIRST",1);
+const double kWeightToBegin = Env("WBEGIN", 2), kFirstWeight = Env("WFIRST", 1);
 // Sources are refined again while the means would still change by more than kSettledShare of the error, at
 // most kMostSourcePasses times. Most rooms need two to four passes; a narrow slot between white walls, where
 // light bounces many times, needs twenty. The passes end earlier if two passes leave more than kStill of a
 // change.
 constexpr double kSettledShare = 0.6, kStill = 0.95;
-const int kRoughRounds = static_cast<int>(Env("ROUNDS",2));
+const int kRoughRounds = static_cast<int>(Env("ROUNDS", 2));
 constexpr int kMostSourcePasses = 40, kFewestSourcePasses = 3;
 // Measurements at centroids can overlook errors that random points show. Random points therefore test the
 // refined mesh, one per kEvaluationsALook evaluations of the refinement. While the 99th percentile may be
@@ -39,7 +42,7 @@ constexpr double kOverlooked = 0.9, kLeastOnward = 0.5, kMostOnward = 0.9;
 constexpr int kMostTurns = 3;
 // Sources are divided while their score is above this factor times the error, and for measurements of the
 // error further.
-const double kFinestScore = Env("FINEST",2), kMeasuredScore = 1;
+const double kFinestScore = Env("FINEST", 2), kMeasuredScore = 1;
 
 }  // namespace
 
@@ -63,15 +66,16 @@ bool ShownMesh::Make(const RadiositySolution& solution, const MeshOptions& optio
 namespace {
 
 // The options of the first mesh of the leaves, before refinement requests lighter edges.
-MeshOptions ToBeginWith(const MeshOptions& options) {
+MeshOptions ToBeginWith(const MeshOptions& options, double error) {
   MeshOptions last = options;
+  last.smooth = Env("SMOOTH", 0.5) * error;
   if (options.discontinuities.can_want()) last.discontinuities.min_weight *= kWeightToBegin;
   return last;
 }
 
 // The options of the meshes before the last one.
-MeshOptions ForSources(const MeshOptions& options) {
-  MeshOptions first = ToBeginWith(options);
+MeshOptions ForSources(const MeshOptions& options, double error) {
+  MeshOptions first = ToBeginWith(options, error);
   first.discontinuities.min_weight *= kFirstWeight;
   if (!options.discontinuities.can_want())
     first.discontinuities.min_wanted_weight = first.discontinuities.min_weight;
@@ -83,7 +87,7 @@ MeshOptions ForSources(const MeshOptions& options) {
 bool ShownMesh::RefineLight(LightSolver& solver, const MeshOptions& options,
                             const ExecutionContext& context) {
   Begin();
-  const MeshOptions first = ForSources(options);
+  const MeshOptions first = ForSources(options, options_.error);
   if (!FirstLook(solver.solution(), first, context)) return false;
   has_looked_ = true;
   if (mesh_.triangles.empty()) return true;
@@ -98,10 +102,10 @@ bool ShownMesh::MakeRefined(const RadiositySolution& solution, const MeshOptions
   if (!shows_first_look) Begin();
   if (!shows_first_look && light_plan_) {
     plan_ = *light_plan_;
-    return RefineLeaves(solution, ToBeginWith(options), context);
+    return RefineLeaves(solution, ToBeginWith(options, options_.error), context);
   }
-  if (!shows_first_look && !FirstLook(solution, ForSources(options), context)) return false;
-  if (!mesh_.triangles.empty()) RefineLeaves(solution, ToBeginWith(options), context);
+  if (!shows_first_look && !FirstLook(solution, ForSources(options, options_.error), context)) return false;
+  if (!mesh_.triangles.empty()) RefineLeaves(solution, ToBeginWith(options, options_.error), context);
   return true;
 }
 
@@ -203,8 +207,7 @@ bool ShownMesh::SettleSources(LightSolver& solver, const MeshOptions& options,
     if (settled || still || pass == kMostSourcePasses) return true;
     before = *change;
     ratio_before = ratio;
-    const bool shown = pass == 1 ? Refine(solver.solution(), options, rough, context)
-                                       .has_value()
+    const bool shown = pass == 1 ? Refine(solver.solution(), options, rough, context).has_value()
                                  : ShowAnew(options, context);
     if (!shown) return false;
   }
@@ -215,7 +218,8 @@ bool ShownMesh::ShowAnew(const MeshOptions& options, const ExecutionContext& con
   const Stopwatch stopwatch;
   if (!irradiance_.Get(context)) return false;
   const IrradianceSampler sampler = WhileGoing(RecordingSampler(*irradiance_.Get(), Tolerance()), context);
-  BuiltMesh built = BuildIrradianceMesh(scene_, triangulations_, options.order, sampler, context, &samples_);
+  BuiltMesh built = BuildIrradianceMesh(scene_, triangulations_, {options.order, options.smooth}, sampler,
+                                        context, &samples_);
   if (context.Cancelled()) return false;
   mesh_ = std::move(built.mesh);
   triangle_errors_.clear();
@@ -232,20 +236,24 @@ std::optional<double> ShownMesh::RefineSources(LightSolver& solver, const Execut
   context.Report("refine sources", 0);
   SourceCells cells = CellsOf(solver.solution(), kFinestScore * options_.error, context);
   if (context.Cancelled()) return std::nullopt;
-  const double tcells=stopwatch.Seconds();
+  const double tcells = stopwatch.Seconds();
   const double change = cells.Change();
   const SourceSet before = irradiance_.Get()->sources();
   const bool done = solver.SetLight(cells.LeafIrradiance(), cells.Fragments(/*whole_leaves=*/false), context);
-  const double tset=stopwatch.Seconds();
+  const double tset = stopwatch.Seconds();
   irradiance_.Reset();
-  if(done) irradiance_.Get(context);
- const double tirr=stopwatch.Seconds();
+  if (done) irradiance_.Get(context);
+  const double tirr = stopwatch.Seconds();
   if (done) cells_ = std::move(cells).TakeCells();
   if (done && irradiance_.Get(context))
     report_.counts.sources_renewed += samples_.Relight(before, *irradiance_.Get(), Tolerance(), context);
   else
     samples_.Clear();
-  fmt::print(stderr,"cells {:.2f} set {:.2f} sources {:.2f} relight {:.2f} change {:.4f} samples {} renewed {} fragments {}\n",tcells,tset-tcells,tirr-tset,stopwatch.Seconds()-tirr,change,samples_.size(),report_.counts.sources_renewed,solver.solution().fragments.size());
+  fmt::print(stderr,
+             "cells {:.2f} set {:.2f} sources {:.2f} relight {:.2f} change {:.4f} samples {} renewed {} "
+             "fragments {}\n",
+             tcells, tset - tcells, tirr - tset, stopwatch.Seconds() - tirr, change, samples_.size(),
+             report_.counts.sources_renewed, solver.solution().fragments.size());
   seconds_of_sources_ += stopwatch.Seconds();
   return done ? std::optional(change) : std::nullopt;
 }
