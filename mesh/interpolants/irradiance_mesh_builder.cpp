@@ -121,6 +121,7 @@ class Sampling {
   }
 
   std::size_t evaluations() const { return evaluations_; }
+  bool Knows(const Node& node) const { return cache_ && cache_->Find(node.patch, At(node)) != nullptr; }
 
  private:
   ReceiverPoint At(const Node& node) const {
@@ -214,6 +215,8 @@ class NodeValues {
         at.push_back(
             {mesh_.triangles[t].patch, static_cast<std::uint32_t>(t), static_cast<std::uint8_t>(sample)});
       }
+    std::fprintf(stderr, "kind %d nodes %zu extra %zu of slots %zu\n", kind, slots.size(), at.size(),
+                 predicted_.size());
     sampled = sampling_.Evaluate(at, done_first, done_after);
     std::move(sampled.begin(), sampled.end(), std::back_inserter(values_));
   }
@@ -234,8 +237,11 @@ class NodeValues {
         const Slot slot = nodes_.of_triangle[t][2 * k + 1];
         const auto middle = prediction.At(t, k);
         const Rgb allowed = 0.5 * smooth * middle.value.max(kErrorFloor * mean);
-        const bool one_sided = Result(t, 2 * k).one_sided || Result(t, 2 * ((k + 1) % 3)).one_sided;
-        if (one_sided || (middle.bend.abs() > allowed).any()) bends[slot] = 1;
+        // On a contact the two sides have different values.
+        const bool known = sampling_.Knows(nodes_.first[slot]);
+        const bool contact = mesh_.triangles[t].discontinuity[k] &&
+                             (Result(t, 2 * k).one_sided || Result(t, 2 * ((k + 1) % 3)).one_sided);
+        if (contact || known || (middle.bend.abs() > allowed).any()) bends[slot] = 1;
         // The mean of the predictions of both sides.
         const bool is_first = !predicted_[slot];
         Rgb& value = values_[slot].irradiance;
@@ -246,6 +252,10 @@ class NodeValues {
       if (bends[slot]) predicted_[slot] = 0;
   }
 
+  bool IsPredicted(std::size_t t, int sample) const {
+    const Slot slot = nodes_.of_triangle[t][static_cast<std::size_t>(sample)];
+    return slot < predicted_.size() && predicted_[slot] != 0;
+  }
   const Rgb& Value(std::size_t t, int sample) const {
     return Result(t, static_cast<std::size_t>(sample)).irradiance;
   }
@@ -283,12 +293,26 @@ BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangula
   mesh.irradiance.resize(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto value = [&](int sample) { return nodes.Value(t, sample); };
+    if (quadratic && (nodes.IsPredicted(t, 1) || nodes.IsPredicted(t, 3) || nodes.IsPredicted(t, 5)))
+      built.predicted.push_back(static_cast<std::uint32_t>(t));
     mesh.irradiance[t] =
         quadratic
             ? QuadraticInterpolant::Quadratic({value(0), value(1), value(2), value(3), value(4), value(5)})
             : QuadraticInterpolant::Linear({value(0), value(2), value(4)});
   }
   return built;
+}
+
+std::size_t SampleMidpoints(const Scene& scene, const IrradianceMesh& mesh,
+                            std::span<const std::uint32_t> triangles, const IrradianceSampler& sampler,
+                            const ExecutionContext& context, SampleCache& cache) {
+  Sampling sampling(scene, mesh, sampler, &cache, context);
+  std::vector<Node> nodes;
+  for (const std::uint32_t t : triangles)
+    for (std::uint8_t sample = 1; sample < 6; sample += 2)
+      nodes.push_back({mesh.triangles[t].patch, t, sample});
+  sampling.Evaluate(nodes, 0, 1);
+  return sampling.evaluations();
 }
 
 IrradianceMesh BuildConstantMesh(std::span<const PatchTriangulation> patches,

@@ -11,8 +11,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "mesh/discontinuities/mesh_options.h"
 #include "mesh/interpolants/irradiance_mesh.h"
@@ -52,7 +54,8 @@ struct Interpolation {
 
 struct BuiltMesh {
   IrradianceMesh mesh;
-  std::size_t point_evaluations = 0;  // calls of the sampler, without the samples from the cache
+  std::size_t point_evaluations = 0;     // calls of the sampler, without the samples from the cache
+  std::vector<std::uint32_t> predicted;  // the triangles with midpoints that were not sampled, ascending
 };
 
 // The mesh of all patches, with linear or quadratic interpolants. The order of patches and triangles is that
@@ -62,6 +65,12 @@ struct BuiltMesh {
 BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangulation> patches,
                               const Interpolation& how, const IrradianceSampler& sampler,
                               const ExecutionContext& context, SampleCache* cache = nullptr);
+
+// Samples the midpoints of the edges of the listed triangles, and adds the samples to the cache. A mesh that
+// is built with this cache does not predict them. Returns the number of calls of the sampler.
+std::size_t SampleMidpoints(const Scene& scene, const IrradianceMesh& mesh,
+                            std::span<const std::uint32_t> triangles, const IrradianceSampler& sampler,
+                            const ExecutionContext& context, SampleCache& cache);
 
 // The mesh of all patches with constant interpolants: each triangle has the irradiance of its leaf.
 // `element_irradiance` [W/m^2] is indexed by ElementId.

@@ -22,6 +22,12 @@ constexpr double kSuspicion = 0.3;
 // Above this fraction, a triangle whose measured error is small is measured once more, at finer points.
 constexpr double kDoubt = 1;
 
+// The sampler of a run that may be cancelled.
+struct LightAt {
+  const IrradianceSampler& sampler;
+  const ExecutionContext& context;
+};
+
 // Measures the errors of triangles for which the interpolants' gradients give reason. Returns the number of
 // evaluations.
 std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& options,
@@ -42,6 +48,28 @@ std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& opt
   for (const std::uint32_t t : doubtful)
     if (finer.errors[t].max > refined->errors[t].max) refined->errors[t] = finer.errors[t];
   return measured.point_evaluations + finer.point_evaluations;
+}
+
+// Makes the interpolants of refined->triangulations and measures them. Where predicted midpoints cause an
+// error above the requested one, the midpoints are sampled: that costs less than smaller triangles. Returns
+// the number of evaluations.
+std::size_t Interpolate(const Scene& scene, const MeshOptions& mesh_options,
+                        const MeshRefinementOptions& options, const LightAt& light, SampleCache& samples,
+                        RefinedMesh* refined) {
+  std::size_t evaluations = 0;
+  for (;;) {
+    BuiltMesh built =
+        BuildIrradianceMesh(scene, refined->triangulations, {mesh_options.order, mesh_options.smooth},
+                            light.sampler, light.context, &samples);
+    evaluations += built.point_evaluations;
+    if (light.context.Cancelled()) return evaluations;
+    refined->mesh = std::move(built.mesh);
+    evaluations += MeasureSuspects(scene, options, light.sampler, &samples, refined);
+    std::erase_if(built.predicted, [&](std::uint32_t t) { return refined->errors[t].max <= options.error; });
+    if (built.predicted.empty() || light.context.Cancelled()) return evaluations;
+    evaluations +=
+        SampleMidpoints(scene, refined->mesh, built.predicted, light.sampler, light.context, samples);
+  }
 }
 
 // Patches with a common error target: `error` must hold for all but kShareAbove of their area.
@@ -180,13 +208,7 @@ RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options
     evaluations += refined.report.counts.point_evaluations;
     const Stopwatch interpolating;
     if (context.Cancelled()) return {};
-    BuiltMesh built =
-        BuildIrradianceMesh(scene, refined.triangulations, {mesh_options.order, mesh_options.smooth},
-                            light.sampler, context, samples);
-    if (context.Cancelled()) return {};
-    refined.mesh = std::move(built.mesh);
-    evaluations += built.point_evaluations;
-    evaluations += MeasureSuspects(scene, options, light.sampler, samples, &refined);
+    evaluations += Interpolate(scene, mesh_options, options, {light.sampler, context}, *samples, &refined);
     if (context.Cancelled()) return {};
     seconds.interpolate += interpolating.Seconds();
 
