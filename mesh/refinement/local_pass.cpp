@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 
 #include "mesh/discontinuities/contact_corners.h"
@@ -53,14 +54,22 @@ MeshPlan BeginPlan(const PatchVisibility& visibility, const RadiositySolution& s
   return plan;
 }
 
+namespace {
+
+constexpr ElementId kQuarters = 4;  // children of an element
+
+}  // namespace
+
 // The data of one call of Triangulate().
 struct PatchTriangulator::Work {
   const MeshPlan& plan;
   MeshReport& report;
   DiscontinuityOptions activating;
+  bool lists_omitted;    // the caller needs the omitted discontinuities
   ElementForest forest;  // the plan's forest, in which crowded leaves are split for the mesh only
   std::vector<std::vector<Discontinuity>> found;  // by patch
   std::vector<PatchDSets> dsets;                  // by patch
+  std::vector<char> is_known;                     // by patch: dsets are those of an earlier call
 };
 
 PatchTriangulator::PatchTriangulator(const PatchVisibility& visibility, const RadiositySolution& solution,
@@ -110,10 +119,58 @@ PatchDSets PatchTriangulator::Activate(const Work& work, std::size_t p, LeafIrra
   return ActivateDiscontinuities(forest, patch, work.found[p], work.activating, {filter, scale, at_place});
 }
 
+namespace {
+
+std::size_t WantedOn(const MeshPlan& plan, std::size_t patch) {
+  return patch < plan.wanted.size() ? plan.wanted[patch].size() : 0;
+}
+
+}  // namespace
+
+// Takes over the activations of earlier calls for patches whose plan is the same.
+void PatchTriangulator::RecallActivations(Work& work) const {
+  work.is_known.assign(work.dsets.size(), 0);
+  for (std::size_t p = 0; p < activations_.size(); ++p) {
+    const Activation& last = activations_[p];
+    if (last.leaves.empty() || last.lists_omitted != work.lists_omitted ||
+        last.wanted != WantedOn(work.plan, p) ||
+        last.leaves != work.plan.forest.Leaves(static_cast<PatchId>(p)))
+      continue;
+    // The same splits, whose children have other numbers now.
+    std::unordered_map<ElementId, ElementId> now;
+    const auto number = [&](ElementId then) {
+      const auto found = now.find(then);
+      return found == now.end() ? then : found->second;
+    };
+    for (const auto& [element, first_child] : last.splits) {
+      const ElementId parent = number(element);
+      work.forest.Subdivide(parent);
+      for (ElementId k = 0; k < kQuarters; ++k) now[first_child + k] = work.forest[parent].first_child + k;
+    }
+    work.dsets[p] = last.dsets;
+    for (ElementId& leaf : work.dsets[p].leaves) leaf = number(leaf);
+    for (ElementId& leaf : work.dsets[p].crowded) leaf = number(leaf);
+    work.is_known[p] = 1;
+  }
+}
+
+void PatchTriangulator::KeepActivations(const Work& work) {
+  activations_.resize(work.dsets.size());
+  std::vector<std::vector<std::pair<ElementId, ElementId>>> splits(work.dsets.size());
+  for (auto id = static_cast<ElementId>(work.plan.forest.size());
+       id < static_cast<ElementId>(work.forest.size()); id += kQuarters)
+    splits[static_cast<std::size_t>(work.forest[id].patch)].emplace_back(work.forest[id].parent, id);
+  for (std::size_t p = 0; p < work.dsets.size(); ++p)
+    if (!work.is_known[p])
+      activations_[p] = {work.plan.forest.Leaves(static_cast<PatchId>(p)), WantedOn(work.plan, p),
+                         work.lists_omitted, std::move(splits[p]), work.dsets[p]};
+}
+
 // Activates on all patches, and again on patches where crowded leaves were split.
 void PatchTriangulator::ActivateAll(Work& work) const {
-  std::vector<std::size_t> patches_to_do(work.dsets.size());
-  std::iota(patches_to_do.begin(), patches_to_do.end(), std::size_t{0});
+  std::vector<std::size_t> patches_to_do;
+  for (std::size_t p = 0; p < work.dsets.size(); ++p)
+    if (!work.is_known[p]) patches_to_do.push_back(p);
   for (int round = 0; !patches_to_do.empty() && !context_.Cancelled(); ++round) {
     ParallelFor(patches_to_do.size(), 1, [&](std::size_t i) {
       if (context_.Cancelled()) return;
@@ -138,7 +195,7 @@ void PatchTriangulator::ActivateByPlaces(Work& work) const {
   std::vector<std::size_t> evaluations(work.dsets.size());
   std::vector<SampleCache> taken(work.dsets.size());
   ParallelFor(work.dsets.size(), 1, [&](std::size_t p) {
-    if (work.dsets[p].refused == 0 || context_.Cancelled()) return;
+    if (work.is_known[p] || work.dsets[p].refused == 0 || context_.Cancelled()) return;
     LeafIrradianceSamples places(work.forest, static_cast<PatchId>(p), *sampler_, samples_);
     work.dsets[p] = Activate(work, p, &places);
     evaluations[p] = places.evaluations();
@@ -191,13 +248,15 @@ std::vector<PatchTriangulation> PatchTriangulator::Triangulate(const MeshPlan& p
   if (omitted) omitted->clear();
   context_.Report("discontinuities", 0);
   const Stopwatch finding;
-  Work work{plan, report, options_, plan.forest, {}, {}};
+  Work work{plan, report, options_, omitted != nullptr, plan.forest, {}, {}, {}};
   work.found.resize(count);
   work.dsets.resize(count);
   if (!omitted) work.activating.min_wanted_weight = options_.min_weight;  // no caller needs the omitted ones
   FindAll(work);
+  RecallActivations(work);
   ActivateAll(work);
   ActivateByPlaces(work);
+  if (!context_.Cancelled()) KeepActivations(work);
   report.seconds.discontinuities += finding.Seconds();
 
   const Stopwatch triangulating;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "mesh/discontinuities/discontinuity.h"
@@ -95,6 +96,8 @@ class PatchTriangulator {
 
   std::vector<Discontinuity> FindOn(PatchId patch, const MeshPlan& plan) const;
   void FindAll(Work& work) const;
+  void RecallActivations(Work& work) const;
+  void KeepActivations(const Work& work);
   PatchDSets Activate(const Work& work, std::size_t patch, LeafIrradianceSamples* places = nullptr) const;
   void ActivateAll(Work& work) const;
   void ActivateByPlaces(Work& work) const;
@@ -111,6 +114,17 @@ class PatchTriangulator {
   LocalPassCache& cache_;
   ReferenceIrradiance light_;
   std::vector<double> strength_;  // SourceStrengths()
+  // The last activation of a patch. It holds until the patch gets other leaves, or refinement wants another
+  // discontinuity there.
+  struct Activation {
+    std::vector<ElementId> leaves;  // of the plan; empty: none
+    std::size_t wanted = 0;         // number of wanted discontinuities
+    bool lists_omitted = false;
+    // Elements that were split because they were crowded, in this order, each with its first child.
+    std::vector<std::pair<ElementId, ElementId>> splits;
+    PatchDSets dsets;
+  };
+  std::vector<Activation> activations_;  // by patch
 };
 
 // Data from an earlier local pass; each member may be null.

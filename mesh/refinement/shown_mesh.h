@@ -118,8 +118,7 @@ class ShownMesh {
   bool RefineLeaves(const RadiositySolution& solution, const MeshOptions& options,
                     const ExecutionContext& context);
   std::optional<RefinedMesh> Refine(const RadiositySolution& solution, const MeshOptions& options,
-                                    const MeshRefinementOptions& refinement,
-                                    const ExecutionContext& context);
+                                    const MeshRefinementOptions& refinement, const ExecutionContext& context);
   MeshRefinementOptions RefinementTo(double error) const;
   bool ShowAnew(const MeshOptions& options, const ExecutionContext& context);
   double LookAround(std::size_t points, std::uint64_t seed, const ExecutionContext& context);
