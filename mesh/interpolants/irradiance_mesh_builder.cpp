@@ -238,7 +238,8 @@ class NodeValues {
         const auto middle = prediction.At(t, k);
         const Rgb allowed = 0.5 * smooth * middle.value.max(kErrorFloor * mean);
         // On a contact the two sides have different values.
-        const bool known = sampling_.Knows(nodes_.first[slot]);
+        const bool known = sampling_.Knows(
+            {mesh_.triangles[t].patch, static_cast<std::uint32_t>(t), static_cast<std::uint8_t>(2 * k + 1)});
         const bool contact = mesh_.triangles[t].discontinuity[k] &&
                              (Result(t, 2 * k).one_sided || Result(t, 2 * ((k + 1) % 3)).one_sided);
         if (contact || known || (middle.bend.abs() > allowed).any()) bends[slot] = 1;
