@@ -40,6 +40,8 @@ constexpr int kMostSourcePasses = 40, kFewestSourcePasses = 3;
 constexpr std::size_t kEvaluationsALook = 20, kFewestLooks = 1000, kMostLooks = 3000;
 constexpr double kOverlooked = 0.9, kLeastOnward = 0.5, kMostOnward = 0.9;
 constexpr int kMostTurns = 3;
+// The factor by which each further turn reduces MeshOptions::smooth.
+constexpr double kOnwardSmooth = 0.25;
 // Sources are divided while their score is above this factor times the error, and for measurements of the
 // error further.
 const double kFinestScore = Env("FINEST", 2), kMeasuredScore = 1;
@@ -266,13 +268,15 @@ bool ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOption
   std::optional<RefinedMesh> refined = Refine(solution, options, RefinementTo(error), context);
   if (!refined) return false;
   double onward = error;
+  MeshOptions closer = options;
   for (int turn = 1; refined && turn <= kMostTurns && refined->share_above <= kShareAbove; ++turn) {
     const std::size_t points =
         std::clamp(refined->report.counts.point_evaluations / kEvaluationsALook, kFewestLooks, kMostLooks);
     const double seen = LookAround(points, options_.seed + 1 + static_cast<std::uint64_t>(turn), context);
     if (context.Cancelled() || seen <= kOverlooked * options_.error) return true;
     onward *= std::clamp(kOverlooked * options_.error / seen, kLeastOnward, kMostOnward);
-    refined = Refine(solution, options, RefinementTo(onward), context);
+    closer.smooth *= kOnwardSmooth;
+    refined = Refine(solution, closer, RefinementTo(onward), context);
   }
   if (!refined || onward < error) return true;  // measurements report the rest
   double area = 0;
