@@ -215,8 +215,6 @@ class NodeValues {
         at.push_back(
             {mesh_.triangles[t].patch, static_cast<std::uint32_t>(t), static_cast<std::uint8_t>(sample)});
       }
-    std::fprintf(stderr, "kind %d nodes %zu extra %zu of slots %zu\n", kind, slots.size(), at.size(),
-                 predicted_.size());
     sampled = sampling_.Evaluate(at, done_first, done_after);
     std::move(sampled.begin(), sampled.end(), std::back_inserter(values_));
   }

@@ -18,7 +18,7 @@ namespace penumbra {
 namespace {
 
 // Triangles with an estimated error below this fraction of the requested error are not measured.
-constexpr double kSuspicion = 0.3;
+constexpr double kSuspicion = 0.25;
 // Above this fraction, a triangle whose measured error is small is measured once more, at finer points.
 constexpr double kDoubt = 1;
 
@@ -56,8 +56,9 @@ std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& opt
 std::size_t Interpolate(const Scene& scene, const MeshOptions& mesh_options,
                         const MeshRefinementOptions& options, const LightAt& light, SampleCache& samples,
                         RefinedMesh* refined) {
+  constexpr int kMostPasses = 2;
   std::size_t evaluations = 0;
-  for (;;) {
+  for (int pass = 1;; ++pass) {
     BuiltMesh built =
         BuildIrradianceMesh(scene, refined->triangulations, {mesh_options.order, mesh_options.smooth},
                             light.sampler, light.context, &samples);
@@ -65,6 +66,7 @@ std::size_t Interpolate(const Scene& scene, const MeshOptions& mesh_options,
     if (light.context.Cancelled()) return evaluations;
     refined->mesh = std::move(built.mesh);
     evaluations += MeasureSuspects(scene, options, light.sampler, &samples, refined);
+    if (pass == kMostPasses) return evaluations;
     std::erase_if(built.predicted, [&](std::uint32_t t) { return refined->errors[t].max <= options.error; });
     if (built.predicted.empty() || light.context.Cancelled()) return evaluations;
     evaluations +=

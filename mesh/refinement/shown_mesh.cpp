@@ -14,25 +14,23 @@
 namespace penumbra {
 namespace {
 
-static double Env(const char* n, double d) {
-  const char* v = std::getenv(n);
-  return v ? std::atof(v) : d;
-}
 // The fraction of the error for the interpolants, for a 99th percentile.
-constexpr double kInterpolantShare = 0.65;
+constexpr double kInterpolantShare = 0.6;
 // The tolerance of the interpolants' samples for details of their sources, as a fraction of the error. The
 // means of the samples correct the light of the sources, so that a common error grows from bounce to bounce.
-const double kSampleShare = Env("SAMPLE", 0.2);
-// Factors of the minimum weight. Refinement that may request edges starts with edges of kWeightToBegin times
-// the minimum weight; earlier meshes, which only determine sources, multiply that by kFirstWeight.
-const double kWeightToBegin = Env("WBEGIN", 2), kFirstWeight = Env("WFIRST", 1);
+constexpr double kSampleShare = 0.2;
+// Refinement that may request edges starts with edges of kWeightToBegin times the minimum weight.
+constexpr double kWeightToBegin = 2;
+// Interpolation::smooth, as a fraction of the error.
+constexpr double kSmoothShare = 0.5;
 // Sources are refined again while the means would still change by more than kSettledShare of the error, at
 // most kMostSourcePasses times. Most rooms need two to four passes; a narrow slot between white walls, where
 // light bounces many times, needs twenty. The passes end earlier if two passes leave more than kStill of a
 // change.
 constexpr double kSettledShare = 0.6, kStill = 0.95;
-const int kRoughRounds = static_cast<int>(Env("ROUNDS", 2));
 constexpr int kMostSourcePasses = 40, kFewestSourcePasses = 3;
+// The rounds of refinement of the mesh that determines the sources: means need fewer than what is shown.
+constexpr int kRoundsForSources = 2;
 // Measurements at centroids can overlook errors that random points show. Random points therefore test the
 // refined mesh, one per kEvaluationsALook evaluations of the refinement. While the 99th percentile may be
 // above kOverlooked times the error, the mesh is refined further; the new target is smaller by the ratio of
@@ -42,9 +40,9 @@ constexpr double kOverlooked = 0.9, kLeastOnward = 0.5, kMostOnward = 0.9;
 constexpr int kMostTurns = 3;
 // The factor by which each further turn reduces MeshOptions::smooth.
 constexpr double kOnwardSmooth = 0.25;
-// Sources are divided while their score is above this factor times the error, and for measurements of the
-// error further.
-const double kFinestScore = Env("FINEST", 2), kMeasuredScore = 1;
+// Sources are divided while their score is above kFinestScore times the error; for measurements of the error,
+// while it is above kMeasuredScore times the error.
+constexpr double kFinestScore = 2, kMeasuredScore = 1;
 
 }  // namespace
 
@@ -67,20 +65,11 @@ bool ShownMesh::Make(const RadiositySolution& solution, const MeshOptions& optio
 
 namespace {
 
-// The options of the first mesh of the leaves, before refinement requests lighter edges.
+// The options of the first mesh of the leaves, before refinement requests lighter edges and more samples.
 MeshOptions ToBeginWith(const MeshOptions& options, double error) {
-  MeshOptions last = options;
-  last.smooth = Env("SMOOTH", 0.5) * error;
-  if (options.discontinuities.can_want()) last.discontinuities.min_weight *= kWeightToBegin;
-  return last;
-}
-
-// The options of the meshes before the last one.
-MeshOptions ForSources(const MeshOptions& options, double error) {
-  MeshOptions first = ToBeginWith(options, error);
-  first.discontinuities.min_weight *= kFirstWeight;
-  if (!options.discontinuities.can_want())
-    first.discontinuities.min_wanted_weight = first.discontinuities.min_weight;
+  MeshOptions first = options;
+  first.smooth = kSmoothShare * error;
+  if (options.discontinuities.can_want()) first.discontinuities.min_weight *= kWeightToBegin;
   return first;
 }
 
@@ -89,7 +78,8 @@ MeshOptions ForSources(const MeshOptions& options, double error) {
 bool ShownMesh::RefineLight(LightSolver& solver, const MeshOptions& options,
                             const ExecutionContext& context) {
   Begin();
-  const MeshOptions first = ForSources(options, options_.error);
+  cells_.clear();
+  const MeshOptions first = ToBeginWith(options, options_.error);
   if (!FirstLook(solver.solution(), first, context)) return false;
   has_looked_ = true;
   if (mesh_.triangles.empty()) return true;
@@ -106,7 +96,7 @@ bool ShownMesh::MakeRefined(const RadiositySolution& solution, const MeshOptions
     plan_ = *light_plan_;
     return RefineLeaves(solution, ToBeginWith(options, options_.error), context);
   }
-  if (!shows_first_look && !FirstLook(solution, ForSources(options, options_.error), context)) return false;
+  if (!shows_first_look && !FirstLook(solution, ToBeginWith(options, options_.error), context)) return false;
   if (!mesh_.triangles.empty()) RefineLeaves(solution, ToBeginWith(options, options_.error), context);
   return true;
 }
@@ -172,7 +162,7 @@ bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& 
   IrradianceSampler sampler;
   if (options.order != InterpolantOrder::kConstant) {
     const Stopwatch stopwatch;
-    if (!irradiance_.Get(context)) return false;
+    if (!RelightSamples(context)) return false;
     report_.seconds.interpolate += stopwatch.Seconds();
     sampler = WhileGoing(RecordingSampler(*irradiance_.Get(), Tolerance()), context);
   }
@@ -195,7 +185,7 @@ bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& 
 bool ShownMesh::SettleSources(LightSolver& solver, const MeshOptions& options,
                               const ExecutionContext& context) {
   MeshRefinementOptions rough = RefinementTo(kInterpolantShare * options_.error);
-  rough.max_rounds = kRoughRounds;
+  rough.max_rounds = kRoundsForSources;
   double before = 0, ratio_before = 0;  // change of the last pass, and its ratio to the change before
   for (int pass = 1;; ++pass) {
     const std::optional<double> change = RefineSources(solver, context);
@@ -215,10 +205,22 @@ bool ShownMesh::SettleSources(LightSolver& solver, const MeshOptions& options,
   }
 }
 
+// Gives the samples the present light. False if cancelled.
+bool ShownMesh::RelightSamples(const ExecutionContext& context) {
+  const PointIrradiance* const now = irradiance_.Get(context);
+  if (!now) return false;
+  if (samples_are_current_) return true;
+  if (samples_.size() > 0)
+    report_.counts.sources_renewed += samples_.Relight(samples_from_, *now, Tolerance(), context);
+  samples_from_ = now->sources();
+  samples_are_current_ = !context.Cancelled();
+  return samples_are_current_;
+}
+
 // Gives the present mesh the present light. False if cancelled.
 bool ShownMesh::ShowAnew(const MeshOptions& options, const ExecutionContext& context) {
   const Stopwatch stopwatch;
-  if (!irradiance_.Get(context)) return false;
+  if (!RelightSamples(context)) return false;
   const IrradianceSampler sampler = WhileGoing(RecordingSampler(*irradiance_.Get(), Tolerance()), context);
   BuiltMesh built = BuildIrradianceMesh(scene_, triangulations_, {options.order, options.smooth}, sampler,
                                         context, &samples_);
@@ -238,24 +240,11 @@ std::optional<double> ShownMesh::RefineSources(LightSolver& solver, const Execut
   context.Report("refine sources", 0);
   SourceCells cells = CellsOf(solver.solution(), kFinestScore * options_.error, context);
   if (context.Cancelled()) return std::nullopt;
-  const double tcells = stopwatch.Seconds();
   const double change = cells.Change();
-  const SourceSet before = irradiance_.Get()->sources();
   const bool done = solver.SetLight(cells.LeafIrradiance(), cells.Fragments(/*whole_leaves=*/false), context);
-  const double tset = stopwatch.Seconds();
   irradiance_.Reset();
-  if (done) irradiance_.Get(context);
-  const double tirr = stopwatch.Seconds();
+  samples_are_current_ = false;
   if (done) cells_ = std::move(cells).TakeCells();
-  if (done && irradiance_.Get(context))
-    report_.counts.sources_renewed += samples_.Relight(before, *irradiance_.Get(), Tolerance(), context);
-  else
-    samples_.Clear();
-  fmt::print(stderr,
-             "cells {:.2f} set {:.2f} sources {:.2f} relight {:.2f} change {:.4f} samples {} renewed {} "
-             "fragments {}\n",
-             tcells, tset - tcells, tirr - tset, stopwatch.Seconds() - tirr, change, samples_.size(),
-             report_.counts.sources_renewed, solver.solution().fragments.size());
   seconds_of_sources_ += stopwatch.Seconds();
   return done ? std::optional(change) : std::nullopt;
 }
@@ -312,7 +301,7 @@ std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, 
                                              const MeshRefinementOptions& refinement,
                                              const ExecutionContext& context) {
   const Stopwatch stopwatch;
-  if (!irradiance_.Get(context)) return std::nullopt;  // from the present sources
+  if (!RelightSamples(context)) return std::nullopt;
   seconds_of_sources_ += stopwatch.Seconds();
   const IrradianceSampler sampler = WhileGoing(RecordingSampler(*irradiance_.Get(), Tolerance()), context);
   RefinedMesh refined = RefineMesh({visibility_, solution, sampler}, options, refinement, context,

@@ -67,8 +67,7 @@ class ShownMesh {
   void Forget() {
     has_looked_ = false;
     light_plan_.reset();
-    samples_.Clear();
-    cells_.clear();
+    samples_are_current_ = false;
   }
   // Replaces the mesh by a mesh that another object has made.
   void Take(IrradianceMesh mesh);
@@ -120,6 +119,7 @@ class ShownMesh {
   std::optional<RefinedMesh> Refine(const RadiositySolution& solution, const MeshOptions& options,
                                     const MeshRefinementOptions& refinement, const ExecutionContext& context);
   MeshRefinementOptions RefinementTo(double error) const;
+  bool RelightSamples(const ExecutionContext& context);
   bool ShowAnew(const MeshOptions& options, const ExecutionContext& context);
   double LookAround(std::size_t points, std::uint64_t seed, const ExecutionContext& context);
   double Tolerance() const;
@@ -136,8 +136,10 @@ class ShownMesh {
   MeshPlan plan_;  // the plan of triangulations_
   std::vector<TriangleError> triangle_errors_;
   std::unique_ptr<LocalPassCache> local_pass_;  // for the present visibility
-  SampleCache samples_;                         // for the present light
-  std::vector<SourceCell> cells_;  // the sources of the present light; empty before RefineLight()
+  SampleCache samples_;
+  SourceSet samples_from_;            // the sources to which the rows of the samples belong
+  bool samples_are_current_ = false;  // the samples have the present light
+  std::vector<SourceCell> cells_;     // the sources of the present light; empty before RefineLight()
   MeshReport report_;
   double seconds_of_sources_ = 0;
   bool has_looked_ = false;             // mesh_ is RefineLight()'s, for the present light
