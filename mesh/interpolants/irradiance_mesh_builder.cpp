@@ -235,12 +235,12 @@ class NodeValues {
         const Slot slot = nodes_.of_triangle[t][2 * k + 1];
         const auto middle = prediction.At(t, k);
         const Rgb allowed = 0.5 * smooth * middle.value.max(kErrorFloor * mean);
-        // On a contact the two sides have different values.
-        const bool known = sampling_.Knows(
-            {mesh_.triangles[t].patch, static_cast<std::uint32_t>(t), static_cast<std::uint8_t>(2 * k + 1)});
-        const bool contact = mesh_.triangles[t].discontinuity[k] &&
-                             (Result(t, 2 * k).one_sided || Result(t, 2 * ((k + 1) % 3)).one_sided);
-        if (contact || known || (middle.bend.abs() > allowed).any()) bends[slot] = 1;
+        // On a contact the two sides have different values, and light changes fastest away from a contact.
+        const bool from = Result(t, 2 * k).one_sided, to = Result(t, 2 * ((k + 1) % 3)).one_sided;
+        const bool at_contact = from != to || (from && mesh_.triangles[t].discontinuity[k]);
+        const bool known = sampling_.Knows({mesh_.triangles[t].patch, static_cast<std::uint32_t>(t),
+                                            static_cast<std::uint8_t>(2 * k + 1)});
+        if (at_contact || known || (middle.bend.abs() > allowed).any()) bends[slot] = 1;
         // The mean of the predictions of both sides.
         const bool is_first = !predicted_[slot];
         Rgb& value = values_[slot].irradiance;
