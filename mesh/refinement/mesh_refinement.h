@@ -37,7 +37,7 @@ struct MeshRefinementOptions {
 
 // The fraction of the fronts' area that may exceed the error: the 1 % above a 99th percentile, minus an
 // allowance for errors that measurements at single points overlook.
-inline constexpr double kShareAbove = 0.006;
+inline constexpr double kShareAbove = 0.005;
 
 struct RefinedMesh {
   MeshPlan plan;  // with the leaves divided, and the discontinuities wanted, for the mesh
