@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
@@ -15,7 +17,6 @@
 #include "mesh/refinement/mesh_refinement.h"
 #include "mesh/refinement/refinement_step.h"
 #include "mesh/refinement/source_cells.h"
-#include "mesh/refinement/source_cut.h"
 #include "solver/base/parallel.h"
 #include "solver/scene/obj_reader.h"
 #include "solver/scene/scene_parts.h"
@@ -60,11 +61,11 @@ struct Solved {
     return
         [this](PatchId patch, const ReceiverPoint& at) { return pipeline.irradiance().OnPatch(patch, at); };
   }
-  SourceCells Cells(double finest) {
+  SourceCells Cells(double finest, std::span<const SourceCell> before = {}) {
     return {pipeline.solution(),
             {pipeline.solution().forest, triangulations, mesh},
             pipeline.irradiance(),
-            finest};
+            {finest, before}};
   }
 
   Scene scene;
@@ -73,19 +74,19 @@ struct Solved {
   IrradianceMesh mesh;
 };
 
-// Every cut tiles the leaves and keeps their mean, so that the light that leaves them is the same.
-TEST(SourceCells, CutsTileTheLeaves) {
+// Cells tile the leaves and keep their mean, so that the light that leaves them is the same.
+TEST(SourceCells, TileTheLeaves) {
   Solved solved(0.1);
-  const SourceCells cells = solved.Cells(0.05);
-  const std::vector<Rgb> mean = cells.LeafIrradiance();
   std::size_t before = 0;
-  for (const double score : {1.0, 0.2, 0.1, 0.0}) {
-    const std::vector<std::int32_t> cut = cells.Cut(score);
-    EXPECT_GE(cut.size(), before) << "a lower score is a finer cut";
-    before = cut.size();
+  for (const double finest : {1.0, 0.2, 0.1, 0.05}) {
+    const SourceCells cells = solved.Cells(finest);
+    const std::vector<Rgb> mean = cells.LeafIrradiance();
+    const std::vector<Fragment> fragments = cells.Fragments(true);
+    EXPECT_GE(fragments.size(), before) << "a lower score is a finer division";
+    before = fragments.size();
     std::map<ElementId, double> area;
     std::map<ElementId, Rgb> light;
-    for (const Fragment& fragment : cells.Fragments(cut, true)) {
+    for (const Fragment& fragment : fragments) {
       area[fragment.leaf] += VectorArea(fragment.polygon).norm();
       const Rgb light_here = fragment.area * fragment.irradiance;
       light.try_emplace(fragment.leaf, Rgb::Zero()).first->second += light_here;
@@ -93,20 +94,74 @@ TEST(SourceCells, CutsTileTheLeaves) {
     for (const auto& [leaf, sum] : area) {
       const double whole = solved.pipeline.solution().forest[leaf].area;
       EXPECT_NEAR(sum, whole, 1e-9 * whole);
-      // Interpolants that dip below zero are cut off there.
       const Rgb& want = mean[static_cast<std::size_t>(leaf)];
-      EXPECT_LE((light[leaf] / whole - want).abs().maxCoeff(), 1e-3 * want.maxCoeff() + 1e-12);
+      EXPECT_LE((light[leaf] / whole - want).abs().maxCoeff(), 1e-9 * want.maxCoeff() + 1e-12);
     }
   }
   EXPECT_GT(before, solved.pipeline.solution().forest.AllLeaves().size());
 }
 
-// Quartered triangles are subtrees of the source set again: every node's parts tile it, and each fragment is
+// The means over the leaves are those of the mesh: the areas of triangles times the means of their
+// interpolants, whatever the cells.
+TEST(SourceCells, HaveTheMeansOfTheMesh) {
+  Solved solved(0.1);
+  const std::vector<Rgb> mean = solved.Cells(0.05).LeafIrradiance();
+  std::vector<Rgb> sum(mean.size(), Rgb::Zero());
+  std::size_t t = 0;
+  for (const PatchTriangulation& patch : solved.triangulations)
+    for (std::size_t leaf = 0; leaf < patch.leaves.size(); ++leaf)
+      for (std::uint32_t i = patch.first_triangle[leaf]; i < patch.first_triangle[leaf + 1]; ++i, ++t) {
+        std::array<Vec3, 3> corner;
+        for (std::size_t k = 0; k < 3; ++k)
+          corner[k] = solved.mesh.positions[solved.mesh.triangles[t].vertex[k]];
+        const QuadraticInterpolant& q = solved.mesh.irradiance[t];
+        sum[static_cast<std::size_t>(patch.leaves[leaf])] +=
+            VectorArea(corner).norm() * (q.At(0.5, 0) + q.At(0.5, 0.5) + q.At(0, 0.5)) / 3;
+      }
+  // Interpolants that dip below zero are cut off there, cell by cell.
+  constexpr double kCutOff = 1e-3;
+  double worst = 0;
+  for (const ElementId leaf : solved.pipeline.solution().forest.AllLeaves()) {
+    const Element& element = solved.pipeline.solution().forest[leaf];
+    if ((solved.scene.MaterialOf(element.patch).reflectance == 0).all()) continue;
+    const Rgb want = sum[static_cast<std::size_t>(leaf)] / element.area;
+    if (want.maxCoeff() <= 0) continue;
+    worst = std::max(worst, (mean[static_cast<std::size_t>(leaf)] - want).abs().maxCoeff() / want.maxCoeff());
+  }
+  std::printf("largest difference %.2g\n", worst);
+  EXPECT_LE(worst, kCutOff);
+}
+
+// Cells that were divided stay divided, so that what is known about them stays valid: a map of nodes finds
+// each of them in the later set.
+TEST(SourceCells, OnlyGrow) {
+  Solved solved(0.1);
+  const SourceCells fine = solved.Cells(0.05), coarse = solved.Cells(0.2),
+                    kept = solved.Cells(0.2, fine.cells());
+  EXPECT_LT(coarse.cells().size(), fine.cells().size());
+  ASSERT_EQ(kept.cells().size(), fine.cells().size());
+  for (std::size_t i = 0; i < kept.cells().size(); ++i)
+    EXPECT_TRUE(kept.cells()[i].polygon == fine.cells()[i].polygon);
+  const RadiositySolution& solution = solved.pipeline.solution();
+  const SourceSet from = SourceSet::FromSolution(solution, coarse.Fragments(false)),
+                  to = SourceSet::FromSolution(solution, fine.Fragments(false));
+  const std::vector<std::int32_t> map = MapNodes(from, to);
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    ASSERT_GE(map[i], 0);
+    const SourceSet::Node &a = from.NodeAt(i), &b = to.NodeAt(static_cast<std::size_t>(map[i]));
+    ASSERT_EQ(a.size, b.size);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(a.size); ++k) EXPECT_EQ(a.vertex[k], b.vertex[k]);
+  }
+  const std::vector<std::int32_t> back = MapNodes(to, from);
+  EXPECT_GT(std::count(back.begin(), back.end(), -1), 0) << "the finest nodes are not in the coarse set";
+}
+
+// Quartered cells are subtrees of the source set again: every node's parts tile it, and each fragment is
 // there once.
 TEST(SourceCells, QuartersHangTogether) {
   Solved solved(0.1);
   const SourceCells cells = solved.Cells(0.02);
-  const std::vector<Fragment> fragments = cells.Fragments(cells.Cut(0), true);
+  const std::vector<Fragment> fragments = cells.Fragments(true);
   const SourceSet set = SourceSet::FromSolution(solved.pipeline.solution(), fragments);
   constexpr double kRounding = 1e-12;  // of an area: sums of some hundred products of coordinates
   std::set<std::int32_t> known;
@@ -126,7 +181,7 @@ TEST(SourceCells, QuartersHangTogether) {
       const std::size_t end = i + static_cast<std::size_t>(node.skip);
       for (std::size_t k = i + 1; k < end; k += static_cast<std::size_t>(tree[k].skip)) parts += tree[k].area;
       worst = std::max(worst, std::abs(parts / node.area - 1));
-      quartered += node.size == 3 ? 1 : 0;
+      ++quartered;
     }
   }
   const RadiositySolution& solution = solved.pipeline.solution();
@@ -135,42 +190,9 @@ TEST(SourceCells, QuartersHangTogether) {
   });
   EXPECT_EQ(known.size(), static_cast<std::size_t>(bright));
   EXPECT_GT(quartered, 10);
-  std::printf("%zu fragments, %d quartered triangles, largest difference %.2g\n", fragments.size(), quartered,
+  std::printf("%zu fragments, %d quartered nodes, largest difference %.2g\n", fragments.size(), quartered,
               worst);
   EXPECT_LE(worst, kRounding);
-}
-
-// What a cut costs is told from one look at each point with the finest sources; solved with that cut, the
-// irradiance at the same points is as near as it says, each difference as often as it comes back.
-TEST(SourceCut, CostsWhatItSays) {
-  Solved solved(0.1);
-  constexpr double kFinest = 0.02, kError = 0.02;
-  constexpr std::size_t kPoints = 600;
-  const SourceCells cells = solved.Cells(kFinest);
-  const PointIrradiance& exact = solved.pipeline.irradiance();
-  const RadiositySolution& solution = solved.pipeline.solution();
-  const SourceCut cut = ChooseSourceCut(solution, cells, exact, {kFinest, kError, kPoints, 7});
-  EXPECT_LE(cut.p99, kError);
-  const std::vector<std::int32_t> chosen = cells.Cut(cut.score);
-  EXPECT_LT(chosen.size(), cells.Cut(0).size());
-  const auto from = [&](std::span<const std::int32_t> some) {
-    return exact.WithSources(SourceSet::FromSolution(solution, cells.Fragments(some, true)));
-  };
-  const PointIrradiance coarse = from(chosen), fine = from(cells.Cut(0));
-  std::vector<Rgb> shown, truth;
-  const std::vector<SurfacePoint> points =
-      SpreadPoints(solved.scene, ReflectingAreas(solved.scene), kPoints, 7);
-  for (const SurfacePoint& p : points) {
-    ReceiverPoint at;
-    at.position = p.position;
-    at.normal = solved.scene.patches[static_cast<std::size_t>(p.patch)].normal;
-    truth.push_back(fine.OnPatch(p.patch, at).irradiance);
-    const Rgb difference = coarse.OnPatch(p.patch, at).irradiance - truth.back();
-    shown.push_back(truth.back() + fine.Reverberation(p.patch, at) * difference);
-  }
-  const double p99 = Quantile(SeenErrors(solved.scene, points, shown, truth), 0.99);
-  std::printf("p99 %.6g, told %.6g\n", p99, cut.p99);
-  EXPECT_NEAR(p99, cut.p99, 1e-9);
 }
 
 // The error that is asked for is the error that comes out, for the whole light, at points that were not used
