@@ -60,7 +60,9 @@ void ShownMesh::Begin() {
 bool ShownMesh::Make(const RadiositySolution& solution, const MeshOptions& options,
                      const ExecutionContext& context) {
   Begin();
-  return FirstLook(solution, options, context);
+  // The result depends on the solution alone, not on samples for earlier lights.
+  SampleCache samples;
+  return FirstLook(solution, options, samples, context);
 }
 
 namespace {
@@ -80,7 +82,7 @@ bool ShownMesh::RefineLight(LightSolver& solver, const MeshOptions& options,
   Begin();
   cells_.clear();
   const MeshOptions first = ToBeginWith(options, options_.error);
-  if (!FirstLook(solver.solution(), first, context)) return false;
+  if (!FirstLook(solver.solution(), first, samples_, context)) return false;
   has_looked_ = true;
   if (mesh_.triangles.empty()) return true;
   if (!SettleSources(solver, first, context)) return false;
@@ -96,7 +98,8 @@ bool ShownMesh::MakeRefined(const RadiositySolution& solution, const MeshOptions
     plan_ = *light_plan_;
     return RefineLeaves(solution, ToBeginWith(options, options_.error), context);
   }
-  if (!shows_first_look && !FirstLook(solution, ToBeginWith(options, options_.error), context)) return false;
+  if (!shows_first_look && !FirstLook(solution, ToBeginWith(options, options_.error), samples_, context))
+    return false;
   if (!mesh_.triangles.empty()) RefineLeaves(solution, ToBeginWith(options, options_.error), context);
   return true;
 }
@@ -157,19 +160,20 @@ void ShownMesh::Add(MeshReport latest) {
 }
 
 // Makes a mesh of the solution's leaves. False if cancelled.
-bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& options,
+bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& options, SampleCache& samples,
                           const ExecutionContext& context) {
   IrradianceSampler sampler;
   if (options.order != InterpolantOrder::kConstant) {
     const Stopwatch stopwatch;
-    if (!RelightSamples(context)) return false;
+    const bool ready = &samples == &samples_ ? RelightSamples(context) : irradiance_.Get(context) != nullptr;
+    if (!ready) return false;
     report_.seconds.interpolate += stopwatch.Seconds();
     sampler = WhileGoing(RecordingSampler(*irradiance_.Get(), Tolerance()), context);
   }
   MeshResult result =
-      RunLocalPass(visibility_, solution, sampler, options, context, {&LocalPass(), &samples_});
+      RunLocalPass(visibility_, solution, sampler, options, context, {&LocalPass(), &samples});
   if (context.Cancelled()) {
-    samples_.Clear();
+    samples.Clear();
     return false;
   }
   Add(result.report);

@@ -109,7 +109,7 @@ class ShownMesh {
 
  private:
   void Begin();
-  bool FirstLook(const RadiositySolution& solution, const MeshOptions& options,
+  bool FirstLook(const RadiositySolution& solution, const MeshOptions& options, SampleCache& samples,
                  const ExecutionContext& context);
   bool SettleSources(LightSolver& solver, const MeshOptions& options, const ExecutionContext& context);
   std::optional<double> RefineSources(LightSolver& solver, const ExecutionContext& context);

@@ -219,24 +219,5 @@ TEST(PointIrradiance, NudgeAndPushOff) {
   EXPECT_LT(at_foot(lifted), 1e-3);
 }
 
-// Between the middles of two squares, light comes back as often as the point's form factor says, in the
-// channel where it does so most. A wall that fills less of the view changes nothing.
-TEST(PointIrradiance, ReverberatesBetweenPlates) {
-  for (const double gap : {0.01, 0.3, 2.0}) {
-    Scene scene;
-    const std::int32_t bright = AddMaterial(scene, 0.8, 0), dark = AddMaterial(scene, 0.5, 0);
-    scene.materials[static_cast<std::size_t>(dark)].reflectance = Rgb(0.1, 0.5, 0.3);
-    Add(scene, {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, bright);
-    Add(scene, {{3, -1, 0}, {3, -1, 1}, {3, 1, 1}, {3, 1, 0}}, bright);
-    Add(scene, {{-1, -1, gap}, {-1, 1, gap}, {1, 1, gap}, {1, -1, gap}}, dark);
-    const PatchVisibility visibility(scene);
-    const PointIrradiance irradiance(scene, visibility, SourceSet::Emitters(scene));
-    const double x = 1 / gap, root = std::sqrt(1 + x * x);
-    const double factor = 4 * std::numbers::inv_pi * x / root * std::atan(x / root);
-    const double gain = irradiance.Reverberation(0, Receiver({0, 0, 0}, {0, 0, 1}));
-    EXPECT_NEAR(gain, 1 / (1 - 0.8 * 0.5 * factor * factor), 1e-12) << gap;
-  }
-}
-
 }  // namespace
 }  // namespace penumbra::scene_test

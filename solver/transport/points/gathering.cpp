@@ -431,7 +431,8 @@ void Gathering::AddVisiblePieces(const ImageFrame& frame, double factor_before) 
   }
 }
 
-// From the node's centre to the place of the node that is seen in the direction [m].
+// From the node's centre to the place of the node that is seen in the direction [m], but no farther than the
+// node's linear fit is positive.
 Vec3 Gathering::OffsetToward(const Node& node, const Vec3& direction) const {
   const double fall = source_normal_.dot(direction);
   if (fall >= 0 || view_.SourceInContact()) return Vec3::Zero();
@@ -439,7 +440,11 @@ Vec3 Gathering::OffsetToward(const Node& node, const Vec3& direction) const {
   Vec3 offset = source_normal_.dot(to_centre) / fall * direction - to_centre;
   const double length = offset.norm();
   if (length > node.radius) offset *= node.radius / length;  // by rounding, at grazing angles
-  return offset;
+  const Rgb change = (node.slope * offset).array();
+  double positive = 1;
+  for (int c = 0; c < 3; ++c)
+    if (change[c] < -node.radiosity[c]) positive = std::min(positive, -node.radiosity[c] / change[c]);
+  return positive * offset;
 }
 
 // The largest allowed ratio of the angles of a sum to the sum; digits are lost in proportion to the ratio.

@@ -275,18 +275,6 @@ Rgb PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given, std::spa
   return gathering.irradiance();
 }
 
-double PointIrradiance::Reverberation(PatchId patch, const ReceiverPoint& at) const {
-  PointView view(scene_, at);
-  double returned = 0;
-  for (const PatchPair& pair : visibility_.SourcesOf(patch)) {
-    if (!view.FaceSource(pair.source)) continue;
-    const Patch& wall = scene_.patches[static_cast<std::size_t>(pair.source)];
-    const double factor = FormFactor(view.SeeSource(wall.Vertices()), at.normal);
-    returned = std::max(returned, SentBack(scene_, patch, pair.source, factor));
-  }
-  return 1 / (1 - returned);
-}
-
 PointIrradianceResult PointIrradiance::Anywhere(const ReceiverPoint& given, IrradianceParts* parts) const {
   const ReceiverPoint at = Nudged(given);
   Gathering gathering(scene_, sources_, at, options_, parts);

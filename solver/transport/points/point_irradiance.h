@@ -33,7 +33,7 @@ struct PointIrradianceResult {
   // share a one-sided sample.
   bool one_sided = false;
   // The form factors that led to the value; null if they were not asked for.
-  std::shared_ptr<FactorRow> row;
+  std::shared_ptr<FactorRow> row = nullptr;
 };
 
 class PointIrradiance {
@@ -78,12 +78,6 @@ class PointIrradiance {
   Rgb OnPatch(PatchId patch, const ReceiverPoint& at, std::span<double> factors) const;
 
   const SourceSet& sources() const { return sources_; }
-
-  // The factor by which light at the point is amplified by repeated reflection between `patch` and another
-  // patch: the maximum of 1 / (1 - rho rho' F^2) over all other patches and channels, where rho and rho' are
-  // the reflectances of the two patches, and F is the unoccluded form factor of the point to the other patch.
-  // For reflectances of 0.8, the factor is at most 1.2 next to an edge of a room, and 2.8 deep in a slot.
-  double Reverberation(PatchId patch, const ReceiverPoint& at) const;
 
   // The patches that a leaf of the solution sees. REQUIRES: the object was made from a solution.
   std::span<const PatchPair> SeenFrom(ElementId leaf) const { return leaves_->SourcesOf(leaf); }
