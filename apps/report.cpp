@@ -54,7 +54,8 @@ const std::vector<std::pair<const char*, std::size_t Counts::*>>& CountNames() {
       {"most_merged", &Counts::most_merged},
       {"triangles", &Counts::triangles},
       {"interpolants", &Counts::interpolants},
-      {"point_evaluations", &Counts::point_evaluations}};
+      {"point_evaluations", &Counts::point_evaluations},
+      {"sources_renewed", &Counts::sources_renewed}};
   return names;
 }
 

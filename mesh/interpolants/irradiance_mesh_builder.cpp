@@ -229,6 +229,7 @@ class NodeValues {
         mean += Value(t, 2 * k) / static_cast<double>(3 * corner.size());
       }
     const MidpointPrediction prediction(mesh_, corner);
+    const std::vector<std::size_t> on_patch = TrianglesByPatch();
     std::vector<char> bends(predicted_.size(), 0);
     for (std::size_t t = 0; t < corner.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
@@ -238,9 +239,10 @@ class NodeValues {
         // On a contact the two sides have different values, and light changes fastest away from a contact.
         const bool from = Result(t, 2 * k).one_sided, to = Result(t, 2 * ((k + 1) % 3)).one_sided;
         const bool at_contact = from != to || (from && mesh_.triangles[t].discontinuity[k]);
-        const bool known = sampling_.Knows({mesh_.triangles[t].patch, static_cast<std::uint32_t>(t),
-                                            static_cast<std::uint8_t>(2 * k + 1)});
-        if (at_contact || known || (middle.bend.abs() > allowed).any()) bends[slot] = 1;
+        const bool known = sampling_.Knows(
+            {mesh_.triangles[t].patch, static_cast<std::uint32_t>(t), static_cast<std::uint8_t>(2 * k + 1)});
+        const bool few = on_patch[static_cast<std::size_t>(mesh_.triangles[t].patch)] < kFewTriangles;
+        if (at_contact || known || few || (middle.bend.abs() > allowed).any()) bends[slot] = 1;
         // The mean of the predictions of both sides.
         const bool is_first = !predicted_[slot];
         Rgb& value = values_[slot].irradiance;
@@ -260,6 +262,17 @@ class NodeValues {
   }
 
  private:
+  // Fewer triangles on a patch may miss the whole light of a lamp.
+  static constexpr std::size_t kFewTriangles = 32;
+
+  std::vector<std::size_t> TrianglesByPatch() const {
+    std::vector<std::size_t> count;
+    for (const IrradianceMesh::Triangle& t : mesh_.triangles) {
+      count.resize(std::max(count.size(), static_cast<std::size_t>(t.patch) + 1));
+      ++count[static_cast<std::size_t>(t.patch)];
+    }
+    return count;
+  }
   const PointIrradianceResult& Result(std::size_t t, std::size_t sample) const {
     return values_[nodes_.of_triangle[t][sample]];
   }

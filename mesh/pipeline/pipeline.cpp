@@ -397,6 +397,7 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context, bool as
   counts.triangles = report.counts.triangles;
   counts.interpolants = report.counts.interpolants;
   counts.point_evaluations = report.counts.point_evaluations;
+  counts.sources_renewed = report.counts.sources_renewed;
   if (report.counts.refused_contacts > 0)
     impl_->report.unmet.push_back(
         fmt::format("discontinuities: {} contact edges left out, since a leaf would have more "

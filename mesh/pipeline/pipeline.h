@@ -120,7 +120,7 @@ struct PipelineReport {
   struct Counts {
     std::size_t patches = 0, emitters = 0, elements = 0, leaves = 0, links = 0, links_visible = 0,
                 links_partial = 0, discontinuities = 0, dsets_active = 0, most_merged = 0, triangles = 0,
-                interpolants = 0, point_evaluations = 0;
+                interpolants = 0, point_evaluations = 0, sources_renewed = 0;
   } counts;
   std::vector<IterationReport> iterations;
   std::optional<SolverReport::Dense> dense;

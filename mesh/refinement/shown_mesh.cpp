@@ -21,8 +21,9 @@ constexpr double kInterpolantShare = 0.6;
 constexpr double kSampleShare = 0.2;
 // Refinement that may request edges starts with edges of kWeightToBegin times the minimum weight.
 constexpr double kWeightToBegin = 2;
-// Interpolation::smooth, as a fraction of the error.
-constexpr double kSmoothShare = 0.5;
+// Interpolation::smooth, as a fraction of the error, and at most: gradients over triangles say little where
+// light bends by more.
+constexpr double kSmoothShare = 0.5, kMostSmooth = 0.02;
 // Sources are refined again while the means would still change by more than kSettledShare of the error, at
 // most kMostSourcePasses times. Most rooms need two to four passes; a narrow slot between white walls, where
 // light bounces many times, needs twenty. The passes end earlier if two passes leave more than kStill of a
@@ -61,8 +62,7 @@ bool ShownMesh::Make(const RadiositySolution& solution, const MeshOptions& optio
                      const ExecutionContext& context) {
   Begin();
   // The result depends on the solution alone, not on samples for earlier lights.
-  SampleCache samples;
-  return FirstLook(solution, options, samples, context);
+  return FirstLook(solution, options, nullptr, context);
 }
 
 namespace {
@@ -70,7 +70,7 @@ namespace {
 // The options of the first mesh of the leaves, before refinement requests lighter edges and more samples.
 MeshOptions ToBeginWith(const MeshOptions& options, double error) {
   MeshOptions first = options;
-  first.smooth = kSmoothShare * error;
+  first.smooth = std::min(kSmoothShare * error, kMostSmooth);
   if (options.discontinuities.can_want()) first.discontinuities.min_weight *= kWeightToBegin;
   return first;
 }
@@ -82,7 +82,7 @@ bool ShownMesh::RefineLight(LightSolver& solver, const MeshOptions& options,
   Begin();
   cells_.clear();
   const MeshOptions first = ToBeginWith(options, options_.error);
-  if (!FirstLook(solver.solution(), first, samples_, context)) return false;
+  if (!FirstLook(solver.solution(), first, &samples_, context)) return false;
   has_looked_ = true;
   if (mesh_.triangles.empty()) return true;
   if (!SettleSources(solver, first, context)) return false;
@@ -98,7 +98,7 @@ bool ShownMesh::MakeRefined(const RadiositySolution& solution, const MeshOptions
     plan_ = *light_plan_;
     return RefineLeaves(solution, ToBeginWith(options, options_.error), context);
   }
-  if (!shows_first_look && !FirstLook(solution, ToBeginWith(options, options_.error), samples_, context))
+  if (!shows_first_look && !FirstLook(solution, ToBeginWith(options, options_.error), &samples_, context))
     return false;
   if (!mesh_.triangles.empty()) RefineLeaves(solution, ToBeginWith(options, options_.error), context);
   return true;
@@ -144,6 +144,13 @@ SourceCells ShownMesh::FinestCells(const RadiositySolution& solution, const Exec
 
 double ShownMesh::Tolerance() const { return kSampleShare * options_.error; }
 
+IrradianceSampler ShownMesh::Sampler(Rows rows, const ExecutionContext& context) {
+  const PointIrradiance& exact = *irradiance_.Get();
+  return WhileGoing(
+      rows == Rows::kRecord ? RecordingSampler(exact, Tolerance()) : NearSampler(exact, Tolerance()),
+      context);
+}
+
 LocalPassCache& ShownMesh::LocalPass() {
   if (!local_pass_) local_pass_ = std::make_unique<LocalPassCache>(scene_, visibility_);
   return *local_pass_;
@@ -160,20 +167,19 @@ void ShownMesh::Add(MeshReport latest) {
 }
 
 // Makes a mesh of the solution's leaves. False if cancelled.
-bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& options, SampleCache& samples,
+bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& options, SampleCache* samples,
                           const ExecutionContext& context) {
   IrradianceSampler sampler;
   if (options.order != InterpolantOrder::kConstant) {
     const Stopwatch stopwatch;
-    const bool ready = &samples == &samples_ ? RelightSamples(context) : irradiance_.Get(context) != nullptr;
+    const bool ready = samples ? RelightSamples(context) : irradiance_.Get(context) != nullptr;
     if (!ready) return false;
     report_.seconds.interpolate += stopwatch.Seconds();
-    sampler = WhileGoing(RecordingSampler(*irradiance_.Get(), Tolerance()), context);
+    sampler = Sampler(samples ? Rows::kRecord : Rows::kNone, context);
   }
-  MeshResult result =
-      RunLocalPass(visibility_, solution, sampler, options, context, {&LocalPass(), &samples});
+  MeshResult result = RunLocalPass(visibility_, solution, sampler, options, context, {&LocalPass(), samples});
   if (context.Cancelled()) {
-    samples.Clear();
+    samples_.Clear();
     return false;
   }
   Add(result.report);
@@ -203,8 +209,9 @@ bool ShownMesh::SettleSources(LightSolver& solver, const MeshOptions& options,
     if (settled || still || pass == kMostSourcePasses) return true;
     before = *change;
     ratio_before = ratio;
-    const bool shown = pass == 1 ? Refine(solver.solution(), options, rough, context).has_value()
-                                 : ShowAnew(options, context);
+    const bool shown = pass == 1
+                           ? Refine(solver.solution(), options, rough, Rows::kRecord, context).has_value()
+                           : ShowAnew(options, context);
     if (!shown) return false;
   }
 }
@@ -225,7 +232,7 @@ bool ShownMesh::RelightSamples(const ExecutionContext& context) {
 bool ShownMesh::ShowAnew(const MeshOptions& options, const ExecutionContext& context) {
   const Stopwatch stopwatch;
   if (!RelightSamples(context)) return false;
-  const IrradianceSampler sampler = WhileGoing(RecordingSampler(*irradiance_.Get(), Tolerance()), context);
+  const IrradianceSampler sampler = Sampler(Rows::kRecord, context);
   BuiltMesh built = BuildIrradianceMesh(scene_, triangulations_, {options.order, options.smooth}, sampler,
                                         context, &samples_);
   if (context.Cancelled()) return false;
@@ -258,7 +265,7 @@ std::optional<double> ShownMesh::RefineSources(LightSolver& solver, const Execut
 bool ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOptions& options,
                              const ExecutionContext& context) {
   const double error = kInterpolantShare * options_.error;
-  std::optional<RefinedMesh> refined = Refine(solution, options, RefinementTo(error), context);
+  std::optional<RefinedMesh> refined = Refine(solution, options, RefinementTo(error), Rows::kNone, context);
   if (!refined) return false;
   double onward = error;
   MeshOptions closer = options;
@@ -269,7 +276,7 @@ bool ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOption
     if (context.Cancelled() || seen <= kOverlooked * options_.error) return true;
     onward *= std::clamp(kOverlooked * options_.error / seen, kLeastOnward, kMostOnward);
     closer.smooth *= kOnwardSmooth;
-    refined = Refine(solution, closer, RefinementTo(onward), context);
+    refined = Refine(solution, closer, RefinementTo(onward), Rows::kNone, context);
   }
   if (!refined || onward < error) return true;  // measurements report the rest
   double area = 0;
@@ -284,7 +291,7 @@ bool ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOption
 // An upper bound of the 99th percentile of the interpolants' error, from `points` random points.
 double ShownMesh::LookAround(std::size_t points, std::uint64_t seed, const ExecutionContext& context) {
   const Stopwatch stopwatch;
-  const IrradianceSampler sampler = WhileGoing(NearSampler(*irradiance_.Get(), Tolerance()), context);
+  const IrradianceSampler sampler = Sampler(Rows::kNone, context);
   const RepresentationError seen = MeasureRepresentationError(scene_, mesh_, sampler, points, seed);
   report_.counts.point_evaluations += points;
   report_.seconds.interpolate += stopwatch.Seconds();
@@ -302,12 +309,12 @@ MeshRefinementOptions ShownMesh::RefinementTo(double error) const {
 // Refines the leaves of the present mesh until the interpolants' error is at most `error`, and replaces the
 // mesh. Nothing if cancelled; the mesh of the result has been moved from.
 std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, const MeshOptions& options,
-                                             const MeshRefinementOptions& refinement,
+                                             const MeshRefinementOptions& refinement, Rows rows,
                                              const ExecutionContext& context) {
   const Stopwatch stopwatch;
   if (!RelightSamples(context)) return std::nullopt;
   seconds_of_sources_ += stopwatch.Seconds();
-  const IrradianceSampler sampler = WhileGoing(RecordingSampler(*irradiance_.Get(), Tolerance()), context);
+  const IrradianceSampler sampler = Sampler(rows, context);
   RefinedMesh refined = RefineMesh({visibility_, solution, sampler}, options, refinement, context,
                                    {&LocalPass(), &plan_, &samples_});
   if (context.Cancelled()) {

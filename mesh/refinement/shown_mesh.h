@@ -108,8 +108,11 @@ class ShownMesh {
   const std::optional<std::string>& unmet() const { return unmet_; }
 
  private:
+  // Samples whose light will change again need rows of form factors.
+  enum class Rows : std::uint8_t { kNone, kRecord };
+
   void Begin();
-  bool FirstLook(const RadiositySolution& solution, const MeshOptions& options, SampleCache& samples,
+  bool FirstLook(const RadiositySolution& solution, const MeshOptions& options, SampleCache* samples,
                  const ExecutionContext& context);
   bool SettleSources(LightSolver& solver, const MeshOptions& options, const ExecutionContext& context);
   std::optional<double> RefineSources(LightSolver& solver, const ExecutionContext& context);
@@ -117,12 +120,14 @@ class ShownMesh {
   bool RefineLeaves(const RadiositySolution& solution, const MeshOptions& options,
                     const ExecutionContext& context);
   std::optional<RefinedMesh> Refine(const RadiositySolution& solution, const MeshOptions& options,
-                                    const MeshRefinementOptions& refinement, const ExecutionContext& context);
+                                    const MeshRefinementOptions& refinement, Rows rows,
+                                    const ExecutionContext& context);
   MeshRefinementOptions RefinementTo(double error) const;
   bool RelightSamples(const ExecutionContext& context);
   bool ShowAnew(const MeshOptions& options, const ExecutionContext& context);
   double LookAround(std::size_t points, std::uint64_t seed, const ExecutionContext& context);
   double Tolerance() const;
+  IrradianceSampler Sampler(Rows rows, const ExecutionContext& context);
   LocalPassCache& LocalPass();
   void Add(MeshReport latest);
 

@@ -19,8 +19,8 @@ namespace {
 constexpr double kTolerance = 0.004;
 
 // A solved room with a box, a lamp and a panel that sends nothing, and points on its surfaces.
-struct LitRoom {
-  LitRoom() : scene(Room()), pipeline(scene, Options()) {
+struct RecordedRoom {
+  RecordedRoom() : scene(Room()), pipeline(scene, Options()) {
     pipeline.Solve({});
     for (const SurfacePoint& p : SpreadPoints(scene, ReflectingAreas(scene), 300, 5)) {
       patches.push_back(p.patch);
@@ -91,7 +91,7 @@ RadiositySolution Coloured(RadiositySolution solution, double least, double most
 }
 
 TEST(FactorRow, GivesTheIrradiance) {
-  LitRoom room;
+  RecordedRoom room;
   const SampleCache cache = room.Recorded();
   const double difference = room.Difference(cache, room.pipeline.irradiance());
   std::printf("p99 of the difference from exact irradiance %.2g\n", difference);
@@ -99,7 +99,7 @@ TEST(FactorRow, GivesTheIrradiance) {
 }
 
 TEST(FactorRow, IsLinear) {
-  LitRoom room;
+  RecordedRoom room;
   const RadiositySolution &one = room.pipeline.solution(), other = Coloured(one, 0.2, 5, 11);
   RadiositySolution both = one;
   for (std::size_t e = 0; e < both.radiosity.size(); ++e) both.radiosity[e] += 3 * other.radiosity[e];
@@ -122,7 +122,7 @@ TEST(FactorRow, IsLinear) {
 // Another light over the same sources is a product: nearly nothing is gathered anew, and the values are
 // right.
 TEST(SampleCache, RelightsByProducts) {
-  LitRoom room;
+  RecordedRoom room;
   SampleCache cache = room.Recorded();
   const std::size_t all = room.SourcesOf(cache);
   const PointIrradiance& before = room.pipeline.irradiance();
@@ -137,7 +137,7 @@ TEST(SampleCache, RelightsByProducts) {
 
 // Where the new light varies within what was one source, that source is gathered anew.
 TEST(SampleCache, GathersWhatNoLongerHolds) {
-  LitRoom room;
+  RecordedRoom room;
   SampleCache cache = room.Recorded();
   const std::size_t all = room.SourcesOf(cache);
   RadiositySolution other = room.pipeline.solution();
@@ -155,7 +155,7 @@ TEST(SampleCache, GathersWhatNoLongerHolds) {
 
 // A patch that sent nothing has no terms; when it lights up, they are gathered.
 TEST(SampleCache, FindsNewSources) {
-  LitRoom room;
+  RecordedRoom room;
   SampleCache cache = room.Recorded();
   RadiositySolution other = room.pipeline.solution();
   const auto panel = static_cast<PatchId>(room.scene.patches.size() - 1);

@@ -87,7 +87,7 @@ TEST(Probe, AgreesWithThePipeline) {
   EXPECT_EQ(probe.face, 0);
 }
 
-TEST(Graph, HoldsTheInterpolantsSamplesAtItsNodes) {
+TEST(Graph, AgreesWithTheInterpolantsAtTheirNodes) {
   const Solved& s = Shared();
   const std::vector<std::uint32_t> triangles = {0, 1, 2};
   const IrradianceGraph graph =
@@ -95,12 +95,15 @@ TEST(Graph, HoldsTheInterpolantsSamplesAtItsNodes) {
   ASSERT_EQ(graph.size(), 3U);
   for (const GraphSheet& sheet : graph) {
     ASSERT_EQ(sheet.exact.size(), 6U);
-    // With two cells a side the grid's nodes are the interpolant's: there the two agree.
+    // With two cells a side the grid's nodes are the interpolant's. There the two agree, up to the tolerance
+    // of samples and of predicted midpoints, which are parts of the error.
+    const double error = s.pipeline.options().error;
     std::size_t k = 0;
     for (int j = 0; j <= 2; ++j)
       for (int i = 0; i <= 2 - j; ++i, ++k) {
         const Rgb shown = s.mesh->mesh().irradiance[sheet.triangle].At(0.5 * i, 0.5 * j);
-        EXPECT_TRUE(((shown - sheet.exact[k]).abs() <= 1e-9).all()) << shown << "\n" << sheet.exact[k];
+        EXPECT_TRUE(((shown - sheet.exact[k]).abs() <= 0.5 * error * sheet.exact[k]).all()) << shown << "\n"
+                                                                                            << sheet.exact[k];
       }
   }
 }

@@ -18,8 +18,8 @@ namespace penumbra {
 
 // The light of a node at the point: factor * (mean radiosity of the node) + (slope of the node) * moment.
 struct FactorTerm {
+  double factor = 0;       // form factor to the visible part of the node [1]
   std::int32_t node = -1;  // index in the source set
-  float factor = 0;        // form factor to the visible part of the node [1]
   // What weighs the slope of the node's radiosity: factor * (centroid of the visible part - centre of the
   // node), or a first-order estimate of it [m].
   std::array<float, 3> moment = {0, 0, 0};

@@ -347,7 +347,7 @@ void Gathering::GatherAggregates(Tree nodes) {
     } else {
       const double factor = FormFactor(view_.SeeSource(Vertices(node)), at_.normal, CancellationAllowed());
       factor_ += factor;
-      term.factor = static_cast<float>(factor);
+      term.factor = factor;
       Add(term);
     }
   }
@@ -375,7 +375,7 @@ void Gathering::AddListedSources() {
   if (count == 0) return;
   buffers.sums.Find(buffers.listed, 0, count, view_.SourceEye(), at_.normal);
   for (std::size_t i = 0; i < count; ++i) {
-    buffers.listed_term[i].factor = static_cast<float>(buffers.sums.Factor(i));
+    buffers.listed_term[i].factor = buffers.sums.Factor(i);
     Add(buffers.listed_term[i]);
   }
   buffers.ClearListed();
@@ -422,7 +422,7 @@ void Gathering::AddVisiblePieces(const ImageFrame& frame, double factor_before) 
       factor_ += visible_factor;
       FactorTerm term;
       term.node = owner.Number();
-      term.factor = static_cast<float>(visible_factor);
+      term.factor = visible_factor;
       term.by_residual = 1;
       Eigen::Map<Eigen::Vector3f>(term.moment.data()) =
           (visible_factor * OffsetToward(node, frame.Direction(visible.Centroid(p)))).cast<float>();
@@ -485,14 +485,14 @@ void Gathering::Add(std::int32_t leaf, double factor) {
   if (!row_) return;
   FactorTerm term;
   term.node = sources_.NodeOfLeaf(leaf);
-  term.factor = static_cast<float>(factor);
+  term.factor = factor;
   term.by_spread = 1;
   Record(term);
 }
 
 void Gathering::Add(const FactorTerm& term) {
   const Node& node = sources_.NodeAt(static_cast<std::size_t>(term.node));
-  irradiance_ += static_cast<double>(term.factor) * node.radiosity;
+  irradiance_ += term.factor * node.radiosity;
   if (node.skip > 1)
     irradiance_ +=
         (node.slope * Eigen::Map<const Eigen::Vector3f>(term.moment.data()).cast<double>()).array();

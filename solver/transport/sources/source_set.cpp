@@ -160,7 +160,7 @@ void SourceSet::CompactLight() {
   light_.resize(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     NodeLight& light = light_[i];
-    Eigen::Map<Eigen::Array3f>(light.radiosity.data()) = nodes_[i].radiosity.cast<float>();
+    Eigen::Map<Rgb>(light.radiosity.data()) = nodes_[i].radiosity;
     using RowByRow = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
     Eigen::Map<RowByRow>(light.slope.data()) = nodes_[i].slope.cast<float>();
     light.spread = static_cast<float>(nodes_[i].spread);

@@ -60,8 +60,8 @@ class SourceSet {
   // The light of a node in a compact form, for sums over many nodes. The members have the meaning of those of
   // Node with the same names.
   struct NodeLight {
-    std::array<float, 3> radiosity = {0, 0, 0};  // [W/m^2]
-    std::array<float, 9> slope = {};             // row by row [W/m^3]
+    std::array<double, 3> radiosity = {0, 0, 0};  // [W/m^2]
+    std::array<float, 9> slope = {};              // row by row [W/m^3]
     float spread = 0, residual = 0;
   };
   const NodeLight& LightOf(std::int32_t node) const { return light_[static_cast<std::size_t>(node)]; }
