@@ -30,9 +30,9 @@ constexpr double kLeastScreen = 0.02;
 // to the unoccluded light are too large: a dark corner that sees a small part of a bright source.
 constexpr double kMostlyHidden = 4;
 
-// A row is gathered to its tolerance and stays valid up to this times the tolerance, so that small changes of
-// the light renew few rows.
-constexpr double kHolds = 2;
+// The terms of a source are gathered with an error of at most about the tolerance each, of either sign. They
+// stay valid while the sum of the sizes of their errors is at most this times the tolerance.
+constexpr double kHolds = 5;
 
 // A source with an estimate of its unoccluded light.
 struct RankedSource {
@@ -217,14 +217,14 @@ bool PointIrradiance::Holds(const FactorRow& row, const FactorRow::Source& sourc
   const double of_many = AggregateTolerance(tolerance, row.returned, unhindered, light.arrives);
   const double returned = (1 - row.returned) * (1 - row.returned);
   const double allowed = kHolds * (light.mostly_hidden ? of_many : std::max(returned * tolerance, of_many));
+  double error = 0;
   for (std::uint32_t i = source.first; i < source.end; ++i) {
     const FactorTerm& term = row.terms[i];
     if (term.node < 0) return false;
     const SourceSet::NodeLight& node = sources_.LightOf(term.node);
-    const double error = term.by_spread * node.spread + term.by_residual * node.residual;
-    if (error > allowed && error * term.factor > allowed * whole) return false;
+    error += term.factor * (term.by_spread * node.spread + term.by_residual * node.residual);
   }
-  return true;
+  return error <= allowed * whole;
 }
 
 std::size_t PointIrradiance::Renew(PatchId patch, const ReceiverPoint& given, double tolerance,

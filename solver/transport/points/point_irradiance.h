@@ -67,7 +67,7 @@ class PointIrradiance {
   // point has terms in the row, however dim.
   PointIrradianceResult RecordOnPatch(PatchId patch, const ReceiverPoint& at, double tolerance) const;
   bool CanRecord() const { return options_.method == nullptr && forest_ != nullptr; }
-  // Replaces, in a row of these sources, the terms of sources that do not hold to about twice the tolerance
+  // Replaces, in a row of these sources, the terms of sources that do not hold to a few times the tolerance
   // for the present radiosities: since a node's radiosity varies too much, or a term has no node (-1). Adds
   // the terms of `new_sources`. Returns the number of sources that were gathered. REQUIRES: CanRecord().
   std::size_t Renew(PatchId patch, const ReceiverPoint& at, double tolerance,

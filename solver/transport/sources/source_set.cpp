@@ -232,7 +232,20 @@ Rgb SourceSet::MeanReflected() const {
 
 namespace {
 
-// Area-weighted sums over leaves of radiosities and positions. Positions are relative to a nearby point: far
+// The integral of x x^T over the polygon of a node, relative to the origin [m^4].
+Eigen::Matrix3d SquaresOver(const SourceSet::Node& node, const Vec3& origin) {
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  const Vec3 a = node.vertex[0] - origin;
+  for (std::size_t k = 2; k < static_cast<std::size_t>(node.size); ++k) {
+    const Vec3 b = node.vertex[k - 1] - origin, c = node.vertex[k] - origin, sum = a + b + c;
+    const double area = 0.5 * (b - a).cross(c - a).norm();
+    squares +=
+        area / 12 * (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
+  }
+  return squares;
+}
+
+// Integrals over leaves of radiosities and positions. Positions are relative to a nearby point: far
 // from the origin, their squares would lose all digits.
 struct Moments {
   double area = 0;
@@ -248,7 +261,7 @@ struct Moments {
             sum * leaf.radiosity,
             leaf.area * place,
             sum.matrix() * place.transpose(),
-            leaf.area * place * place.transpose()};
+            SquaresOver(leaf, origin)};
   }
   Moments& operator+=(const Moments& other) {
     area += other.area;
@@ -261,8 +274,8 @@ struct Moments {
   }
 };
 
-// The slope of the best linear fit to radiosities with this moment. Zero across a region that is much
-// narrower than long, or whose leaves lie in a row.
+// The slope of the linear function that is nearest, in the square mean over the polygon, to radiosities that
+// are constant on each leaf. Zero across a region that is much narrower than long.
 Eigen::Matrix3d Slope(const Eigen::Matrix3d& moment, const Eigen::Matrix3d& second_moment) {
   constexpr double kNarrow = 1e-9;  // threshold for the squared width
   Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> decomposition;

@@ -45,7 +45,7 @@ class SourceSet {
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
     // Row c is the gradient, in the polygon's plane, of the best linear fit of B, for channel c [W/m^3].
     Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();
-    // sum over leaves of area * d d^T [m^4], where d is the leaf's centre minus the mean of the centres.
+    // The integral of d d^T over the polygon [m^4], where d is the position relative to the centroid.
     Eigen::Matrix3d second_moment = Eigen::Matrix3d::Zero();
   };
 
