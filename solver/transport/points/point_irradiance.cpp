@@ -231,6 +231,10 @@ std::size_t PointIrradiance::Renew(PatchId patch, const ReceiverPoint& given, do
                                    std::span<const PatchId> new_sources, FactorRow& row) const {
   tolerance *= options_.part_of_tolerance;
   const KnownLight light = LightOf(row);
+  const bool all_hold = std::all_of(row.sources.begin(), row.sources.end(), [&](const FactorRow::Source& s) {
+    return !sources_.Tree(s.patch).empty() && Holds(row, s, light, tolerance);
+  });
+  if (all_hold && new_sources.empty()) return 0;
   std::vector<PatchId> again(new_sources.begin(), new_sources.end());
   FactorRow renewed;
   renewed.returned = row.returned;
@@ -246,7 +250,6 @@ std::size_t PointIrradiance::Renew(PatchId patch, const ReceiverPoint& given, do
     renewed.sources.push_back(
         {source.patch, first, static_cast<std::uint32_t>(renewed.terms.size()), source.unhindered});
   }
-  if (again.empty() && renewed.sources.size() == row.sources.size()) return 0;
   const ReceiverPoint at = Nudged(given);
   Gathering gathering(scene_, sources_, at, options_, nullptr);
   gathering.AllowAggregates(tolerance, light.arrives, light.mostly_hidden);
