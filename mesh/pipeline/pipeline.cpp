@@ -20,7 +20,7 @@ namespace {
 
 // The tolerance of samples in measurements for details of their sources, as a fraction of the error. The
 // tolerance changes results by at most this.
-constexpr double kMeasuredShare = 0.02;
+constexpr double kMeasuredShare = 0.1;
 // The number of random points that measure the sources. If the fraction of values above the requested error
 // lies between kClearlyMet and kClearlyMissed, more points are used, because these few cannot tell whether it
 // is 1 %.

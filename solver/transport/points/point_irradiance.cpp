@@ -32,7 +32,7 @@ constexpr double kMostlyHidden = 4;
 
 // The terms of a source are gathered with an error of at most about the tolerance each, of either sign. They
 // stay valid while the sum of the sizes of their errors is at most this times the tolerance.
-constexpr double kHolds = 5;
+constexpr double kHolds = 8;
 
 // A source with an estimate of its unoccluded light.
 struct RankedSource {
