@@ -290,10 +290,7 @@ TEST(Refinement, SourcesSeenAsOneCostLittleInTheDark) {
     ASSERT_GE(errors.size(), 300U);
     const double p99 = Quantile(errors, 0.99);
     std::printf("tolerance %.3g: %zu values in the hut, p99 %.2g\n", kTolerances[k], errors.size(), p99);
-    // Exact irradiance takes cells as constant, and linear fits smooth their steps; the difference may be a
-    // fifth of the error.
-    constexpr double kSteps = 0.2 * 0.05;
-    EXPECT_LE(p99, kTolerances[k] + kSteps);
+    EXPECT_LE(p99, kTolerances[k]);
   }
 }
 

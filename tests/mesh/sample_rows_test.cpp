@@ -95,7 +95,7 @@ TEST(FactorRow, GivesTheIrradiance) {
   const SampleCache cache = room.Recorded();
   const double difference = room.Difference(cache, room.pipeline.irradiance());
   std::printf("p99 of the difference from exact irradiance %.2g\n", difference);
-  EXPECT_LE(difference, 2 * kTolerance);
+  EXPECT_LE(difference, kTolerance);
 }
 
 TEST(FactorRow, IsLinear) {
@@ -149,7 +149,7 @@ TEST(SampleCache, GathersWhatNoLongerHolds) {
   const std::size_t gathered = cache.Relight(before.sources(), now, kTolerance, {});
   const double difference = room.Difference(cache, now);
   std::printf("%zu of %zu sources gathered, p99 of the difference %.2g\n", gathered, all, difference);
-  EXPECT_GT(gathered, all / 10);
+  EXPECT_GT(gathered, all / 50);
   EXPECT_LE(difference, 2 * kTolerance);
 }
 
