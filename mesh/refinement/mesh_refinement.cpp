@@ -74,11 +74,12 @@ std::size_t Interpolate(const Scene& scene, const MeshOptions& mesh_options,
   }
 }
 
-// Patches with a common error target: `error` must hold for all but kShareAbove of their area.
+// Patches with a common error target: `error` must hold for all but `share` of their area.
 struct Population {
   std::vector<char> has;  // by patch
   double area = 0;        // [m^2]
   double error = 0;
+  double share = kShareAbove;  // of the area, which may exceed the error
 };
 
 // The populations are the patches that are seen, those that are not (no picture shows the irradiance of a
@@ -97,7 +98,8 @@ std::vector<Population> FindPopulations(const Scene& scene, double error) {
   const std::vector<ScenePart> parts = PartsOf(scene);
   if (parts.size() < 2) return populations;
   for (const ScenePart& part : parts) {
-    Population own{std::vector<char>(count, 0), 0, kPartError * error};
+    // A part has few triangles, so that one of them is a large share of its area.
+    Population own{std::vector<char>(count, 0), 0, kPartError * error, kShareAbove / 2};
     for (const PatchId p : part.patches) {
       own.has[static_cast<std::size_t>(p)] = 1;
       own.area += seen[static_cast<std::size_t>(p)];
@@ -152,11 +154,12 @@ std::vector<RefinementStep> ChooseSteps(const Scene& scene, std::span<const Popu
     }
     const double errs = AreaOf(population, above);
     if (k == 0) refined->share_above = population.area > 0 ? errs / population.area : 0;
-    if (errs <= kShareAbove * population.area) continue;
+    const double allowed = population.share * population.area;
+    if (errs <= allowed) continue;
     std::vector<RefinementStep> own;
     for (const RefinementStep& step : steps)
       if (population.has[static_cast<std::size_t>(step.patch)]) own.push_back(step);
-    for (const std::size_t i : ChooseRefinementSteps(own, errs - kShareAbove * population.area))
+    for (const std::size_t i : ChooseRefinementSteps(own, errs - allowed))
       if (known.emplace(own[i].patch, own[i].leaf, own[i].discontinuity).second)
         chosen.push_back(std::move(own[i]));
   }
