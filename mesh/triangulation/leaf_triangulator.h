@@ -1,7 +1,7 @@
 // mesh/triangulation/leaf_triangulator.h
 //
-// Triangulates one leaf. The triangles depend only on the leaf's border and lines; the triangles of a leaf
-// can therefore be reused for any leaf with the same border and lines.
+// Triangulates one leaf. The triangles depend only on the leaf's border and on the discontinuity lines in it.
+// Leaves with the same border and the same lines therefore have the same triangles.
 
 #pragma once
 

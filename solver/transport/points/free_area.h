@@ -15,9 +15,9 @@ namespace penumbra {
 
 // Contacts divide a patch into parts. The free area of the patch is the total area of those parts that see
 // the front of another patch [m^2]. The result is exact, except for slivers that CutLeavesAtContacts() does
-// not cut off and for light through gaps that count as closed (ContactGap). In an open scene, a part that
-// sees only the sky does not count as free. The function uses several threads; the result does not depend on
-// their number. The result is useless if the context is cancelled.
+// not cut off and for light through gaps that count as closed (ContactGap). In an open scene, the area of
+// a part that sees only the sky is not counted. The function uses several threads; the result does not depend
+// on their number. The result is useless if the context is cancelled.
 std::vector<double> FreeAreas(const Scene& scene, const ExecutionContext& context = ExecutionContext());
 
 }  // namespace penumbra

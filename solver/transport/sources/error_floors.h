@@ -1,8 +1,8 @@
 // solver/transport/sources/error_floors.h
 //
-// Floors for relative errors. A relative error is |difference| / max(light, floor): in dark places, division
-// by the light itself would demand an accuracy that nobody sees. Each floor is a fraction of a mean over the
-// scene, for each channel separately.
+// Smallest denominators of relative errors. A relative error is |difference| / max(light, floor): in dark
+// places, division by the light itself would demand an accuracy that nobody sees. Each floor is a fraction of
+// a mean over the scene, for each channel separately.
 
 #pragma once
 

@@ -409,7 +409,7 @@ void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::
     return;
   }
 
-  // Returns if an edge of the source separates the source from the occluder.
+  // An occluder on the outer side of an edge of the source hides nothing.
   for (std::int32_t s = source_.first; s < source_.last; ++s) {
     const Line& line = edges_[static_cast<std::size_t>(s)].line;
     if (std::none_of(outline.begin(), outline.end(),
@@ -567,8 +567,9 @@ void ExactImage<Kernel>::FindPlaces() {
   }
 }
 
-// The part of a polygon of directions before a plane through the viewpoint. The new edge may be half a great
-// circle through the zenith; if so, a vertex is added at the zenith, because edges must be shorter than pi.
+// Clips a polygon of directions to the half-space in front of a plane through the viewpoint. The new edge may
+// be half a great circle through the zenith; if so, a vertex is added at the zenith, because edges must be
+// shorter than pi.
 template <class Kernel>
 auto ExactImage<Kernel>::PartBefore(const Directions& polygon, const Vec3& plane,
                                     const std::array<Number, 3>& zenith) -> Directions {

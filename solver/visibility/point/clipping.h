@@ -70,8 +70,8 @@ void ForEachVisiblePiece(const DirectionPolygon& source, std::span<const Occlude
 
 // Sets factors[i] to the form factor of the point to the unoccluded part of parts[i], a part of a source;
 // faster than one call of VisibleFormFactor() for each part. Each error is at most kOcclusionError * (form
-// factor of `whole`); for parts much smaller than `whole`, the bound exceeds the error of
-// Clipping::VisibleFormFactor(). REQUIRES: the parts lie in `whole` and do not overlap.
+// factor of `whole`); for parts much smaller than `whole`, Clipping::VisibleFormFactor() is
+// more accurate. REQUIRES: the parts lie in `whole` and do not overlap.
 void VisibleFormFactors(const DirectionPolygon& whole, std::span<const DirectionPolygon> parts,
                         std::span<const Occluder> occluders, const Vec3& normal, std::span<double> factors);
 
