@@ -24,7 +24,8 @@ bool ExportsMesh(const std::string& path);
 // it stores a camera.
 bool ExportsColours(const std::string& path);
 bool ExportsCamera(const std::string& path);
-// The endings of all formats that store colours, or a camera, as text with dots: ".ply and .glb".
+// Lists of the file endings of all formats that store colours, and of those that store a camera. Example:
+// ".ply and .glb".
 std::string EndingsWithColours();
 std::string EndingsWithCamera();
 // A description of all formats, one line each.

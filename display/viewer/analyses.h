@@ -22,8 +22,8 @@ class Analyses {
                          const ViewState& view);
   // True if a computation is running.
   bool Busy();
-  // True if a computation has run out of memory since the last call of RanOutOfMemory(). If a computation
-  // runs out of memory, its result remains missing.
+  // True if a computation has failed because of too little memory since the last call of this function. A
+  // computation that failed has no result.
   bool RanOutOfMemory();
 
  private:

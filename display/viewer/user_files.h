@@ -28,7 +28,8 @@ class UserFiles {
   // Adds a scene at the front of the list Recent(), or moves it there. Paths are stored as absolute paths.
   void AddRecent(const std::string& scene) const;
 
-  // KeepPanels() stores which panels are open; OpenPanels() opens these panels.
+  // KeepPanels() writes to a file which panels of the window are open. OpenPanels() reads the file, and opens
+  // and closes the panels accordingly.
   void KeepPanels(const Viewer& viewer) const;
   void OpenPanels(Viewer* viewer) const;
 

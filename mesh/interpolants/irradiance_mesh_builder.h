@@ -42,10 +42,9 @@ double SampleUncertainty(const Scene& scene, const Patch& patch);
 
 struct Interpolation {
   InterpolantOrder order = InterpolantOrder::kQuadratic;
-  // The midpoint of an edge is not sampled where the samples at vertices show that the irradiance bends
-  // little: where the value predicted by the gradients at both ends (PredictMidpoint) differs from the mean
-  // of both ends by at most half of `smooth`, relative to max(irradiance, 1 % of the mean). 0: all midpoints
-  // are sampled.
+  // Midpoints of edges where the irradiance bends little are predicted from the vertices instead of sampled
+  // (MidpointPrediction). A midpoint is predicted if |bend| <= smooth / 2 * max(irradiance, 1 % of the mean
+  // irradiance). If `smooth` is 0, all midpoints are sampled.
   double smooth = 0;
 
   Interpolation(InterpolantOrder of, double smoothness = 0)  // NOLINT: an order is an interpolation

@@ -630,7 +630,7 @@ TEST(Solve, ChangedMaterials) {
   sandbox.Write("squares.mtl", kSquaresMaterials);
   sandbox.Write("points.csv", "x,y,z,nx,ny,nz\n0.5,0.5,0,0,0,1\n");
   const auto red = [&](std::vector<std::string> more) {
-    std::vector<std::string> arguments = {"probe", "squares.obj", "--points", "points.csv", "--error", "0.1"};
+    std::vector<std::string> arguments = {"probe", "squares.obj", "--points", "points.csv", "--error", "0.5"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = sandbox.Run(arguments);
     EXPECT_EQ(outcome.status, 0) << outcome.err;

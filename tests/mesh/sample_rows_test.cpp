@@ -119,38 +119,44 @@ TEST(FactorRow, IsLinear) {
   EXPECT_LE(worst, kSingle);
 }
 
+struct Relit {
+  std::size_t all = 0, gathered = 0;  // sources of all points, and those of them that were gathered anew
+  double difference = 0;
+};
+
+// Gives samples of the room's light that of another solution.
+Relit RelightTo(RecordedRoom& room, const RadiositySolution& other) {
+  SampleCache cache = room.Recorded();
+  Relit relit;
+  relit.all = room.SourcesOf(cache);
+  const PointIrradiance& before = room.pipeline.irradiance();
+  const PointIrradiance now = before.WithSources(SourceSet::FromSolution(other));
+  relit.gathered = cache.Relight(before.sources(), now, kTolerance, {});
+  relit.difference = room.Difference(cache, now);
+  std::printf("%zu of %zu sources gathered, p99 of the difference %.2g\n", relit.gathered, relit.all,
+              relit.difference);
+  return relit;
+}
+
 // Another light over the same sources is a product: nearly nothing is gathered anew, and the values are
 // right.
 TEST(SampleCache, RelightsByProducts) {
   RecordedRoom room;
-  SampleCache cache = room.Recorded();
-  const std::size_t all = room.SourcesOf(cache);
-  const PointIrradiance& before = room.pipeline.irradiance();
-  const PointIrradiance now =
-      before.WithSources(SourceSet::FromSolution(Coloured(room.pipeline.solution(), 0.7, 1.4, 12)));
-  const std::size_t gathered = cache.Relight(before.sources(), now, kTolerance, {});
-  const double difference = room.Difference(cache, now);
-  std::printf("%zu of %zu sources gathered, p99 of the difference %.2g\n", gathered, all, difference);
-  EXPECT_LE(gathered, all / 50);
-  EXPECT_LE(difference, 2 * kTolerance);
+  const Relit relit = RelightTo(room, Coloured(room.pipeline.solution(), 0.7, 1.4, 12));
+  EXPECT_LE(relit.gathered, relit.all / 50);
+  EXPECT_LE(relit.difference, 2 * kTolerance);
 }
 
 // Where the new light varies within what was one source, that source is gathered anew.
 TEST(SampleCache, GathersWhatNoLongerHolds) {
   RecordedRoom room;
-  SampleCache cache = room.Recorded();
-  const std::size_t all = room.SourcesOf(cache);
   RadiositySolution other = room.pipeline.solution();
   Random random(13);
   for (const ElementId leaf : other.forest.AllLeaves())
     other.radiosity[static_cast<std::size_t>(leaf)] *= random.Uniform(0.2, 2);
-  const PointIrradiance& before = room.pipeline.irradiance();
-  const PointIrradiance now = before.WithSources(SourceSet::FromSolution(other));
-  const std::size_t gathered = cache.Relight(before.sources(), now, kTolerance, {});
-  const double difference = room.Difference(cache, now);
-  std::printf("%zu of %zu sources gathered, p99 of the difference %.2g\n", gathered, all, difference);
-  EXPECT_GT(gathered, all / 50);
-  EXPECT_LE(difference, 2 * kTolerance);
+  const Relit relit = RelightTo(room, other);
+  EXPECT_GT(relit.gathered, relit.all / 50);
+  EXPECT_LE(relit.difference, 2 * kTolerance);
 }
 
 // A patch that sent nothing has no terms; when it lights up, they are gathered.

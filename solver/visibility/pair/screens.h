@@ -39,9 +39,9 @@ class ScreenFinder {
   ScreenFinder() = default;
   explicit ScreenFinder(const Scene& scene);
 
-  // Replaces `screens` by at most `count` patches whose estimated solid angle as seen from the points is at
-  // least `least` [sr], the largest first. No screen of the result lies completely in the shadow of another
-  // one.
+  // Replaces the contents of `screens` by at most `count` patches, in descending order of their estimated
+  // solid angles as seen from the points. Each solid angle is at least `least` [sr]. No patch of the result
+  // is completely hidden behind another patch of the result.
   void Find(std::span<const ReceiverPoint> from, double least, std::size_t count,
             std::vector<Screen>& screens) const;
 

@@ -94,9 +94,9 @@ class ImageFrame {
   ImageLine Line(const Cone& cone, int k, Digits digits) const;
 
  private:
-  // Image() uses the difference direction - first_ if |direction - first_| / |direction| is at most 1/10. The
-  // constant is the square of 1/10. If the ratio |direction - first_| / |direction| exceeds 1/10, computing
-  // image coordinates directly from the direction loses less than one digit.
+  // Let r = |direction - first_| / |direction|. Image() computes with the difference direction - first_ if
+  // r^2 is at most this constant, that is, if r <= 1/10. For larger r, image coordinates that are computed
+  // from the direction itself lose less than one decimal digit.
   static constexpr double kNearFirstSquared = 0.01;
 
   Vec3 axis_, e1_, e2_;
