@@ -37,8 +37,8 @@ std::string QuotedList(const std::vector<std::string>& names);
 // format, such as "an OBJ file".
 void RefuseForeignFormat(std::string_view text, std::string_view file, std::string_view wanted);
 
-// The text of a warning: the lines of a file end in a carriage return (CR) without a line feed. Such files are
-// accepted.
+// The text of a warning: the lines of a file end in a carriage return (CR) without a line feed. Such files
+// are accepted.
 inline constexpr std::string_view kLinesEndInCr =
     "lines end in CR alone, as in files of old Macintoshes, and are read so";
 
