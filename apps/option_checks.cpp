@@ -23,7 +23,7 @@ void CheckOptions(const SceneArguments& arguments) {
     if (!IsObeyed(option, solving) && IsGiven(arguments, CommandLineName(option)))
       throw UsageError(
           fmt::format("{} is of the {} solver and means nothing to --solver {}; leave one of them out",
-                      CommandLineName(option), option.solver, solving.solver));
+                      CommandLineName(option), option.solver, solving.SolverName()));
   if (IsGiven(arguments, "--source-error") && solving.max_corrections == 0)
     throw UsageError(
         "--source-error cuts sources for corrections, and --corrections 0 makes none; leave one out");
@@ -43,8 +43,8 @@ void CheckDistances(const SceneArguments& arguments, const Scene& scene) {
 }
 
 std::string CostNote(const SceneArguments& arguments, const ResolvedOptions& resolved) {
-  if (arguments.solving.solver == "dense" || arguments.restart || resolved.solver.oracle != "thesis" ||
-      arguments.solving.eps)
+  if (arguments.solving.SolverName() != "hierarchical" || arguments.restart ||
+      resolved.solver.oracle != "thesis" || arguments.solving.eps)
     return "";
   // Measured at --error 0.02: 99,000 elements for 1,500 in the office, 44,000 for 700 in the Cornell box;
   // with five times the eps fewer than the other oracles make.

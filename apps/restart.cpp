@@ -28,9 +28,10 @@ LoadedScene LoadRestart(SceneArguments& arguments, const std::string& from) {
   arguments.outputs.RefuseInput(from);
   LoadedScene solved = LoadSolution(from);
   StoredSolve run = std::move(*solved.stored);
-  if (run.solving.solver == "dense")
+  if (run.solving.SolverName() != "hierarchical")
     throw InputError(
-        fmt::format("{}: error: the dense solver made it, which keeps no links; solve the scene anew", from));
+        fmt::format("{}: error: the {} solver made it, which keeps no links; solve the scene anew", from,
+                    run.solving.SolverName()));
   if (run.state.report.iterations.empty())
     throw InputError(
         fmt::format("{}: error: its solve ended before it had links; solve the scene anew", from));

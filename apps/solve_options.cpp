@@ -81,8 +81,8 @@ void AddSolveOption(CLI::App& app, const SolveOption& option, PipelineOptions* s
 void AddSolveOptions(CLI::App& app, SceneArguments* arguments) {
   // CLI11 reads options in the order in which they were added: --solver, of the first group, before those of
   // a solver.
-  for (const OptionGroup group : {OptionGroup::kSolving, OptionGroup::kHierarchical, OptionGroup::kDense,
-                                  OptionGroup::kMesh, OptionGroup::kStudies})
+  for (const OptionGroup group : {OptionGroup::kSolving, OptionGroup::kHierarchical, OptionGroup::kSampled,
+                                  OptionGroup::kDense, OptionGroup::kMesh, OptionGroup::kStudies})
     for (const SolveOption& option : OptionTable())
       if (option.group == group) AddSolveOption(app, option, &arguments->solving);
   const auto help = std::make_shared<SolveHelp>();

@@ -28,7 +28,7 @@ constexpr NumberRange kPolyline{1e-9, 1e9, true};
 constexpr NumberRange kSeconds{1e-9, 1e9}, kBytes{1, 1e18};
 constexpr std::uint64_t kMostErrorSamples = 100, kMostErrorPoints = 100'000'000, kMostLines = 1'000'000,
                         kMostDivisions = 64, kMostIterations = 1'000'000, kMostCorrections = 100,
-                        kMostBounces = 1000;
+                        kMostBounces = 1000, kMostRays = kMostRaysPerPoint;
 
 NamedValues<DiscontinuityWeight> WeightsOfDiscontinuities() {
   return {{"thesis", DiscontinuityWeight::kThesis}, {"irradiance", DiscontinuityWeight::kIrradiance}};
@@ -334,9 +334,21 @@ void AddSolvers(Entries& table) {
       {.name = "solver",
        .field = NameField(&PipelineOptions::solver, LightSolvers()),
        .links_depend = true,
-       .help = "How to solve: `hierarchical`, or `dense`, which solves the linear system of a uniform mesh "
-               "directly with exact form factors: a reference for small scenes",
+       .otherwise = "hierarchical, or sampled where a scene has more than 400 polygons",
+       .help = "How to solve: `hierarchical`; `sampled`, by rays, for scenes of many polygons; or `dense`, "
+               "which solves the linear system of a uniform mesh directly with exact form factors: a "
+               "reference for small scenes",
+       .resolved = [](const ResolvedOptions& r) { return OptionValue(r.solver_name); },
        .label = "Solver"});
+  table.push_back(
+      {.name = "rays",
+       .field = IntegerField(&PipelineOptions::rays, {0, kMostRays}),
+       .group = OptionGroup::kSampled,
+       .help =
+           "Rays that gather reflected light at a node of the mesh; a probe takes four times as many; 0: as "
+           "--error asks",
+       .in_older_files = [](const PipelineOptions&) { return OptionValue(std::uint64_t{0}); },
+       .label = "Sampled: rays at a point"});
   table.push_back({.name = "basis",
                    .field = ChoiceField(
                        [](auto& options) -> auto& { return options.dense.degree; }, Bases()),

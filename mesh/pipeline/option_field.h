@@ -55,6 +55,15 @@ template <class Type>
 inline constexpr bool kIsOptional = false;
 template <class Type>
 inline constexpr bool kIsOptional<std::optional<Type>> = true;
+// The type of the value that may be optional.
+template <class Type>
+struct HeldValue {
+  using type = Type;
+};
+template <class Type>
+struct HeldValue<std::optional<Type>> {
+  using type = Type;
+};
 
 // Makes a field. `to_value` and `from_value` convert between OptionValue and the type of the member at
 // `place`.
@@ -105,7 +114,7 @@ OptionField NumberField(Place place, NumberRange range) {
 // The field of an integer. The type of the member must be able to represent all integers of the range.
 template <class Place>
 OptionField IntegerField(Place place, IntegerRange range) {
-  using Held = std::remove_cvref_t<std::invoke_result_t<Place, PipelineOptions&>>;
+  using Held = typename HeldValue<std::remove_cvref_t<std::invoke_result_t<Place, PipelineOptions&>>>::type;
   OptionField field = MakeField(
       OptionKind::kInteger, place, [](Held held) { return OptionValue(static_cast<std::uint64_t>(held)); },
       [](const OptionValue& value) { return static_cast<Held>(std::get<std::uint64_t>(value)); });

@@ -70,7 +70,7 @@ std::optional<OptionValue> DefaultValue(const SolveOption& option) {
 }
 
 bool IsObeyed(const SolveOption& option, const PipelineOptions& options) {
-  return option.solver.empty() || option.solver == options.solver;
+  return option.solver.empty() || option.solver == options.SolverName();
 }
 
 std::vector<std::pair<const SolveOption*, OptionValue>> UsedOptions(const PipelineOptions& options,

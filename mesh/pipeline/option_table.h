@@ -21,7 +21,15 @@ namespace penumbra {
 
 // The groups of options in the help, in the order of the help. The group kStudies contains options that serve
 // only to compare methods, and comes last.
-enum class OptionGroup : std::uint8_t { kRunning, kSolving, kHierarchical, kDense, kMesh, kStudies };
+enum class OptionGroup : std::uint8_t {
+  kRunning,
+  kSolving,
+  kHierarchical,
+  kSampled,
+  kDense,
+  kMesh,
+  kStudies
+};
 
 // The group's title.
 constexpr const char* GroupTitle(OptionGroup group) {
@@ -32,6 +40,8 @@ constexpr const char* GroupTitle(OptionGroup group) {
       return "Solving";
     case OptionGroup::kHierarchical:
       return "Hierarchical solver";
+    case OptionGroup::kSampled:
+      return "Sampled solver";
     case OptionGroup::kDense:
       return "Dense solver";
     case OptionGroup::kMesh:

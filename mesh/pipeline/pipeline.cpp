@@ -13,6 +13,7 @@
 #include "mesh/refinement/shown_mesh.h"
 #include "solver/base/check.h"
 #include "solver/base/stopwatch.h"
+#include "solver/transport/points/final_gather.h"
 #include "solver/transport/solvers/light_solvers.h"
 
 namespace penumbra {
@@ -21,6 +22,9 @@ namespace {
 // The tolerance of samples in measurements for details of their sources, as a fraction of the error. The
 // tolerance changes results by at most this.
 constexpr double kMeasuredShare = 0.1;
+// The irradiance that measures sampled light takes this times the rays, in other directions.
+constexpr std::size_t kTruthRays = 2;
+constexpr std::uint64_t kTruthSeed = 1000;
 // The number of random points that measure the sources. If the fraction of values above the requested error
 // lies between kClearlyMet and kClearlyMissed, more points are used, because these few cannot tell whether it
 // is 1 %.
@@ -55,6 +59,40 @@ std::string MissedError(const PipelineReport& report, const PartError* worst) {
   return line + fmt::format("the worst point is ({:.4g}, {:.4g}, {:.4g})", at.x(), at.y(), at.z());
 }
 
+// Sampled light errs little: its interpolants may use the whole error on nearly the whole area allowed, and a
+// second look would only chase noise.
+constexpr double kSampledShare = 1, kSampledShareAbove = 0.008;
+
+ShownMeshOptions HowToShow(const PipelineOptions& options, const ResolvedOptions& resolved) {
+  ShownMeshOptions how;
+  how.error = options.error;
+  how.error_samples = options.error_samples;
+  how.seed = options.seed;
+  how.solver = resolved.solver;
+  if (resolved.solver_name != "sampled") return how;
+  how.interpolant_share = kSampledShare;
+  how.share_above = kSampledShareAbove;
+  how.most_turns = 0;
+  return how;
+}
+
+// The roots of the solution's quadtrees, with their mean light.
+RadiositySolution RootsOf(const RadiositySolution& solution) {
+  RadiositySolution roots;
+  const Scene& scene = solution.forest.scene();
+  roots.forest = ElementForest(scene);
+  roots.rays_per_point = solution.rays_per_point;
+  const auto count = static_cast<std::ptrdiff_t>(roots.forest.size());
+  const auto beginning = [&](const auto& values) {
+    return std::decay_t<decltype(values)>(values.begin(), values.begin() + count);
+  };
+  roots.irradiance = beginning(solution.irradiance);
+  roots.radiosity = beginning(solution.radiosity);
+  roots.radiosity_spread = beginning(solution.radiosity_spread);
+  roots.spread_below.assign(roots.forest.size(), 0);
+  return roots;
+}
+
 }  // namespace
 
 struct Pipeline::Impl {
@@ -62,9 +100,11 @@ struct Pipeline::Impl {
       : scene(the_scene),
         options(the_options),
         resolved(Resolve(the_scene, the_options)),
+        visibility(PatchVisibility::WithoutPairs(the_scene)),
         irradiance([this](const ExecutionContext& context) { return MakeIrradiance(context); }),
-        shown(scene, visibility, irradiance,
-              {options.error, options.error_samples, options.seed, resolved.solver}) {}
+        shown(scene, visibility, irradiance, HowToShow(options, resolved)) {
+    options.solver = resolved.solver_name;
+  }
 
   const Scene& scene;
   PipelineOptions options;
@@ -73,6 +113,7 @@ struct Pipeline::Impl {
   std::unique_ptr<LightSolver> solver;                // null until Link()
   std::optional<RunLimits::Clock::time_point> begun;  // start of Solve(), from which its limits count
   std::optional<RadiositySolution> stored;            // another pipeline's result, until a step restarts
+  std::optional<RadiositySolution> undivided;         // RootsOf(Solution()), if it has been needed
   std::optional<MeshKind> mesh_kind;                  // of the mesh of the present solution
   bool mesh_unrefined = false;                        // because refinement was not requested
   bool light_refined = false;                         // RefineLight() has been completed for this light
@@ -81,17 +122,33 @@ struct Pipeline::Impl {
   CurrentIrradiance irradiance;  // from the present solution
   ShownMesh shown;
 
-  // A solver, which continues from a solution if one is given; null if the method cannot continue.
-  std::unique_ptr<LightSolver> NewSolver(RadiositySolution* from, const ExecutionContext& context) const {
-    return LightSolvers().Make(options.solver, {scene, visibility, from}, {resolved.solver, options.dense},
-                               context);
+  // A new solver, and the seconds that finding pairs and making the solver have taken.
+  struct NewSolver {
+    std::unique_ptr<LightSolver> solver;
+    double pairs = 0, making = 0;
+  };
+
+  // Makes a solver, which continues from a solution if one is given; null if the method cannot continue.
+  NewSolver MakeSolver(RadiositySolution* from, const ExecutionContext& context) {
+    NewSolver made;
+    const Stopwatch stopwatch;
+    const auto pairs = [&](const ExecutionContext& finding) -> const PatchVisibility& {
+      const Stopwatch seconds;
+      if (!from) visibility = PatchVisibility(scene, finding);
+      made.pairs = seconds.Seconds();
+      return visibility;
+    };
+    made.solver = LightSolvers().Make(resolved.solver_name, {scene, pairs, from},
+                                      {resolved.solver, options.dense, resolved.sampled}, context);
+    made.making = stopwatch.Seconds() - made.pairs;
+    return made;
   }
 
-  // Takes a solver that was made since `stopwatch` began.
-  void Adopt(std::unique_ptr<LightSolver> made, const Stopwatch& stopwatch) {
-    solver = std::move(made);
+  void Adopt(NewSolver made) {
+    solver = std::move(made.solver);
+    AddPhase("link", made.pairs);
     // A solver that solves in its constructor has no steps left.
-    AddPhase(solver->Ready() && !solver->Next() ? "iterate" : "link", stopwatch.Seconds());
+    AddPhase(solver->Ready() && !solver->Next() ? "iterate" : "link", made.making);
     TakeReport();
     Count();
   }
@@ -114,6 +171,16 @@ struct Pipeline::Impl {
   const RadiositySolution& Solution() const {
     PENUMBRA_CHECK(solver != nullptr || stored);
     return stored ? *stored : solver->solution();
+  }
+
+  // The solution whose leaves are divided to a mesh of this kind. Points of a sampled solution gather anew,
+  // so that interpolants begin with whole patches: its elements are small for the sake of other places.
+  const RadiositySolution& SolutionToShow(MeshKind kind) {
+    const RadiositySolution& solution = Solution();
+    if (solution.rays_per_point == 0 || kind == MeshKind::kFlat || kind == MeshKind::kGouraud)
+      return solution;
+    if (!undivided) undivided = RootsOf(solution);
+    return *undivided;
   }
 
   // Null if cancelled.
@@ -161,8 +228,9 @@ struct Pipeline::Impl {
   bool MakeMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is) {
     const bool refines =
         kind == MeshKind::kInterpolant && solver && options.refine != RefineBy::kTransport && !as_it_is;
-    return refines ? shown.MakeRefined(Solution(), OptionsOf(kind), context)
-                   : shown.Make(Solution(), OptionsOf(kind), context);
+    const RadiositySolution& solution = SolutionToShow(kind);
+    return refines ? shown.MakeRefined(solution, OptionsOf(kind), context)
+                   : shown.Make(solution, OptionsOf(kind), context);
   }
 
   // Ends a complete or incomplete step of the solver that took `seconds`. If the light `changed`, discards
@@ -195,6 +263,41 @@ struct Pipeline::Impl {
     AddPhase("interpolate", seconds.mesh.interpolate);
   }
 
+  // Irradiance that is closer to the truth than that of the solution, to measure its error.
+  struct Truths {
+    std::vector<std::shared_ptr<const void>> owned;  // what the samplers refer to
+    std::vector<IrradianceSampler> samplers;
+  };
+
+  // No samplers if cancelled. `context` must outlive the result.
+  Truths BetterLight(const ExecutionContext& context) {
+    Truths truths;
+    if (Solution().rays_per_point > 0) {
+      FinalGatherOptions how;
+      how.rays = kTruthRays * Solution().rays_per_point;
+      how.seed = kTruthSeed + options.seed;
+      how.regather = true;
+      how.shadows.seed = how.seed;
+      const auto gather = std::make_shared<const FinalGather>(Solution(), how);
+      truths.owned = {gather};
+      const auto sample = [gather = gather.get()](PatchId, const ReceiverPoint& at) {
+        return PointIrradianceResult{gather->At(at)};
+      };
+      truths.samplers = {WhileGoing(sample, context)};
+      return truths;
+    }
+    const SourceCells finest = shown.FinestCells(Solution(), context);
+    if (context.Cancelled()) return truths;
+    const std::shared_ptr<const PointIrradiance> better = shown.BetterIrradiance(Solution(), finest, context);
+    if (!better) return truths;
+    const std::shared_ptr<const PointIrradiance> from_shown = shown.ShownIrradiance(Solution(), finest);
+    const double tolerance = kMeasuredShare * options.error;
+    truths.owned = {better, from_shown};
+    truths.samplers = {WhileGoing(NearSampler(*better, tolerance), context),
+                       WhileGoing(NearSampler(*from_shown, tolerance), context)};
+    return truths;
+  }
+
   // Removes the stage's earlier messages; a repeated failure is reported again.
   void DropUnmet(std::string_view stage) {
     std::erase_if(report.unmet, [&](const std::string& line) { return line.starts_with(stage); });
@@ -203,6 +306,7 @@ struct Pipeline::Impl {
   // Discards the results from an earlier solution.
   void Forget() {
     irradiance.Reset();
+    undivided.reset();
     shown.Forget();
     mesh_kind.reset();
     light_refined = false;
@@ -255,14 +359,10 @@ Pipeline::~Pipeline() = default;
 void Pipeline::Link(const ExecutionContext& context) {
   if (impl_->solver && impl_->solver->Ready()) return;
   context.Report("link", 0);
-  const Stopwatch linking;
   if (impl_->stored) impl_->TakeStored();
   impl_->shown.ForgetVisibility();
   if (impl_->solver) impl_->Forget();  // of a cancelled linking
-  impl_->visibility = PatchVisibility(impl_->scene, context);
-  impl_->AddPhase("link", linking.Seconds());
-  const Stopwatch making;
-  impl_->Adopt(impl_->NewSolver(nullptr, context), making);
+  impl_->Adopt(impl_->MakeSolver(nullptr, context));
 }
 
 bool Pipeline::Step(SolverStep step, const ExecutionContext& context) {
@@ -289,11 +389,10 @@ std::optional<SolverStep> Pipeline::NextStep() const {
 std::optional<IterationReport> Pipeline::Relight(const ExecutionContext& context) {
   if (impl_->stored) {
     // Continuing takes no form factors, and is not cancelled: corrections would be those of other links.
-    const Stopwatch making;
-    std::unique_ptr<LightSolver> solver = impl_->NewSolver(&*impl_->stored, ExecutionContext());
-    if (!solver) return std::nullopt;
+    Impl::NewSolver made = impl_->MakeSolver(&*impl_->stored, ExecutionContext());
+    if (!made.solver) return std::nullopt;
     impl_->TakeStored();
-    impl_->Adopt(std::move(solver), making);
+    impl_->Adopt(std::move(made));
   }
   Link(context);
   const Stopwatch stopwatch;
@@ -447,19 +546,12 @@ void Pipeline::Measure(const ExecutionContext& context) {
   }
   const std::uint64_t seed = impl_->options.seed;
   const IrradianceMesh& mesh = impl_->shown.mesh();
-  const SourceCells finest = impl_->shown.FinestCells(impl_->Solution(), running);
+  const Impl::Truths truths = impl_->BetterLight(running);
   if (ended()) return;
-  const std::unique_ptr<const PointIrradiance> better =
-      impl_->shown.BetterIrradiance(impl_->Solution(), finest, running);
-  if (!better && ended()) return;
-  const std::unique_ptr<const PointIrradiance> shown =
-      impl_->shown.ShownIrradiance(impl_->Solution(), finest);
-  const double tolerance = kMeasuredShare * report.error_asked;
-  const IrradianceSampler sampler = WhileGoing(NearSampler(irradiance(), tolerance), running);
-  const IrradianceSampler truths[] = {WhileGoing(NearSampler(*better, tolerance), running),
-                                      WhileGoing(NearSampler(*shown, tolerance), running)};
+  const IrradianceSampler sampler =
+      WhileGoing(NearSampler(irradiance(), kMeasuredShare * report.error_asked), running);
   const auto measure = [&](std::size_t at) {
-    return MeasureError(impl_->scene, mesh, sampler, truths, {at, seed, report.error_asked});
+    return MeasureError(impl_->scene, mesh, sampler, truths.samplers, {at, seed, report.error_asked});
   };
   MeasuredError error = measure(std::min(points, kFewSourcePoints));
   if (points > kFewSourcePoints && error.above > kClearlyMet && error.above < kClearlyMissed)
@@ -479,18 +571,17 @@ void Pipeline::Measure(const ExecutionContext& context) {
 void Pipeline::CheckErrorRoughly(const ExecutionContext& context) {
   PENUMBRA_CHECK(impl_->mesh_kind.has_value());
   const RunLimits limits = impl_->LimitsSinceSolve(context);
-  if (*impl_->mesh_kind != MeshKind::kInterpolant || !impl_->solver || !impl_->solver->TakesLight() ||
-      limits.context().Cancelled() || !impl_->solver->SeenFromLeaves(limits.context()))
+  const bool can_tell =
+      impl_->solver && (impl_->solver->TakesLight() || impl_->Solution().rays_per_point > 0);
+  if (*impl_->mesh_kind != MeshKind::kInterpolant || !can_tell || limits.context().Cancelled() ||
+      !impl_->solver->SeenFromLeaves(limits.context()))
     return;
   context.Report("measure", 0);
   PipelineReport& report = impl_->report;
-  const SourceCells finest = impl_->shown.FinestCells(impl_->Solution(), limits.context());
-  const std::unique_ptr<const PointIrradiance> better =
-      impl_->shown.BetterIrradiance(impl_->Solution(), finest, limits.context());
-  if (!better) return;
-  const double tolerance = kMeasuredShare * report.error_asked;
+  const Impl::Truths truths = impl_->BetterLight(limits.context());
+  if (truths.samplers.empty()) return;
   const RepresentationError seen =
-      MeasureRepresentationError(impl_->scene, impl_->shown.mesh(), NearSampler(*better, tolerance),
+      MeasureRepresentationError(impl_->scene, impl_->shown.mesh(), truths.samplers[0],
                                  std::min(impl_->options.error_points, kGlancePoints), impl_->options.seed);
   impl_->DropUnmet("error: ");
   if (seen.p99_at_least > report.error_asked)

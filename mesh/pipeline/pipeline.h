@@ -85,19 +85,30 @@ struct PipelineOptions {
   PointIrradianceOptions point;     // Appendix A, 9 and 10
   std::size_t error_points = 1000;  // random points for the interpolants' error; 0: not measured
   std::uint64_t seed = 1;
-  std::string solver = "hierarchical";  // a name in LightSolvers()
-  DenseOptions dense;                   // for the solver `dense`
+  // A name in LightSolvers(). If omitted, the solver depends on the scene (SolverFor); options of other
+  // solvers than SolverName() are refused.
+  std::optional<std::string> solver;
+  std::string SolverName() const { return solver.value_or("hierarchical"); }
+  DenseOptions dense;  // for the solver `dense`
+  // For the solver `sampled`: SampledOptions::point_rays; 0: depends on `error`.
+  std::size_t rays = 0;
 };
 
 // The values of all options that a solve uses, including those that the user has omitted.
 struct ResolvedOptions {
+  std::string solver_name;  // in LightSolvers()
   SolverOptions solver;
+  SampledOptions sampled;
   DiscontinuityOptions discontinuities;
   // True if the interpolants of a mesh may refine the light of the solution (Pipeline::RefineLight). False
   // with --refine transport, where the light is determined by links alone, and with --source-error, where the
   // solver's corrections divide the sources.
   bool refine_light = true;
 };
+// The solver that PipelineOptions::solver names. If the option is omitted: `sampled` for scenes with so many
+// polygons that pairs of polygons would take minutes, unless an option is set that only `hierarchical` obeys;
+// otherwise `hierarchical`.
+std::string SolverFor(const Scene& scene, const PipelineOptions& options);
 // Throws InputError if an option is the name of a method that does not exist.
 ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options);
 

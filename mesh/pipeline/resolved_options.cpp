@@ -1,8 +1,10 @@
 // Options that follow from the requested error.
 
 #include <algorithm>
+#include <cmath>
 
 #include "mesh/discontinuities/discontinuity_choices.h"
+#include "mesh/pipeline/option_table.h"
 #include "mesh/pipeline/pipeline.h"
 #include "solver/transport/links/link_form_factor_methods.h"
 #include "solver/transport/links/refinement_oracles.h"
@@ -31,6 +33,11 @@ constexpr double kCorrectionOfError = 0.04;  // SolverOptions::correction_tolera
 // refinement.
 constexpr double kCoarseEps = 4;
 
+// Scenes with more patches are solved by sampling unless the user says otherwise.
+constexpr std::size_t kMostPatchesOfPairs = 400;
+// The error for which the defaults of SampledOptions suffice.
+constexpr double kSampledError = 0.1;
+
 struct SceneTotals {
   double area = 0, flux = 0, reflectance = 0, strongest = 0;  // of the brightest channel
 };
@@ -51,14 +58,41 @@ SceneTotals Total(const Scene& scene) {
   return totals;
 }
 
+// The options of the sampled solver for the requested error.
+SampledOptions SamplingFor(const PipelineOptions& options) {
+  SampledOptions sampled;
+  const double finer = kSampledError / options.error;  // than the settings' defaults
+  const auto scaled = [&](std::size_t number, double power, std::size_t least, std::size_t most) {
+    const double value = static_cast<double>(number) * std::pow(finer, power);
+    return static_cast<std::size_t>(std::clamp(value, static_cast<double>(least), static_cast<double>(most)));
+  };
+  sampled.elements = scaled(sampled.elements, 1, 2'000, 500'000);
+  sampled.relative_spread = std::clamp(sampled.relative_spread / std::sqrt(finer), 0.02, 0.5);
+  sampled.element_rays = scaled(sampled.element_rays, 0.5, 32, 1024);
+  sampled.point_rays = options.rays > 0 ? options.rays : scaled(sampled.point_rays, 1.5, 64, 65'536);
+  sampled.relative_cutoff = options.relative_cutoff.value_or(kCutoffOfError * options.error);
+  return sampled;
+}
+
 }  // namespace
+
+std::string SolverFor(const Scene& scene, const PipelineOptions& options) {
+  if (options.solver) return *options.solver;
+  if (scene.patches.size() <= kMostPatchesOfPairs) return "hierarchical";
+  const PipelineOptions defaults;
+  for (const SolveOption& option : OptionTable())
+    if (option.solver == "hierarchical" && option.field.get(options) != option.field.get(defaults))
+      return "hierarchical";
+  return "sampled";
+}
 
 ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   const SceneTotals totals = Total(scene);
   // The mean irradiance if no light escapes and the light spreads evenly.
   const double mean = totals.area > 0 ? totals.flux / totals.area / (1 - totals.reflectance) : 0;
   ResolvedOptions resolved;
-  LightSolvers().Find(options.solver);
+  resolved.solver_name = LightSolvers().Find(SolverFor(scene, options)).name;
+  resolved.sampled = SamplingFor(options);
   const double coarse = options.refine == RefineBy::kRepresentation ? kCoarseEps : 1;
   resolved.solver.eps = options.eps.value_or(coarse * kEpsOfMeanIrradiance * options.error * mean);
   resolved.solver.min_area = options.min_area.value_or(kMinAreaOfScene * totals.area);

@@ -104,6 +104,7 @@ void CheckLight(const RadiositySolution& solution) {
   Demand(All(solution.irradiance, is_finite) && All(solution.radiosity, is_finite) &&
              All(solution.radiosity_spread, IsAmount) && All(solution.spread_below, IsAmount),
          "an element's light is no number");
+  Demand(solution.rays_per_point <= kMostRaysPerPoint, "its points gather along too many rays");
   for (const Link& link : solution.links.links) {
     Demand(IsIndex(link.receiver, elements) && IsIndex(link.source, elements), "a link has no ends");
     Demand(std::isfinite(link.form_factor) && IsAmount(link.variation) &&

@@ -19,7 +19,7 @@
 namespace penumbra {
 
 // The version of the file's layout, incremented with every change. Files with another version are rejected.
-inline constexpr int kSolutionSchema = 3;
+inline constexpr int kSolutionSchema = 4;
 
 // The contents of a file.
 struct StoredSolution {

@@ -6,8 +6,10 @@
 
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "mesh/interpolants/irradiance_mesh.h"
@@ -92,6 +94,9 @@ void DescribeLight(Archive& archive, Solution& solution) {
       .Column("irradiance", &Fragment::irradiance)
       .Column("radiosity", &Fragment::radiosity)
       .Lists("polygon", &Fragment::polygon);
+  std::vector<std::uint64_t> rays = {solution.rays_per_point};
+  Table(archive, "gathering", rays).Column("rays_per_point", std::identity());
+  if constexpr (!std::is_const_v<Solution>) solution.rays_per_point = rays.size() == 1 ? rays[0] : 0;
 }
 
 // `kind` is a vector with one element.

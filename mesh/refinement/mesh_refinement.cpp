@@ -79,16 +79,16 @@ struct Population {
   std::vector<char> has;  // by patch
   double area = 0;        // [m^2]
   double error = 0;
-  double share = kShareAbove;  // of the area, which may exceed the error
+  double share = 0;  // of the area, which may exceed the error
 };
 
 // The populations are the patches that are seen, those that are not (no picture shows the irradiance of a
 // black wall, but a user may probe it), and each part of the former, so that a large part does not hide the
 // errors of a small part.
-std::vector<Population> FindPopulations(const Scene& scene, double error) {
+std::vector<Population> FindPopulations(const Scene& scene, double error, double share) {
   const std::vector<double> seen = ReflectingAreas(scene);
   const std::size_t count = scene.patches.size();
-  Population lit{std::vector<char>(count, 0), 0, error}, unseen = lit;
+  Population lit{std::vector<char>(count, 0), 0, error, share}, unseen = lit;
   for (std::size_t p = 0; p < count; ++p) {
     Population& of = seen[p] > 0 ? lit : unseen;
     of.has[p] = 1;
@@ -99,7 +99,7 @@ std::vector<Population> FindPopulations(const Scene& scene, double error) {
   if (parts.size() < 2) return populations;
   for (const ScenePart& part : parts) {
     // A part has few triangles, so that one of them is a large share of its area.
-    Population own{std::vector<char>(count, 0), 0, kPartError * error, kShareAbove / 2};
+    Population own{std::vector<char>(count, 0), 0, kPartError * error, share / 2};
     for (const PatchId p : part.patches) {
       own.has[static_cast<std::size_t>(p)] = 1;
       own.area += seen[static_cast<std::size_t>(p)];
@@ -190,7 +190,7 @@ RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options
                        const RefinementMemory& memory) {
   PENUMBRA_CHECK(mesh_options.order != InterpolantOrder::kConstant);
   const Scene& scene = light.solution.forest.scene();
-  const std::vector<Population> populations = FindPopulations(scene, options.error);
+  const std::vector<Population> populations = FindPopulations(scene, options.error, options.share_above);
   SampleCache own_samples;
   SampleCache* const samples = memory.samples ? memory.samples : &own_samples;
   std::optional<LocalPassCache> own;  // from one round to the next

@@ -24,20 +24,21 @@
 
 namespace penumbra {
 
+// The fraction of the fronts' area that may exceed the error: the 1 % above a 99th percentile, minus an
+// allowance for errors that measurements at single points overlook.
+inline constexpr double kShareAbove = 0.005;
+
 struct MeshRefinementOptions {
-  // The relative error must be at most `error` on a fraction 1 - kShareAbove of the area of the fronts that
+  // The relative error must be at most `error` on a fraction 1 - share_above of the area of the fronts that
   // reflect (ReflectingAreas), and on the same fraction of the area of the other fronts. In each part of the
   // scene (PartsOf), the limit is kPartError * error.
   double error = 0.02;
+  double share_above = kShareAbove;
   double min_area = 0;  // no leaf becomes smaller than this [m^2]
   int samples = 1;      // per side of a triangle: samples^2 points measure it (thesis, Appendix A)
   int max_rounds = 8;
   std::size_t max_triangles = 2'000'000;  // no round starts with more: about 2 GB with their samples
 };
-
-// The fraction of the fronts' area that may exceed the error: the 1 % above a 99th percentile, minus an
-// allowance for errors that measurements at single points overlook.
-inline constexpr double kShareAbove = 0.005;
 
 struct RefinedMesh {
   MeshPlan plan;  // with the leaves divided, and the discontinuities wanted, for the mesh
@@ -65,7 +66,7 @@ struct RefinementMemory {
   SampleCache* samples = nullptr;   // samples of the same sampler
 };
 
-// Refines the mesh until the fraction of the area where the error exceeds its limit is at most kShareAbove,
+// Refines the mesh until the fraction of the area where the error exceeds its limit is at most share_above,
 // until no step reduces the error, or until max_rounds rounds have been made. Each round chooses the steps
 // with the largest benefit / cost, and no more steps than necessary. A step divides a leaf, or adds an edge
 // along a discontinuity that had been omitted because of its small weight. If cancelled, the function returns

@@ -13,8 +13,6 @@
 namespace penumbra {
 namespace {
 
-// The fraction of the error for the interpolants, for a 99th percentile.
-constexpr double kInterpolantShare = 0.6;
 // The tolerance of the interpolants' samples for details of their sources, as a fraction of the error. The
 // means of the samples correct the light of the sources, so that a common error grows from bounce to bounce.
 constexpr double kSampleShare = 0.2;
@@ -37,7 +35,6 @@ constexpr int kRoundsForSources = 2;
 // the two, within limits.
 constexpr std::size_t kEvaluationsALook = 20, kFewestLooks = 1000, kMostLooks = 3000;
 constexpr double kOverlooked = 0.9, kLeastOnward = 0.5, kMostOnward = 0.9;
-constexpr int kMostTurns = 3;
 // The factor by which each further turn reduces MeshOptions::smooth.
 constexpr double kOnwardSmooth = 0.25;
 // Sources are divided while their score is above kFinestScore times the error; for measurements of the error,
@@ -193,7 +190,7 @@ bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& 
 // changes return by the bounces between walls that face each other. False if cancelled.
 bool ShownMesh::SettleSources(LightSolver& solver, const MeshOptions& options,
                               const ExecutionContext& context) {
-  MeshRefinementOptions rough = RefinementTo(kInterpolantShare * options_.error);
+  MeshRefinementOptions rough = RefinementTo(options_.interpolant_share * options_.error);
   rough.max_rounds = kRoundsForSources;
   double before = 0, ratio_before = 0;  // change of the last pass, and its ratio to the change before
   for (int pass = 1;; ++pass) {
@@ -263,12 +260,13 @@ std::optional<double> ShownMesh::RefineSources(LightSolver& solver, const Execut
 // requested error. False if cancelled before the first mesh was refined.
 bool ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOptions& options,
                              const ExecutionContext& context) {
-  const double error = kInterpolantShare * options_.error;
+  const double error = options_.interpolant_share * options_.error;
   std::optional<RefinedMesh> refined = Refine(solution, options, RefinementTo(error), Rows::kNone, context);
   if (!refined) return false;
   double onward = error;
   MeshOptions closer = options;
-  for (int turn = 1; refined && turn <= kMostTurns && refined->share_above <= kShareAbove; ++turn) {
+  for (int turn = 1; refined && turn <= options_.most_turns && refined->share_above <= options_.share_above;
+       ++turn) {
     const std::size_t points =
         std::clamp(refined->report.counts.point_evaluations / kEvaluationsALook, kFewestLooks, kMostLooks);
     const double seen = LookAround(points, options_.seed + 1 + static_cast<std::uint64_t>(turn), context);
@@ -300,6 +298,7 @@ double ShownMesh::LookAround(std::size_t points, std::uint64_t seed, const Execu
 MeshRefinementOptions ShownMesh::RefinementTo(double error) const {
   MeshRefinementOptions refinement;
   refinement.error = error;
+  refinement.share_above = options_.share_above;
   refinement.min_area = options_.solver.min_area;
   refinement.samples = options_.error_samples;
   return refinement;

@@ -34,6 +34,10 @@ struct ShownMeshOptions {
   int error_samples = 1;  // see MeasureTriangles()
   std::uint64_t seed = 1;
   SolverOptions solver;  // the options of the solution
+  // The fraction of the error for the interpolants, for a 99th percentile.
+  double interpolant_share = 0.6;
+  double share_above = kShareAbove;  // MeshRefinementOptions::share_above
+  int most_turns = 3;                // of refinement after random points have tested the mesh
 };
 
 // Seconds spent on sources and on meshes.

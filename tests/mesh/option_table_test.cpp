@@ -122,7 +122,7 @@ TEST(OptionTable, OptionalEntriesAreLeftOut) {
   }
   EXPECT_THAT(left_out, UnorderedElementsAre("eps", "min-area", "weight", "min-discontinuity-weight",
                                              "min-wanted-weight", "source-error", "relative-cutoff",
-                                             "time-limit", "memory-limit"));
+                                             "time-limit", "memory-limit", "solver"));
 }
 
 // The keys of reports and solution files, in order: other programs read them.
@@ -135,7 +135,7 @@ TEST(OptionTable, KeysAndTheirOrderStay) {
                                 "refine", "corrections", "source_error", "acceleration", "scheme", "oracle",
                                 "multigrid", "relative_cutoff", "iterations", "time_limit", "memory_limit",
                                 "bounces", "nudge", "source_push_off", "min_backprojection_segment",
-                                "form_factors", "solver", "basis", "divisions", "error_points"));
+                                "form_factors", "solver", "rays", "basis", "divisions", "error_points"));
 }
 
 std::vector<std::string> NamesWhere(bool (*holds)(const SolveOption&)) {
@@ -157,6 +157,8 @@ TEST(OptionTable, LinkOptionsAndSolversStay) {
                            "scheme", "oracle", "multigrid", "iterations", "bounces", "form-factors"));
   EXPECT_THAT(NamesWhere([](const SolveOption& option) { return option.solver == "dense"; }),
               UnorderedElementsAre("basis", "divisions"));
+  EXPECT_THAT(NamesWhere([](const SolveOption& option) { return option.solver == "sampled"; }),
+              UnorderedElementsAre("rays"));
 }
 
 // Options that say how links are made go over, the solver among them, and no other.
@@ -185,7 +187,7 @@ TEST(OptionTable, LinkOptionsAreTaken) {
   EXPECT_EQ(ToldOf(to)["divisions"], OptionValue(std::uint64_t{16}));
   EXPECT_FALSE(to.eps);
   TakeLinkOptions(from, &to);
-  EXPECT_EQ(to.solver, "hierarchical");
+  EXPECT_EQ(to.SolverName(), "hierarchical");
 }
 
 // What is out of range is refused in the words that users know.
@@ -221,7 +223,8 @@ TEST(OptionTable, RangesStay) {
       {"source-push-off", from_zero},
       {"min-backprojection-segment", "a number from 0 to 1"},
       {"form-factors", "one of cubature|exact|disk"},
-      {"solver", "one of hierarchical|dense"},
+      {"solver", "one of hierarchical|dense|sampled"},
+      {"rays", "an integer from 0 to 10000000"},
       {"basis", "one of constant|linear|quadratic"},
       {"divisions", "a power of two from 1 to 64"},
       {"error-points", "an integer from 0 to 100000000"}};

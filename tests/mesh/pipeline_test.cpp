@@ -219,8 +219,8 @@ TEST(Pipeline, TakesAnySolver) {
   LightSolvers().Add({"lamps",
                       "lamps alone",
                       {},
-                      [](const SolverScene& in, const LightSolverOptions&, const ExecutionContext&) {
-                        return std::make_unique<LampSolver>(in.scene, in.visibility);
+                      [](const SolverScene& in, const LightSolverOptions&, const ExecutionContext& context) {
+                        return std::make_unique<LampSolver>(in.scene, in.pairs(context));
                       }});
   const Scene scene = FurnishedRoom();
   PipelineOptions options;

@@ -357,7 +357,8 @@ TEST(LightSolver, EverySolverIsDrivenBySteps) {
   options.dense = {.divisions = 1, .tolerance = 0.01, .max_points = 100};
   std::vector<Rgb> of_floor;
   for (const std::string& name : LightSolvers().Names()) {
-    const std::unique_ptr<LightSolver> solver = LightSolvers().Make(name, {scene, visibility}, options, {});
+    const PairFinder pairs = [&](const ExecutionContext&) -> const PatchVisibility& { return visibility; };
+    const std::unique_ptr<LightSolver> solver = LightSolvers().Make(name, {scene, pairs}, options, {});
     ASSERT_TRUE(solver->Ready());
     std::vector<SolverStep> steps;
     EXPECT_TRUE(SolveStepByStep(*solver, {}, [&](SolverStep step) { steps.push_back(step); }));

@@ -70,7 +70,7 @@ TEST(SolveSettings, OptionsOfASolverAreKept) {
   viewer.Set("basis", "linear");
   viewer.Set("divisions", "2");
   EXPECT_EQ(shown("basis"), "linear");
-  EXPECT_EQ(viewer.solving().solver, "hierarchical");
+  EXPECT_EQ(viewer.solving().SolverName(), "hierarchical");
   viewer.Set("solver", "dense");
   EXPECT_EQ(shown("basis"), "linear");
   EXPECT_EQ(FindOption("basis")->field.get(viewer.solving()), OptionValue("linear"));

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -56,6 +57,9 @@ struct Fragment {
 // The fragments of a leaf. REQUIRES: `fragments` is sorted by leaf.
 std::span<const Fragment> FragmentsOf(std::span<const Fragment> fragments, ElementId leaf);
 
+// The upper bound of RadiositySolution::rays_per_point.
+inline constexpr std::size_t kMostRaysPerPoint = 10'000'000;
+
 struct RadiositySolution {
   ElementForest forest;
   LinkSet links;
@@ -68,6 +72,9 @@ struct RadiositySolution {
   // For each element, the root mean square deviation of the radiosities of the leaves below the element from
   // their mean [W/m^2]. The deviation of one leaf is the maximum over the channels.
   std::vector<double> radiosity_spread;
+  // The number of rays by which points gather reflected light (FinalGather); 0: the light of every leaf is
+  // gathered exactly (PointIrradiance).
+  std::size_t rays_per_point = 0;
   // For each element, the root mean square of radiosity_spread over its children [W/m^2]: the variation
   // within the children, which remains if each child is represented by its mean radiosity.
   std::vector<double> spread_below;

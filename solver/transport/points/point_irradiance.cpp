@@ -34,6 +34,19 @@ constexpr double kMostlyHidden = 4;
 // stay valid while the sum of the sizes of their errors is at most this times the tolerance.
 constexpr double kHolds = 8;
 
+// Values that the user asks for get more rays than the nodes of a mesh, in other directions.
+constexpr std::size_t kCloserRays = 4;
+constexpr int kCloserDivisions = 6;
+constexpr double kCloserExact = 0.005;
+
+FinalGatherOptions Closer(FinalGatherOptions options) {
+  options.rays *= kCloserRays;
+  options.seed += 1;
+  options.shadows.divisions = kCloserDivisions;
+  options.shadows.exact_above = kCloserExact;
+  return options;
+}
+
 // A source with an estimate of its unoccluded light.
 struct RankedSource {
   double light;  // estimate, in the brightest channel
@@ -54,6 +67,11 @@ PointIrradiance::PointIrradiance(const RadiositySolution& solution, const PatchV
       options_(options) {
   ChooseMethod();
   BuildHierarchies();
+  if (solution.rays_per_point == 0) return;
+  FinalGatherOptions gathering;
+  gathering.rays = solution.rays_per_point;
+  gather_.emplace(solution, gathering);
+  closer_gather_ = gather_->With(Closer(gather_->options()));
 }
 
 PointIrradiance::PointIrradiance(const Scene& scene, const PatchVisibility& visibility, SourceSet sources,
@@ -148,6 +166,7 @@ void PointIrradiance::GatherOnPatch(PatchId patch, const ReceiverPoint& at, Gath
 PointIrradianceResult PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given,
                                                IrradianceParts* parts) const {
   const ReceiverPoint at = Nudged(given);
+  if (closer_gather_) return {closer_gather_->At(at, parts), closer_gather_->IsOneSided(at), nullptr};
   Gathering gathering(scene_, sources_, at, options_, parts);
   GatherOnPatch(patch, at, gathering);
   return {gathering.irradiance(), gathering.one_sided(), nullptr};
@@ -157,6 +176,7 @@ PointIrradianceResult PointIrradiance::NearlyOnPatch(PatchId patch, const Receiv
                                                      double tolerance) const {
   tolerance *= options_.part_of_tolerance;
   const ReceiverPoint at = Nudged(given);
+  if (gather_) return {gather_->At(at), gather_->IsOneSided(at), nullptr};
   Gathering gathering(scene_, sources_, at, options_, nullptr);
   if (options_.method != nullptr || forest_ == nullptr) {
     GatherOnPatch(patch, at, gathering);
@@ -280,6 +300,7 @@ Rgb PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given, std::spa
 
 PointIrradianceResult PointIrradiance::Anywhere(const ReceiverPoint& given, IrradianceParts* parts) const {
   const ReceiverPoint at = Nudged(given);
+  if (closer_gather_) return {closer_gather_->At(at, parts), closer_gather_->IsOneSided(at), nullptr};
   Gathering gathering(scene_, sources_, at, options_, parts);
   const Scratch<std::vector<PatchId>> found;
   const Scratch<std::vector<Screen>> screens;

@@ -1,7 +1,8 @@
 // solver/transport/points/point_irradiance.h
 //
 // IrradianceAtPoint() (thesis, chapter 6): the irradiance at a point from the leaves of a solution, with
-// exact form factors and exact visibility. Blockers are cut out of the sources, never sampled.
+// exact form factors and exact visibility. Blockers are cut out of the sources, never sampled, unless the
+// solution says otherwise (RadiositySolution::rays_per_point): then FinalGather gives the irradiance.
 //
 // At contacts (thesis 6.3, 6.4), the irradiance is a one-sided limit, and no small distance is involved: if
 // the plane of a source or a blocker contains the point, the point's approach direction decides on which side
@@ -11,11 +12,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "solver/geometry/vec.h"
 #include "solver/scene/scene.h"
 #include "solver/transport/points/factor_row.h"
+#include "solver/transport/points/final_gather.h"
 #include "solver/transport/points/gathering.h"
 #include "solver/transport/points/leaf_visibility.h"
 #include "solver/transport/sources/source_set.h"
@@ -66,7 +69,7 @@ class PointIrradiance {
   // NearlyOnPatch(), and the row of form factors in the result, if CanRecord(). Every source that lights the
   // point has terms in the row, however dim.
   PointIrradianceResult RecordOnPatch(PatchId patch, const ReceiverPoint& at, double tolerance) const;
-  bool CanRecord() const { return options_.method == nullptr && forest_ != nullptr; }
+  bool CanRecord() const { return options_.method == nullptr && forest_ != nullptr && !gather_; }
   // Replaces, in a row of these sources, the terms of sources that do not hold to a few times the tolerance
   // for the present radiosities: since a node's radiosity varies too much, or a term has no node (-1). Adds
   // the terms of `new_sources`. Returns the number of sources that were gathered. REQUIRES: CanRecord().
@@ -118,6 +121,8 @@ class PointIrradiance {
   PatchHierarchy patches_;                         // all patches
   PatchHierarchy source_patches_;                  // the patches that send light
   ScreenFinder screens_;
+  // For solutions with RadiositySolution::rays_per_point only: what NearlyOnPatch() returns, and all others.
+  std::optional<FinalGather> gather_, closer_gather_;
 };
 
 }  // namespace penumbra

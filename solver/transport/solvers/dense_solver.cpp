@@ -149,7 +149,7 @@ LightSolverRegistry::Method DenseSolverMethod() {
           {"basis", "divisions"},
           [](const SolverScene& in, const LightSolverOptions& options, const ExecutionContext& context) {
             if (in.goes_on_from) return std::unique_ptr<DenseSolver>();
-            return std::make_unique<DenseSolver>(in.scene, in.visibility, options.dense, context);
+            return std::make_unique<DenseSolver>(in.scene, in.pairs(context), options.dense, context);
           }};
 }
 

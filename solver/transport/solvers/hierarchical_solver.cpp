@@ -321,11 +321,11 @@ LightSolverRegistry::Method HierarchicalSolverMethod() {
           {"eps", "refine", "relative-cutoff", "corrections", "source-error", "acceleration", "scheme",
            "oracle", "multigrid", "iterations", "bounces", "form-factors"},
           [](const SolverScene& in, const LightSolverOptions& options, const ExecutionContext& context) {
+            const PatchVisibility& pairs = in.pairs(context);
             return in.goes_on_from
-                       ? std::make_unique<HierarchicalSolver>(in.scene, in.visibility, options.hierarchical,
+                       ? std::make_unique<HierarchicalSolver>(in.scene, pairs, options.hierarchical,
                                                               std::move(*in.goes_on_from), context)
-                       : std::make_unique<HierarchicalSolver>(in.scene, in.visibility, options.hierarchical,
-                                                              context);
+                       : std::make_unique<HierarchicalSolver>(in.scene, pairs, options.hierarchical, context);
           }};
 }
 

@@ -103,10 +103,14 @@ using StepObserver = std::function<void(SolverStep)>;
 // SolveStepByStep(). Returns false if cancelled.
 bool SolveStepByStep(LightSolver& solver, const ExecutionContext& context, const StepObserver& observer = {});
 
-// The input of a solver. Scene and visibility must outlive the solver.
+// Finds the pairs of patches that may see each other, at the first call; all calls return the same object.
+// The object has no pairs if the context is cancelled.
+using PairFinder = std::function<const PatchVisibility&(const ExecutionContext&)>;
+
+// The input of a solver. The scene and the result of `pairs` outlive the solver.
 struct SolverScene {
   const Scene& scene;
-  const PatchVisibility& visibility;
+  PairFinder pairs;
   // If not null, a solution of the same scene by the same method. The new solver moves the solution into
   // itself and continues from there. A method without Relight() does not touch the solution, and makes a null
   // pointer instead of a solver.

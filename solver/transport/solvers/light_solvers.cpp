@@ -4,11 +4,13 @@
 
 #include "solver/transport/solvers/dense_solver.h"
 #include "solver/transport/solvers/hierarchical_solver.h"
+#include "solver/transport/solvers/sampled_solver.h"
 
 namespace penumbra {
 
 LightSolverRegistry& LightSolvers() {
-  static LightSolverRegistry registry("solver", {HierarchicalSolverMethod(), DenseSolverMethod()});
+  static LightSolverRegistry registry(
+      "solver", {HierarchicalSolverMethod(), DenseSolverMethod(), SampledSolverMethod()});
   return registry;
 }
 

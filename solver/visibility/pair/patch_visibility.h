@@ -39,6 +39,10 @@ class PatchVisibility {
   PatchVisibility() = default;
   // Finds the pairs of the scene. If the context is cancelled, the object has no pairs.
   explicit PatchVisibility(const Scene& scene, const ExecutionContext& context = ExecutionContext());
+  // No pairs, for methods that do not need them.
+  static PatchVisibility WithoutPairs(const Scene& scene) {
+    return PatchVisibility({std::vector<std::size_t>(scene.patches.size() + 1, 0), {}, {}});
+  }
   // Restores an object from the result of rows() of another object.
   explicit PatchVisibility(Rows rows) : rows_(std::move(rows)) {}
 

@@ -20,9 +20,11 @@ constexpr double kSamePlace = 1e-6;
 // Embree passes the intersection context to the filter, so the context carries the ray's own patch.
 struct FilterContext {
   RTCIntersectContext base;
-  unsigned int ignore;
-  const std::vector<Vec3>* backs;  // the patches' normals, if rays pass through backs; otherwise null
-  Vec3 direction;
+  unsigned int ignore = RTC_INVALID_GEOMETRY_ID;
+  const std::vector<Vec3>* backs = nullptr;  // the patches' normals, if rays pass through backs
+  Vec3 direction = Vec3::Zero();
+
+  FilterContext() { rtcInitIntersectContext(&base); }
 };
 
 void FilterHits(const RTCFilterFunctionNArguments* args) {
@@ -34,6 +36,9 @@ void FilterHits(const RTCFilterFunctionNArguments* args) {
     if (patch == context->ignore || back) args->valid[i] = 0;
   }
 }
+
+// Makes Embree call the filter for hits of rays with this context. Rays without a filter are faster.
+void UseFilter(FilterContext& context) { context.base.filter = &FilterHits; }
 
 // Throws if the condition `is_so` is false or Embree reports an error. Throws std::bad_alloc if memory is
 // exhausted; Embree reports this as an unknown error if it happens in its tasks or threads. Embree's objects
@@ -67,7 +72,8 @@ RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   Demand(nullptr, impl_->device != nullptr);
   impl_->scene = rtcNewScene(impl_->device);
   Demand(impl_->device, impl_->scene != nullptr);
-  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(impl_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
+                                                            RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
   const auto [low, high] = scene.Bounds();
   impl_->origin = 0.5 * (low + high);
   impl_->diagonal = (high - low).norm();
@@ -90,7 +96,6 @@ RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
         index[4 * p + k] = static_cast<unsigned int>(4 * p + k);
       }
     }
-    rtcSetGeometryIntersectFilterFunction(geometry, &FilterHits);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(impl_->scene, geometry);
     rtcReleaseGeometry(geometry);
@@ -104,18 +109,28 @@ RayCaster::~RayCaster() {
   rtcReleaseDevice(impl_->device);
 }
 
+namespace {
+
+RTCRay MakeRay(const Vec3& from, const Vec3& direction, double near, double far) {
+  RTCRay ray{};
+  ray.org_x = static_cast<float>(from.x());
+  ray.org_y = static_cast<float>(from.y());
+  ray.org_z = static_cast<float>(from.z());
+  ray.dir_x = static_cast<float>(direction.x());
+  ray.dir_y = static_cast<float>(direction.y());
+  ray.dir_z = static_cast<float>(direction.z());
+  ray.tnear = static_cast<float>(near);
+  ray.tfar = static_cast<float>(far);
+  ray.mask = 0xFFFFFFFFU;
+  return ray;
+}
+
+}  // namespace
+
 RTCRayHit RayCaster::Impl::Intersect(const Vec3& from, const Vec3& direction, double near, double far,
                                      FilterContext& context) const {
   RTCRayHit ray{};
-  ray.ray.org_x = static_cast<float>(from.x());
-  ray.ray.org_y = static_cast<float>(from.y());
-  ray.ray.org_z = static_cast<float>(from.z());
-  ray.ray.dir_x = static_cast<float>(direction.x());
-  ray.ray.dir_y = static_cast<float>(direction.y());
-  ray.ray.dir_z = static_cast<float>(direction.z());
-  ray.ray.tnear = static_cast<float>(near);
-  ray.ray.tfar = static_cast<float>(far);
-  ray.ray.mask = 0xFFFFFFFFU;
+  ray.ray = MakeRay(from, direction, near, far);
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(scene, &context.base, &ray);
   return ray;
@@ -137,9 +152,10 @@ std::optional<double> RayCaster::Impl::Approach(const Vec3& start, const Vec3& d
 
 RayCaster::Hit RayCaster::Cast(const Vec3& origin, const Vec3& direction, PatchId ignore) const {
   FilterContext context;
-  rtcInitIntersectContext(&context.base);
-  context.ignore = ignore == kNoPatch ? RTC_INVALID_GEOMETRY_ID : static_cast<unsigned int>(ignore);
-  context.backs = nullptr;
+  if (ignore != kNoPatch) {
+    context.ignore = static_cast<unsigned int>(ignore);
+    UseFilter(context);
+  }
   Vec3 from;
   const std::optional<double> approach = impl_->Approach(origin, direction, &from);
   if (!approach) return {};
@@ -154,6 +170,7 @@ RayCaster::Hit RayCaster::Cast(const Vec3& origin, const Vec3& direction, PatchI
     const double margin = kSamePlace * impl_->diagonal / direction.norm();
     context.backs = &impl_->normals;
     context.direction = direction;
+    UseFilter(context);
     const RTCRayHit front =
         impl_->Intersect(from, direction, std::max(0.0, at - margin), at + margin, context);
     if (front.hit.geomID != RTC_INVALID_GEOMETRY_ID)
@@ -162,12 +179,19 @@ RayCaster::Hit RayCaster::Cast(const Vec3& origin, const Vec3& direction, PatchI
   return {static_cast<PatchId>(first.hit.primID), skipped + at, normal.dot(direction) < 0};
 }
 
+bool RayCaster::Blocked(const Vec3& from, const Vec3& to) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay ray = MakeRay(from - impl_->origin, to - from, 0, 1);
+  rtcOccluded1(impl_->scene, &context, &ray);
+  return ray.tfar < 0;
+}
+
 RayCaster::Hit RayCaster::CastToFront(const Vec3& origin, const Vec3& direction) const {
   FilterContext context;
-  rtcInitIntersectContext(&context.base);
-  context.ignore = RTC_INVALID_GEOMETRY_ID;
   context.backs = &impl_->normals;
   context.direction = direction;
+  UseFilter(context);
   Vec3 from;
   const std::optional<double> skipped = impl_->Approach(origin, direction, &from);
   if (!skipped) return {};

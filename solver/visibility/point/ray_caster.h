@@ -28,6 +28,10 @@ class RayCaster {
   // thread.
   Hit Cast(const Vec3& origin, const Vec3& direction, PatchId ignore = kNoPatch) const;
 
+  // True if a patch, seen from either side, crosses the segment between the two points. An end that lies on a
+  // patch must be moved off it by ContactGap() or more. May be called from any thread.
+  bool Blocked(const Vec3& from, const Vec3& to) const;
+
   // The first patch whose front the ray hits; rays pass through backs, as in the display (thesis 3.6,
   // footnote 1). May be called from any thread.
   Hit CastToFront(const Vec3& origin, const Vec3& direction) const;

@@ -1,0 +1,63 @@
+// solver/transport/points/final_gather.h
+//
+// Final gathering (Reichert 1992): the irradiance at a point from a solution whose light is known on average
+// over elements. Direct light comes by shadow rays (ShadowRays). Reflected light comes along rays in a fixed,
+// cosine-distributed pattern of directions: each ray brings the reflected radiosity of the element that it
+// hits. All points with the same normal use the same directions, so that neighbouring points differ smoothly
+// and show no noise. The cost does not depend on how many polygons a scene has, but for the logarithm in each
+// ray.
+//
+// The standard error of the reflected light is about kDeviation / sqrt(rays) of it.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "solver/transport/links/solution.h"
+#include "solver/transport/points/shadow_rays.h"
+
+namespace penumbra {
+
+struct FinalGatherOptions {
+  std::size_t rays = 1024;  // for reflected light
+  ShadowRayEffort shadows;
+  std::uint64_t seed = 0;  // of the pattern of directions
+  // If true, the element that a ray hits does not tell its own radiosity: direct light there comes by shadow
+  // rays to the very point, and reflected light by one more ray. Much slower; independent of the division
+  // into elements for all light that was reflected once, except for that of luminaires.
+  bool regather = false;
+};
+
+class FinalGather {
+ public:
+  // Copies what is needed of the solution, whose scene must outlive the object.
+  explicit FinalGather(const RadiositySolution& solution, const FinalGatherOptions& options);
+
+  // The irradiance at a point [W/m^2]. `parts`, unless null, gets the direct light and the contributions, but
+  // no gradient. May be called from any thread.
+  Rgb At(const ReceiverPoint& at, IrradianceParts* parts = nullptr) const;
+
+  // True if another surface stands on the point's, so near that light may jump there: the irradiance is then
+  // a limit for the point's approach.
+  bool IsOneSided(const ReceiverPoint& at) const;
+
+  // The same light, gathered in another way.
+  FinalGather With(const FinalGatherOptions& options) const;
+  const FinalGatherOptions& options() const { return options_; }
+
+ private:
+  // The parts that do not depend on the options.
+  struct Shared;
+  FinalGather(std::shared_ptr<const Shared> shared, const FinalGatherOptions& options);
+  void MakeDirections();
+  Rgb RadiosityAt(PatchId patch, const Vec3& point, std::size_t ray) const;
+
+  std::shared_ptr<const Shared> shared_;
+  FinalGatherOptions options_;
+  std::vector<Vec3> directions_;  // in the frame of the normal
+};
+
+}  // namespace penumbra

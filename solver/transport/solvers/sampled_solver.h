@@ -1,0 +1,88 @@
+// solver/transport/solvers/sampled_solver.h
+//
+// A solver for scenes of many polygons. The transport operator is a sparse matrix that rays sample: a row
+// holds the elements that the rays of one element hit (form factors by Malley's method, Ashdown 1994, 4.12;
+// each hit weighs 1 / rays). There are no links and no pairs of patches, so that time and memory grow in
+// proportion to the number of elements. Rows add up to 1 in closed rooms, by construction. Direct light comes
+// by shadow rays. The matrix is kept: new light takes sweeps, but no rays.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "solver/transport/links/push_pull.h"
+#include "solver/transport/points/shadow_rays.h"
+#include "solver/transport/solvers/light_solver.h"
+#include "solver/visibility/point/ray_caster.h"
+
+namespace penumbra {
+
+class SampledSolver final : public LightSolver {
+ public:
+  // The scene must outlive the solver.
+  SampledSolver(const Scene& scene, const SampledOptions& options);
+
+  bool Ready() const override { return true; }
+  std::optional<SolverStep> Next() const override;
+  // A pass: divides the elements whose direct light varies, samples the matrix anew and sweeps until the
+  // light settles. Each pass allows smaller elements and casts more rays than the one before.
+  bool Step(SolverStep step, const ExecutionContext& context) override;
+  bool Converged() const override {
+    return pass_ >= options_.passes && residual_ <= options_.relative_cutoff;
+  }
+  const RadiositySolution& solution() const override { return solution_; }
+  const SolverReport& report() const override { return report_; }
+  bool Relight(const ExecutionContext& context) override;
+  bool TakesLight() const override { return false; }
+  bool SetLight(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
+                const ExecutionContext& context) override;
+  double PartOfTolerance() const override { return 1; }
+  std::shared_ptr<const LeafVisibility> SeenFromLeaves(const ExecutionContext& context) override;
+  std::vector<Rgb> MeanIrradianceByBounce(int bounces) const override;
+
+ private:
+  // Direct light of an element, from points in its four quarters.
+  struct Direct {
+    Rgb mean = Rgb::Zero(), spread = Rgb::Zero();  // spread: root mean square deviation [W/m^2]
+  };
+  // The limits of one pass.
+  struct Limits {
+    double largest_area;     // of an element [m^2]
+    double relative_spread;  // of an element's direct light
+    std::size_t rays;        // of an element
+  };
+
+  Limits LimitsOf(int pass) const;
+  Direct DirectOn(ElementId element) const;
+  bool MustDivide(ElementId element, const Limits& limits, double least_flux) const;
+  void Divide(const Limits& limits, const ExecutionContext& context);
+  void LightNewElements(const ExecutionContext& context);
+  void SampleMatrix(std::size_t rays, const ExecutionContext& context);
+  std::vector<Rgb> Gather(std::span<const Rgb> irradiance) const;
+  std::size_t Settle(const ExecutionContext& context);
+  void Report(std::size_t sweeps, double seconds);
+
+  const Scene& scene_;
+  SampledOptions options_;
+  RayCaster caster_;
+  std::unique_ptr<const ShadowRays> shadows_;  // for the present emittances
+  RadiositySolution solution_;
+  PushPull push_pull_;
+  std::vector<Direct> direct_;     // by element
+  std::vector<std::int32_t> row_;  // rays_ entries for each leaf, in the order of push_pull_.leaves(): the
+                                   // place of the leaf that was hit in this order; -1: none
+  std::size_t rays_ = 0;
+  int pass_ = 0;
+  double residual_ = 1;
+  SolverReport report_;
+  PatchVisibility no_pairs_;
+  LeafVisibilityCache seen_from_leaves_;
+};
+
+LightSolverRegistry::Method SampledSolverMethod();
+
+}  // namespace penumbra

@@ -1,0 +1,254 @@
+// The sampled solver, final gathering and shadow rays, against closed forms and exact irradiance.
+
+#include "solver/transport/solvers/sampled_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "solver/base/parallel.h"
+#include "solver/base/random.h"
+#include "solver/scene/builtin_scenes.h"
+#include "solver/scene/surface_points.h"
+#include "solver/transport/links/element_locator.h"
+#include "solver/transport/points/final_gather.h"
+#include "solver/transport/points/ray_ends.h"
+#include "solver/transport/points/shadow_rays.h"
+#include "tests/transport/transport_test_tools.h"
+
+namespace penumbra {
+namespace {
+
+// A closed box in which every surface emits `emittance` and reflects the rest of a unit of radiosity, so that
+// irradiance and radiosity are 1 everywhere (a furnace), with a smaller box in the middle of its floor.
+Scene Furnace(double reflectance) {
+  Scene scene;
+  scene_test::AddMaterial(scene, reflectance, 1 - reflectance);
+  scene_test::AddBox(scene, Vec3::Zero(), {2, 3, 2.5}, true, 0);
+  scene_test::AddBox(scene, {0.5, 0.9, 0.4}, {1.3, 1.7, 1.2}, false, 0);
+  return scene;
+}
+
+// Fewer elements than by default, to save time.
+SampledOptions Coarse() {
+  SampledOptions options;
+  options.elements = 2000;
+  return options;
+}
+
+RadiositySolution Sampled(const Scene& scene, const SampledOptions& options = Coarse()) {
+  SampledSolver solver(scene, options);
+  EXPECT_TRUE(SolveStepByStep(solver, {}));
+  EXPECT_TRUE(solver.Converged());
+  return solver.solution();
+}
+
+ReceiverPoint At(const Scene& scene, const SurfacePoint& point) {
+  const Vec3& normal = scene.patches[static_cast<std::size_t>(point.patch)].normal;
+  return scene_test::Receiver(point.position, normal, normal);
+}
+
+// Rows of a closed room add up to 1. What is left is the error of direct light from walls that rays find
+// partly hidden: about 0.5 %, which reflectance 0.9 multiplies by up to 10 in the light of all bounces.
+TEST(SampledSolver, KeepsAFurnaceAtOne) {
+  constexpr double kTolerance = 0.05;
+  double worst = 0, mean = 0, area = 0;
+  for (const double reflectance : {0.2, 0.5, 0.9}) {
+    const Scene scene = Furnace(reflectance);
+    const RadiositySolution solution = Sampled(scene);
+    for (const ElementId leaf : solution.forest.AllLeaves()) {
+      mean += solution.forest[leaf].area * solution.irradiance[leaf].mean();
+      area += solution.forest[leaf].area;
+    }
+    const FinalGather gather(solution, {});
+    for (const SurfacePoint& point : SpreadPoints(scene, 100, 3))
+      worst = std::max(worst, (gather.At(At(scene, point)) - 1).abs().maxCoeff());
+  }
+  std::printf("largest deviation from 1: %.2g at points, %.2g on average\n", worst,
+              std::abs(mean / area - 1));
+  EXPECT_LT(worst, kTolerance);
+  EXPECT_LT(std::abs(mean / area - 1), kTolerance / 4);
+}
+
+// Sampled and exact irradiance are of the same light.
+TEST(SampledSolver, AgreesWithTheHierarchicalSolver) {
+  constexpr double kMedian = 0.01, kTail = 0.08;
+  const Scene scene = *LoadBuiltinScene("cornell", {});
+  const PatchVisibility visibility(scene);
+  const RadiositySolution exact = scene_test::Solved(scene, 0.05, 1e-3);
+  const PointIrradiance reference(exact, visibility);
+  SampledOptions options = Coarse();
+  options.point_rays = 1024;
+  const RadiositySolution sampled = Sampled(scene, options);
+  const PatchVisibility none = PatchVisibility::WithoutPairs(scene);
+  const PointIrradiance points(sampled, none);
+  std::vector<double> errors;
+  for (const SurfacePoint& point : SpreadPoints(scene, 200, 5)) {
+    const Rgb want = reference.OnPatch(point.patch, At(scene, point)).irradiance;
+    const Rgb got = points.OnPatch(point.patch, At(scene, point)).irradiance;
+    if (want.maxCoeff() > 0.05) errors.push_back(((got - want) / want.maxCoeff()).abs().maxCoeff());
+  }
+  std::sort(errors.begin(), errors.end());
+  const double median = errors[errors.size() / 2], tail = errors[errors.size() * 95 / 100];
+  std::printf("relative difference of %zu points: median %.2g, 95th percentile %.2g\n", errors.size(), median,
+              tail);
+  EXPECT_LT(median, kMedian);
+  EXPECT_LT(tail, kTail);
+}
+
+// A ray at an element's own light and one that gathers that light anew bring the same on average.
+TEST(FinalGather, GathersAnewWhatElementsHold) {
+  const Scene scene = *LoadBuiltinScene("cornell", {});
+  const RadiositySolution solution = Sampled(scene);
+  FinalGatherOptions anew;
+  anew.regather = true;
+  anew.seed = 4;
+  const FinalGather gather(solution, {}), again = gather.With(anew);
+  Rgb sum = Rgb::Zero(), sum_again = Rgb::Zero();
+  for (const SurfacePoint& point : SpreadPoints(scene, 100, 9)) {
+    sum += gather.At(At(scene, point));
+    sum_again += again.At(At(scene, point));
+  }
+  const double difference = ((sum - sum_again) / sum).abs().maxCoeff();
+  std::printf("difference of the mean: %.2g\n", difference);
+  EXPECT_LT(difference, 0.02);
+}
+
+// Shadow rays that are allowed to cut by blockers give exact direct light where they find a luminaire half
+// hidden.
+TEST(ShadowRays, AgreeWithExactDirectLight) {
+  const Scene scene = *LoadBuiltinScene("office", {});
+  const RayCaster caster(scene);
+  const ShadowRays rays(scene, caster);
+  const ShadowRayEffort fine = {.divisions = 8, .exact_above = 0.001, .seed = 0};
+  double worst = 0, sum = 0;
+  for (const SurfacePoint& point : SpreadPoints(scene, 300, 2)) {
+    const ReceiverPoint at = At(scene, point);
+    const Rgb want = scene_test::Direct(scene, at).irradiance;
+    const double off = (rays.At(at, fine) - want).abs().maxCoeff();
+    worst = std::max(worst, off);
+    sum += want.maxCoeff();
+  }
+  std::printf("largest deviation: %.2g of the mean direct light\n", worst * 300 / sum);
+  EXPECT_LT(worst, 0.05 * sum / 300);
+}
+
+// A bright reflector counts as a luminaire: the same light as that of an emitter in its place.
+TEST(ShadowRays, TakeReflectorsForEmitters) {
+  Scene scene;
+  scene_test::AddMaterial(scene, 0.5, 0);
+  scene_test::AddMaterial(scene, 0, 3);
+  const Polygon3 lamp = {{0, 0, 1}, {0, 0.3, 1}, {0.3, 0.3, 1}, {0.3, 0, 1}};
+  scene_test::Add(scene, {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, 0);
+  scene_test::Add(scene, lamp, 1);
+  Scene grey = scene;
+  grey.materials[1].emittance = Rgb::Zero();
+  const RayCaster caster(scene);
+  const ShadowRays emitters(scene, caster);
+  const std::vector<BrightReflector> reflectors = {{1, lamp, Rgb::Constant(3)}};
+  const ShadowRays others(grey, caster, reflectors);
+  for (const Vec3& place : {Vec3(0.1, 0.1, 0), Vec3(1.5, -0.7, 0), Vec3(-1.9, 1.9, 0)}) {
+    const ReceiverPoint at = scene_test::Receiver(place, Vec3::UnitZ(), Vec3::UnitZ());
+    const double want = emitters.At(at, {}).x();
+    EXPECT_GT(want, 0);
+    EXPECT_NEAR(others.At(at, {}).x(), want, 0.01 * want);
+  }
+}
+
+// The table finds the leaves that descending through the quadtree finds.
+TEST(ElementLocator, FindsTheLeavesOfTheForest) {
+  Scene scene;
+  scene_test::AddMaterial(scene, 0.5, 0);
+  scene_test::Add(scene, {{0, 0, 0}, {2, 0.3, 0}, {2.5, 1.9, 0}, {-0.2, 1.1, 0}}, 0);
+  scene_test::Add(scene, {{0, 0, 1}, {2, 0, 1}, {2, 1, 1}, {0, 1, 1}}, 0);
+  scene_test::Add(scene, {{0, 0, 2}, {2, 0.5, 2.4}, {0.3, 1.5, 2.2}}, 0);
+  ElementForest forest(scene);
+  Random random(5);
+  for (int k = 0; k < 60; ++k) {
+    const auto element = static_cast<ElementId>(random.Index(static_cast<std::uint32_t>(forest.size())));
+    if (forest[element].IsLeaf() && forest[element].level < 8) forest.Subdivide(element);
+  }
+  const ElementLocator locator(forest);
+  for (int k = 0; k < 3000; ++k) {
+    const auto p = static_cast<PatchId>(random.Index(3));
+    const Vec3 point =
+        PointOn(scene.patches[static_cast<std::size_t>(p)].Vertices(), random.Uniform(), random.Uniform());
+    const ElementLocator::Place place = locator.Find(p, point);
+    EXPECT_EQ(place.element, forest.LeafAt(p, point));
+    EXPECT_EQ(locator.LeafAt(p, point), place.element);
+    const Element& leaf = forest[place.element];
+    const double s = place.s, t = place.t;
+    const Vec3 back = leaf.size == 3
+                          ? Vec3((1 - s - t) * leaf.vertex[0] + s * leaf.vertex[1] + t * leaf.vertex[2])
+                          : Vec3((1 - t) * ((1 - s) * leaf.vertex[0] + s * leaf.vertex[1]) +
+                                 t * ((1 - s) * leaf.vertex[3] + s * leaf.vertex[2]));
+    EXPECT_LT((back - point).norm(), 1e-9);
+  }
+}
+
+// A point is one-sided exactly where something stands on its surface.
+TEST(FinalGather, KnowsWhatStandsOnASurface) {
+  Scene scene;
+  scene_test::AddMaterial(scene, 0.5, 1);
+  scene_test::Add(scene, {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, 0);
+  scene_test::Add(scene, {{-1, 0, 0}, {1, 0, 0}, {1, 0, 1}, {-1, 0, 1}}, 0);
+  const FinalGather gather(Sampled(scene), {});
+  EXPECT_TRUE(gather.IsOneSided(scene_test::Receiver({0.3, 0, 0}, Vec3::UnitZ())));
+  EXPECT_FALSE(gather.IsOneSided(scene_test::Receiver({0.3, 0.01, 0}, Vec3::UnitZ())));
+  EXPECT_FALSE(gather.IsOneSided(scene_test::Receiver({1.5, 0, 0}, Vec3::UnitZ())));
+}
+
+// The bytes of the light do not depend on the number of threads, nor on whether the light was computed
+// before.
+TEST(SampledSolver, GivesTheSameBytes) {
+  const Scene scene = *LoadBuiltinScene("office", {});
+  std::vector<RadiositySolution> solutions;
+  for (const int threads : {1, 2, 7}) {
+    SetThreadCount(threads);
+    solutions.push_back(Sampled(scene));
+  }
+  SetThreadCount(0);
+  for (const RadiositySolution& other : solutions) {
+    ASSERT_EQ(other.forest.size(), solutions[0].forest.size());
+    for (std::size_t e = 0; e < other.irradiance.size(); ++e)
+      ASSERT_TRUE((other.irradiance[e] == solutions[0].irradiance[e]).all());
+  }
+}
+
+// New emittances over the kept matrix give the light of a new solver: light is linear.
+TEST(SampledSolver, RelightsOverItsMatrix) {
+  Scene scene = *LoadBuiltinScene("cornell", {});
+  SampledSolver solver(scene, Coarse());
+  ASSERT_TRUE(SolveStepByStep(solver, {}));
+  const RadiositySolution before = solver.solution();
+  for (Material& material : scene.materials) material.emittance *= 2;
+  ASSERT_TRUE(solver.Relight({}));
+  ASSERT_EQ(solver.solution().forest.size(), before.forest.size());
+  double worst = 0;
+  for (std::size_t e = 0; e < before.irradiance.size(); ++e)
+    worst = std::max(worst, (solver.solution().irradiance[e] - 2 * before.irradiance[e]).abs().maxCoeff() /
+                                (1e-3 + before.irradiance[e].maxCoeff()));
+  std::printf("largest relative deviation from twice the light: %.2g\n", worst);
+  EXPECT_LT(worst, 0.01);
+}
+
+// A pass that is cancelled leaves the light and the elements as they were.
+TEST(SampledSolver, KeepsTheLightOfTheLastPass) {
+  const Scene scene = *LoadBuiltinScene("cornell", {});
+  SampledSolver solver(scene, Coarse());
+  ASSERT_TRUE(solver.Step(SolverStep::kIterate, {}));
+  const RadiositySolution before = solver.solution();
+  ExecutionContext cancelled;
+  cancelled.Cancel();
+  EXPECT_FALSE(solver.Step(SolverStep::kIterate, cancelled));
+  ASSERT_EQ(solver.solution().forest.size(), before.forest.size());
+  for (std::size_t e = 0; e < before.irradiance.size(); ++e)
+    EXPECT_TRUE((solver.solution().irradiance[e] == before.irradiance[e]).all());
+  EXPECT_TRUE(solver.Step(SolverStep::kIterate, {}));
+  EXPECT_TRUE(solver.Converged());
+}
+
+}  // namespace
+}  // namespace penumbra
