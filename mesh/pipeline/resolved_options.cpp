@@ -25,8 +25,9 @@ constexpr double kWeightOfMeanIrradiance = 0.15;
 // The weight of the lightest discontinuity that representation-based refinement may request, as the same
 // fraction.
 constexpr double kWantedWeight = 0.05;
-constexpr int kCrowdedSplits = 3;         // DiscontinuityOptions::crowded_splits
-constexpr double kMinAreaOfScene = 1e-7;  // of the fronts' total area
+constexpr int kCrowdedSplits = 3;           // DiscontinuityOptions::crowded_splits
+constexpr double kMinAreaOfScene = 1e-7;    // of the fronts' total area
+constexpr double kMinAreaOfSampled = 1e-6;  // the same, for the sampled solver at kSampledError
 constexpr double kCutoffOfError = 0.005;
 constexpr double kCorrectionOfError = 0.04;  // SolverOptions::correction_tolerance
 // With representation-based refinement alone, links are refined to this times the eps of transport-based
@@ -95,7 +96,11 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   resolved.sampled = SamplingFor(options);
   const double coarse = options.refine == RefineBy::kRepresentation ? kCoarseEps : 1;
   resolved.solver.eps = options.eps.value_or(coarse * kEpsOfMeanIrradiance * options.error * mean);
-  resolved.solver.min_area = options.min_area.value_or(kMinAreaOfScene * totals.area);
+  // Without edges along shadows, leaves there become as small as they may.
+  const double least = resolved.solver_name == "sampled"
+                           ? kMinAreaOfSampled * std::min(1.0, options.error / kSampledError)
+                           : kMinAreaOfScene;
+  resolved.solver.min_area = options.min_area.value_or(least * totals.area);
   resolved.solver.relative_cutoff = options.relative_cutoff.value_or(kCutoffOfError * options.error);
   resolved.solver.max_iterations = options.max_iterations;
   resolved.solver.max_corrections = options.max_corrections;
