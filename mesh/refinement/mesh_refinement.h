@@ -66,7 +66,7 @@ struct RefinementMemory {
   SampleCache* samples = nullptr;   // samples of the same sampler
 };
 
-// Refines the mesh until the fraction of the area where the error exceeds its limit is at most share_above,
+// Refines the mesh until the error exceeds its limit on at most the fraction share_above of the area,
 // until no step reduces the error, or until max_rounds rounds have been made. Each round chooses the steps
 // with the largest benefit / cost, and no more steps than necessary. A step divides a leaf, or adds an edge
 // along a discontinuity that had been omitted because of its small weight. If cancelled, the function returns

@@ -17,8 +17,8 @@ class ElementLocator {
   // The object does not change with the forest.
   explicit ElementLocator(const ElementForest& forest);
 
-  // A place in an element. The corners of a quadrilateral have the coordinates (s, t) = (0, 0), (1, 0), (1,
-  // 1) and (0, 1), those of a triangle (0, 0), (1, 0) and (0, 1).
+  // A place in an element, by coordinates (s, t) from 0 to 1. Corner 0 of an element is at (0, 0), and corner
+  // 1 at (1, 0). The last corner is at (0, 1); a quadrilateral also has a corner at (1, 1).
   struct Place {
     ElementId element = kNoElement;
     double s = 0, t = 0;

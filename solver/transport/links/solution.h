@@ -72,8 +72,8 @@ struct RadiositySolution {
   // For each element, the root mean square deviation of the radiosities of the leaves below the element from
   // their mean [W/m^2]. The deviation of one leaf is the maximum over the channels.
   std::vector<double> radiosity_spread;
-  // The number of rays by which points gather reflected light (FinalGather); 0: the light of every leaf is
-  // gathered exactly (PointIrradiance).
+  // The number of rays that each point casts to gather reflected light (FinalGather). If 0, points cast no
+  // rays, and PointIrradiance sums up the exact light of all leaves.
   std::size_t rays_per_point = 0;
   // For each element, the root mean square of radiosity_spread over its children [W/m^2]: the variation
   // within the children, which remains if each child is represented by its mean radiosity.

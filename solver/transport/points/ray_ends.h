@@ -15,7 +15,9 @@ namespace penumbra {
 // of ContactGap().
 inline double RayLift(const Scene& scene) { return 2 * ContactGap(scene); }
 
-// The start of rays from a point: off its plane, and off the planes that its approach avoids.
+// The start of the rays from a point. The start lies `lift` before the plane of the point. If the point has
+// an approach direction, the start is also moved by `lift` in that direction, away from surfaces at the
+// point.
 inline Vec3 RayStart(const ReceiverPoint& at, double lift) {
   Vec3 start = at.position + lift * at.normal;
   if (!at.approach.isZero(0)) start += lift * at.approach.normalized();
