@@ -6,7 +6,8 @@
 // A node is a vertex or the midpoint of an edge. The irradiance at a node is the limit from the interior of
 // the triangle that needs it (6.3). If the sampler reports a one-sided value, every triangle at the node gets
 // its own value. Triangles on different sides of a contact (D0) edge therefore share no value, and no light
-// leaks across the edge. At the end of a contact, each triangle has the value for its own direction (6.4).
+// leaks across the edge. At the end point of a contact edge, each triangle stores the limit that a point
+// inside this triangle approaches (6.4).
 
 #pragma once
 
