@@ -8,9 +8,9 @@
 
 #include "mesh/discontinuities/discontinuity.h"
 #include "mesh/discontinuities/leaf_margins.h"
+#include "mesh/interpolants/corner_sheets.h"
 #include "mesh/interpolants/midpoint_prediction.h"
 #include "solver/base/check.h"
-#include "solver/base/parallel.h"
 #include "solver/scene/tolerances.h"
 #include "solver/transport/sources/error_floors.h"
 
@@ -82,9 +82,10 @@ double Uncertainty(const Patch& patch, double gap) { return std::max(kOnLine * S
 
 class Sampling {
  public:
-  Sampling(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
-           SampleCache* cache, const ExecutionContext& context)
-      : mesh_(mesh), sampler_(sampler), cache_(cache), context_(context), scene_(scene) {
+  // `sheets` may be null if no vertices are sampled.
+  Sampling(const Scene& scene, const IrradianceMesh& mesh, const CornerSheets* sheets,
+           const IrradianceSampler& sampler, SampleCache* cache, const ExecutionContext& context)
+      : mesh_(mesh), sheets_(sheets), sampler_(sampler), cache_(cache), context_(context), scene_(scene) {
     const double gap = ContactGap(scene);
     for (const Patch& patch : scene.patches) uncertainty_.push_back(Uncertainty(patch, gap));
   }
@@ -101,18 +102,20 @@ class Sampling {
       else
         unknown.push_back(i);
     }
-    constexpr std::size_t kNodesATask = 64;
-    // Batches let one thread report progress, and end a cancelled run soon.
+    // Batches let one thread report progress.
     constexpr std::size_t kBatch = 1 << 14;
+    std::vector<PatchPoint> points;
+    std::vector<PointIrradianceResult> found;
     for (std::size_t begin = 0; begin < unknown.size() && !context_.Cancelled(); begin += kBatch) {
       const std::size_t size = std::min(kBatch, unknown.size() - begin);
       context_.Report("interpolate", done_before + (done_after - done_before) * static_cast<double>(begin) /
                                                        static_cast<double>(unknown.size()));
-      ParallelFor(size, kNodesATask, [&](std::size_t k) {
-        if (context_.Cancelled()) return;
-        const std::size_t i = unknown[begin + k];
-        results[i] = sampler_(nodes[i].patch, At(nodes[i]));
-      });
+      points.clear();
+      for (std::size_t k = begin; k < begin + size; ++k)
+        points.push_back({nodes[unknown[k]].patch, At(nodes[unknown[k]])});
+      found.assign(size, {});
+      sampler_.SampleAll(points, found);
+      for (std::size_t k = 0; k < size; ++k) results[unknown[begin + k]] = std::move(found[k]);
       evaluations_ += size;
     }
     if (cache_ && !context_.Cancelled())
@@ -138,11 +141,16 @@ class Sampling {
     }
     at.normal = scene_.patches[node.patch].normal;
     at.approach = (corner(0) + corner(1) + corner(2)) / 3 - at.position;
+    if (node.sample % 2 == 0) {
+      const std::size_t sheet = sheets_->Of(CornerSheets::Corner(node.triangle, static_cast<std::size_t>(k)));
+      if (sheets_->IsStraight(sheet)) at.approach = sheets_->Into(sheet);
+    }
     at.uncertainty = uncertainty_[node.patch];
     return at;
   }
 
   const IrradianceMesh& mesh_;
+  const CornerSheets* sheets_;
   const IrradianceSampler& sampler_;
   SampleCache* cache_;
   const ExecutionContext& context_;
@@ -152,24 +160,6 @@ class Sampling {
 };
 
 }  // namespace
-
-IrradianceSampler NearSampler(const PointIrradiance& exact, double tolerance) {
-  return [&exact, tolerance](PatchId patch, const ReceiverPoint& at) {
-    return exact.NearlyOnPatch(patch, at, tolerance);
-  };
-}
-
-IrradianceSampler RecordingSampler(const PointIrradiance& exact, double tolerance) {
-  return [&exact, tolerance](PatchId patch, const ReceiverPoint& at) {
-    return exact.RecordOnPatch(patch, at, tolerance);
-  };
-}
-
-IrradianceSampler WhileGoing(IrradianceSampler sampler, const ExecutionContext& context) {
-  return [sampler = std::move(sampler), &context](PatchId patch, const ReceiverPoint& at) {
-    return context.Cancelled() ? PointIrradianceResult() : sampler(patch, at);
-  };
-}
 
 // Objects within the contact gap touch the node, even a node that is on no contact: near a foot where a
 // shadow's edge starts, vertices lie within the gap.
@@ -185,15 +175,16 @@ constexpr int kVertices = 0, kMidpoints = 1;
 // The irradiance at the nodes of a mesh.
 class NodeValues {
  public:
-  NodeValues(const IrradianceMesh& mesh, bool midpoints, Sampling& sampling)
+  NodeValues(const IrradianceMesh& mesh, const CornerSheets& sheets, bool midpoints, Sampling& sampling)
       : mesh_(mesh),
+        sheets_(sheets),
         sampling_(sampling),
         nodes_(NumberNodes(mesh, midpoints)),
         values_(nodes_.first.size()),
         predicted_(nodes_.first.size(), 0) {}
 
   // Samples the nodes of one kind that are not predicted: each node for its first triangle, and one-sided
-  // nodes for every other triangle as well.
+  // nodes for every other triangle as well, but only once for each straight sheet.
   void Sample(int kind, double done_before, double done_after) {
     std::vector<Slot> slots;
     std::vector<Node> at;
@@ -206,16 +197,7 @@ class NodeValues {
     const double done_first = done_before + kFirstShare * (done_after - done_before);
     std::vector<PointIrradianceResult> sampled = sampling_.Evaluate(at, done_before, done_first);
     for (std::size_t i = 0; i < slots.size(); ++i) values_[slots[i]] = std::move(sampled[i]);
-    at.clear();
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-      for (int sample = kind; sample < 6; sample += 2) {
-        Slot& slot = nodes_.of_triangle[t][sample];
-        if (!values_[slot].one_sided || nodes_.first[slot].triangle == t) continue;
-        slot = static_cast<Slot>(values_.size() + at.size());
-        at.push_back(
-            {mesh_.triangles[t].patch, static_cast<std::uint32_t>(t), static_cast<std::uint8_t>(sample)});
-      }
-    sampled = sampling_.Evaluate(at, done_first, done_after);
+    sampled = sampling_.Evaluate(SplitOneSided(kind), done_first, done_after);
     std::move(sampled.begin(), sampled.end(), std::back_inserter(values_));
   }
 
@@ -228,7 +210,7 @@ class NodeValues {
         corner[t][static_cast<std::size_t>(k)] = Value(t, 2 * k);
         mean += Value(t, 2 * k) / static_cast<double>(3 * corner.size());
       }
-    const MidpointPrediction prediction(mesh_, corner);
+    const MidpointPrediction prediction(mesh_, sheets_, corner);
     const std::vector<std::size_t> on_patch = TrianglesByPatch();
     std::vector<char> bends(predicted_.size(), 0);
     for (std::size_t t = 0; t < corner.size(); ++t)
@@ -262,6 +244,29 @@ class NodeValues {
   }
 
  private:
+  // Gives one-sided nodes a slot for each triangle or straight sheet, and returns the nodes of the new slots.
+  std::vector<Node> SplitOneSided(int kind) {
+    std::vector<Node> added;
+    std::unordered_map<std::size_t, Slot> of_sheet;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (int sample = kind; sample < 6; sample += 2) {
+        Slot& slot = nodes_.of_triangle[t][sample];
+        if (!values_[slot].one_sided) continue;
+        const std::size_t sheet = sheets_.Of(CornerSheets::Corner(t, static_cast<std::size_t>(sample / 2)));
+        const bool shares = kind == kVertices && sheets_.IsStraight(sheet);
+        const bool is_first = nodes_.first[slot].triangle == t;
+        const auto next = static_cast<Slot>(values_.size() + added.size());
+        const Slot own = is_first ? slot : next;
+        const auto [place, is_new] =
+            shares ? of_sheet.try_emplace(sheet, own) : std::pair(of_sheet.end(), true);
+        slot = is_new ? own : place->second;
+        if (is_new && !is_first)
+          added.push_back(
+              {mesh_.triangles[t].patch, static_cast<std::uint32_t>(t), static_cast<std::uint8_t>(sample)});
+      }
+    return added;
+  }
+
   // Fewer triangles on a patch may miss the whole light of a lamp.
   static constexpr std::size_t kFewTriangles = 32;
 
@@ -278,6 +283,7 @@ class NodeValues {
   }
 
   const IrradianceMesh& mesh_;
+  const CornerSheets& sheets_;
   Sampling& sampling_;
   Nodes nodes_;
   std::vector<PointIrradianceResult> values_;  // by slot
@@ -294,8 +300,9 @@ BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangula
   built.mesh = JoinPatches(patches);
   IrradianceMesh& mesh = built.mesh;
   const bool quadratic = how.order == InterpolantOrder::kQuadratic;
-  Sampling sampling(scene, mesh, sampler, cache, context);
-  NodeValues nodes(mesh, quadratic, sampling);
+  const CornerSheets sheets(mesh);
+  Sampling sampling(scene, mesh, &sheets, sampler, cache, context);
+  NodeValues nodes(mesh, sheets, quadratic, sampling);
   constexpr double kVerticesShare = 0.4;
   nodes.Sample(kVertices, 0, quadratic ? kVerticesShare : 1);
   if (quadratic && how.smooth > 0) nodes.PredictMidpoints(how.smooth);
@@ -318,7 +325,7 @@ BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangula
 std::size_t SampleMidpoints(const Scene& scene, const IrradianceMesh& mesh,
                             std::span<const std::uint32_t> triangles, const IrradianceSampler& sampler,
                             const ExecutionContext& context, SampleCache& cache) {
-  Sampling sampling(scene, mesh, sampler, &cache, context);
+  Sampling sampling(scene, mesh, nullptr, sampler, &cache, context);
   std::vector<Node> nodes;
   for (const std::uint32_t t : triangles)
     for (std::uint8_t sample = 1; sample < 6; sample += 2)

@@ -5,38 +5,27 @@
 //
 // A node is a vertex or the midpoint of an edge. The irradiance at a node is the limit from the interior of
 // the triangle that needs it (6.3). If the sampler reports a one-sided value, every triangle at the node gets
-// its own value. Triangles on different sides of a contact (D0) edge therefore share no value, and no light
-// leaks across the edge. At the end point of a contact edge, each triangle stores the limit that a point
-// inside this triangle approaches (6.4).
+// its own value; along a straight contact or border, where the limit does not depend on the direction, the
+// triangles on one side share it. Triangles on different sides of a contact (D0) edge therefore share no
+// value, and no light leaks across the edge. At the end point of a contact edge, each triangle stores the
+// limit that a point inside this triangle approaches (6.4).
 
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "mesh/discontinuities/mesh_options.h"
 #include "mesh/interpolants/irradiance_mesh.h"
+#include "mesh/interpolants/irradiance_sampler.h"
 #include "mesh/interpolants/sample_cache.h"
 #include "mesh/triangulation/leaf_triangulation.h"
 #include "solver/base/progress.h"
 #include "solver/transport/links/element_forest.h"
-#include "solver/transport/points/point_irradiance.h"
 
 namespace penumbra {
-
-// PointIrradiance::OnPatch() or a function that replaces it. Several threads call the function at once.
-using IrradianceSampler = std::function<PointIrradianceResult(PatchId, const ReceiverPoint&)>;
-// A sampler that calls exact.NearlyOnPatch() with the given tolerance. `exact` must outlive the sampler.
-IrradianceSampler NearSampler(const PointIrradiance& exact, double tolerance);
-// A sampler that calls exact.RecordOnPatch() with the given tolerance, so that its samples have rows. `exact`
-// must outlive the sampler.
-IrradianceSampler RecordingSampler(const PointIrradiance& exact, double tolerance);
-// A sampler that calls `sampler`, but returns irradiance 0 after the context is cancelled. `context` must
-// outlive the returned function.
-IrradianceSampler WhileGoing(IrradianceSampler sampler, const ExecutionContext& context);
 
 // The value of ReceiverPoint::uncertainty for samples on the patch [m].
 double SampleUncertainty(const Scene& scene, const Patch& patch);

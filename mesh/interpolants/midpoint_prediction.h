@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/interpolants/corner_sheets.h"
 #include "mesh/interpolants/irradiance_mesh.h"
 
 namespace penumbra {
@@ -18,9 +19,10 @@ class MidpointPrediction {
  public:
   // corner[t][k] is the irradiance at vertex k of triangle t [W/m^2]. The constructor estimates the gradient
   // of the irradiance at each vertex: the area-weighted mean of the gradients of the linear functions on the
-  // triangles at the vertex, separately on each side of the mesh's discontinuities. The arguments must
+  // triangles of a sheet. The arguments must
   // outlive the object.
-  MidpointPrediction(const IrradianceMesh& mesh, std::span<const std::array<Rgb, 3>> corner);
+  MidpointPrediction(const IrradianceMesh& mesh, const CornerSheets& sheets,
+                     std::span<const std::array<Rgb, 3>> corner);
 
   struct Midpoint {
     Rgb value;  // of the cubic with the values and gradients of both ends [W/m^2]
@@ -31,8 +33,8 @@ class MidpointPrediction {
 
  private:
   const IrradianceMesh& mesh_;
+  const CornerSheets& sheets_;
   std::span<const std::array<Rgb, 3>> corner_;
-  std::vector<std::size_t> sheet_;  // of corner 3 t + k: the corners of one vertex that share a gradient
   std::vector<Eigen::Matrix3d> gradient_;  // by sheet; one row for each channel [W/m^3]
 };
 

@@ -15,9 +15,11 @@ namespace {
 
 constexpr std::size_t kPointsATask = 16;
 // Additional points in each part of the scene: kPartPoints, but at most kAllPartPoints for all parts
-// together, and at least kFewestPartPoints. A part whose error seems too large gets kSuspectPoints more,
-// because the result for few points may be an accident.
-constexpr std::size_t kPartPoints = 20, kAllPartPoints = 160, kFewestPartPoints = 4, kSuspectPoints = 300;
+// together, and at least kFewestPartPoints. A part whose error seems too large gets kPointsToTellAPart more,
+// because the result for few points may be an accident; if there are many such parts, they share
+// kAllSuspectPoints, but get at least kFewestSuspectPoints.
+constexpr std::size_t kPartPoints = 20, kAllPartPoints = 160, kFewestPartPoints = 4;
+constexpr std::size_t kAllSuspectPoints = 6000, kFewestSuspectPoints = 12;
 
 // The fractions of values below and above the 99th percentile.
 constexpr double kP99 = 0.99, kAboveP99 = 0.01;
@@ -40,15 +42,22 @@ void Evaluate(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSa
   values.exact.resize(values.at.size());
   values.truths.resize(better.size());
   for (std::vector<Rgb>& truth : values.truths) truth.resize(values.at.size());
+  std::vector<PatchPoint> receivers(points.size());
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    receivers[p].patch = points[p].patch;
+    receivers[p].at.position = points[p].position;
+    receivers[p].at.normal = scene.patches[static_cast<std::size_t>(points[p].patch)].normal;
+  }
+  std::vector<PointIrradianceResult> found(points.size());
+  const auto sample = [&](const IrradianceSampler& with, std::vector<Rgb>& of) {
+    with.SampleAll(receivers, found);
+    for (std::size_t p = 0; p < found.size(); ++p) of[before + p] = found[p].irradiance;
+  };
+  sample(sampler, values.exact);
+  for (std::size_t k = 0; k < better.size(); ++k) sample(better[k], values.truths[k]);
   ParallelFor(points.size(), kPointsATask, [&](std::size_t p) {
     const std::size_t i = before + p;
     const SurfacePoint& at = values.at[i];
-    ReceiverPoint receiver;
-    receiver.position = at.position;
-    receiver.normal = scene.patches[static_cast<std::size_t>(at.patch)].normal;
-    values.exact[i] = sampler(at.patch, receiver).irradiance;
-    for (std::size_t k = 0; k < better.size(); ++k)
-      values.truths[k][i] = better[k](at.patch, receiver).irradiance;
     // A face that is narrower than the mesh's resolution shows nothing, and counts as exact.
     const auto place = locator.Find(at.patch, at.position);
     values.shown[i] = place ? Rgb(IrradianceAt(mesh, *place).max(0.0)) : values.exact[i];
@@ -91,12 +100,12 @@ void KeepLarger(const std::vector<ValueError>& errors, std::vector<ValueError>& 
 // `count` random points in a part of the scene; none if the part is not seen.
 std::vector<SurfacePoint> SpreadOverPart(const Scene& scene, std::span<const double> areas,
                                          const ScenePart& part, std::size_t count, std::uint64_t seed) {
-  std::vector<double> weights(areas.size(), 0.0);
+  std::vector<double> weights;
   double total = 0;
-  for (const PatchId p : part.patches)
-    total += weights[static_cast<std::size_t>(p)] = areas[static_cast<std::size_t>(p)];
+  for (const PatchId p : part.patches) total += weights.emplace_back(areas[static_cast<std::size_t>(p)]);
   if (total == 0) return {};
-  return SpreadPoints(scene, weights, count, seed + 1 + static_cast<std::uint64_t>(part.patches[0]));
+  return SpreadPoints(scene, part.patches, weights, count,
+                      seed + 1 + static_cast<std::uint64_t>(part.patches[0]));
 }
 
 // Groups the errors by the parts that contain their points, without parts that contain none.
@@ -137,9 +146,13 @@ std::vector<PartError> MeasureParts(const Scene& scene,
   evaluate(points);
   const std::vector<PartError> first = summarise();
   points.clear();
-  for (const PartError& suspect : first)
-    if (suspect.whole.p99 > bound) add(parts[suspect.part], kSuspectPoints, seed + 1);
-  if (points.empty()) return first;
+  std::vector<std::size_t> suspects;
+  for (const PartError& part : first)
+    if (part.whole.p99 > bound) suspects.push_back(part.part);
+  if (suspects.empty()) return first;
+  const std::size_t more =
+      std::clamp(kAllSuspectPoints / suspects.size(), kFewestSuspectPoints, kPointsToTellAPart);
+  for (const std::size_t part : suspects) add(parts[part], more, seed + 1);
   evaluate(points);
   return summarise();
 }

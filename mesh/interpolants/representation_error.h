@@ -62,6 +62,9 @@ std::vector<ValueError> SeenErrors(const Scene& scene, std::span<const SurfacePo
 // The q-quantile of ValueError::error; 0 if `values` is empty.
 double Quantile(std::span<const ValueError> values, double q);
 
+// A 99th percentile of this many random points tells the error of a part; one of fewer may be an accident.
+inline constexpr std::size_t kPointsToTellAPart = 300;
+
 // The error in one part of the scene (PartsOf).
 struct PartError {
   std::string name;

@@ -7,14 +7,11 @@
 
 #include "mesh/interpolants/representation_error.h"
 #include "solver/base/check.h"
-#include "solver/base/parallel.h"
 #include "solver/geometry/polygon.h"
 #include "solver/scene/scene_parts.h"
 
 namespace penumbra {
 namespace {
-
-constexpr std::size_t kEvaluationsATask = 32;
 
 Vec3 Corner(const IrradianceMesh& mesh, std::uint32_t t, int k) {
   return mesh.positions[mesh.triangles[t].vertex[static_cast<std::size_t>(k % 3)]];
@@ -70,13 +67,15 @@ MeasuredTriangles MeasureTriangles(const Scene& scene, const IrradianceMesh& mes
     else
       unknown.push_back(i);
   }
+  std::vector<PatchPoint> points;
+  points.reserve(unknown.size());
+  for (const std::size_t i : unknown) points.push_back({patch_of(i), at[i]});
   std::vector<PointIrradianceResult> found(unknown.size());
-  ParallelFor(unknown.size(), kEvaluationsATask, [&](std::size_t k) {
-    const std::size_t i = unknown[k];
-    found[k] = sampler(patch_of(i), at[i]);
+  sampler.SampleAll(points, found);
+  for (std::size_t k = 0; k < unknown.size(); ++k) {
     found[k].one_sided = false;  // within a triangle
-    truth[i] = found[k].irradiance;
-  });
+    truth[unknown[k]] = found[k].irradiance;
+  }
   if (cache)
     for (std::size_t k = 0; k < unknown.size(); ++k)
       cache->Insert(patch_of(unknown[k]), at[unknown[k]], found[k]);

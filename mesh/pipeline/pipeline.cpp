@@ -36,11 +36,17 @@ constexpr std::size_t kEnergyRays = std::size_t{1} << 18, kViewRays = 64;
 // so few points.
 constexpr std::size_t kGlancePoints = 200;
 
-// The part whose 99th percentile is farthest above the bound; null if none is above.
+// The part whose 99th percentile is farthest above the bound; null if none is above. Of a part with few
+// points only the lower bound of the percentile counts.
 const PartError* WorstPart(std::span<const PartError> parts, double bound) {
   const PartError* worst = nullptr;
-  for (const PartError& part : parts)
-    if (part.whole.p99 > (worst ? worst->whole.p99 : bound)) worst = &part;
+  double largest = bound;
+  for (const PartError& part : parts) {
+    const double error = part.whole.points < kPointsToTellAPart ? part.whole.p99_at_least : part.whole.p99;
+    if (error <= largest) continue;
+    worst = &part;
+    largest = error;
+  }
   return worst;
 }
 
@@ -512,6 +518,12 @@ void Pipeline::Diagnose(const ExecutionContext& context) {
   ViewDiagnostics views = DiagnoseViews(impl_->scene, kViewRays, 1, context);
   if (context.Cancelled()) return;
   report.energy = energy;
+  if (solution().links.links.empty()) {
+    links.closure_min = views.fronts_min;
+    links.closure_max = views.fronts_max;
+    links.closure_mean = views.fronts_mean;
+    links.covered_area = views.covered_area;
+  }
   report.links = std::move(links);
   report.views = std::move(views);
   report.quality = MeasureQuality(impl_->shown.mesh());

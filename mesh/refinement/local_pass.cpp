@@ -191,7 +191,7 @@ void PatchTriangulator::ActivateAll(Work& work) const {
 // Repeats the activation where discontinuities were refused, now with the irradiance at their places: those
 // in the dark count most.
 void PatchTriangulator::ActivateByPlaces(Work& work) const {
-  if (!sampler_ || !*sampler_ || !work.activating.ranks_by_error()) return;
+  if (!sampler_ || sampler_->empty() || !work.activating.ranks_by_error()) return;
   std::vector<std::size_t> evaluations(work.dsets.size());
   std::vector<SampleCache> taken(work.dsets.size());
   ParallelFor(work.dsets.size(), 1, [&](std::size_t p) {

@@ -76,8 +76,8 @@ std::size_t Interpolate(const Scene& scene, const MeshOptions& mesh_options,
 
 // Patches with a common error target: `error` must hold for all but `share` of their area.
 struct Population {
-  std::vector<char> has;  // by patch
-  double area = 0;        // [m^2]
+  std::vector<PatchId> patches;
+  double area = 0;  // [m^2]
   double error = 0;
   double share = 0;  // of the area, which may exceed the error
 };
@@ -87,11 +87,10 @@ struct Population {
 // errors of a small part.
 std::vector<Population> FindPopulations(const Scene& scene, double error, double share) {
   const std::vector<double> seen = ReflectingAreas(scene);
-  const std::size_t count = scene.patches.size();
-  Population lit{std::vector<char>(count, 0), 0, error, share}, unseen = lit;
-  for (std::size_t p = 0; p < count; ++p) {
+  Population lit{{}, 0, error, share}, unseen = lit;
+  for (std::size_t p = 0; p < scene.patches.size(); ++p) {
     Population& of = seen[p] > 0 ? lit : unseen;
-    of.has[p] = 1;
+    of.patches.push_back(static_cast<PatchId>(p));
     of.area += scene.patches[p].area;
   }
   std::vector<Population> populations = {std::move(lit), std::move(unseen)};
@@ -99,11 +98,8 @@ std::vector<Population> FindPopulations(const Scene& scene, double error, double
   if (parts.size() < 2) return populations;
   for (const ScenePart& part : parts) {
     // A part has few triangles, so that one of them is a large share of its area.
-    Population own{std::vector<char>(count, 0), 0, kPartError * error, share / 2};
-    for (const PatchId p : part.patches) {
-      own.has[static_cast<std::size_t>(p)] = 1;
-      own.area += seen[static_cast<std::size_t>(p)];
-    }
+    Population own{part.patches, 0, kPartError * error, share / 2};
+    for (const PatchId p : part.patches) own.area += seen[static_cast<std::size_t>(p)];
     if (own.area > 0) populations.push_back(std::move(own));
   }
   return populations;
@@ -112,7 +108,7 @@ std::vector<Population> FindPopulations(const Scene& scene, double error, double
 // The area of the population with errors above its target [m^2], from the areas of patches.
 double AreaOf(const Population& population, std::span<const double> areas) {
   double sum = 0;
-  for (std::size_t p = 0; p < areas.size(); ++p) sum += population.has[p] ? areas[p] : 0;
+  for (const PatchId p : population.patches) sum += areas[static_cast<std::size_t>(p)];
   return sum;
 }
 
@@ -141,14 +137,17 @@ std::vector<RefinementStep> FindSteps(const Scene& scene, std::span<const Omitte
 std::vector<RefinementStep> ChooseSteps(const Scene& scene, std::span<const Population> populations,
                                         std::span<const OmittedOfPatch> omitted,
                                         const MeshRefinementOptions& options, RefinedMesh* refined) {
-  std::vector<RefinementStep> chosen, steps;
+  std::vector<RefinementStep> chosen;
+  std::vector<std::vector<RefinementStep>> steps;  // by patch
   std::vector<double> above;
   std::set<std::tuple<PatchId, ElementId, std::size_t>> known;
   for (std::size_t k = 0; k < populations.size(); ++k) {
     const Population& population = populations[k];
     if (k == 0 || population.error != populations[k - 1].error) {
       std::vector<ElementId> unmet;
-      steps = FindSteps(scene, omitted, options, population.error, *refined, &unmet);
+      steps.assign(scene.patches.size(), {});
+      for (RefinementStep& step : FindSteps(scene, omitted, options, population.error, *refined, &unmet))
+        steps[static_cast<std::size_t>(step.patch)].push_back(std::move(step));
       above = AreaAbove(scene, refined->mesh, refined->errors, population.error);
       if (k == 0) refined->unmet = std::move(unmet);
     }
@@ -157,8 +156,10 @@ std::vector<RefinementStep> ChooseSteps(const Scene& scene, std::span<const Popu
     const double allowed = population.share * population.area;
     if (errs <= allowed) continue;
     std::vector<RefinementStep> own;
-    for (const RefinementStep& step : steps)
-      if (population.has[static_cast<std::size_t>(step.patch)]) own.push_back(step);
+    for (const PatchId p : population.patches) {
+      const std::vector<RefinementStep>& of = steps[static_cast<std::size_t>(p)];
+      own.insert(own.end(), of.begin(), of.end());
+    }
     for (const std::size_t i : ChooseRefinementSteps(own, errs - allowed))
       if (known.emplace(own[i].patch, own[i].leaf, own[i].discontinuity).second)
         chosen.push_back(std::move(own[i]));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "solver/base/check.h"
 #include "solver/base/random.h"
@@ -28,7 +29,15 @@ std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::size_t count, st
 
 std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::span<const double> weights, std::size_t count,
                                        std::uint64_t seed) {
-  PENUMBRA_CHECK(!scene.patches.empty());
+  std::vector<PatchId> all(scene.patches.size());
+  std::iota(all.begin(), all.end(), 0);
+  return SpreadPoints(scene, all, weights, count, seed);
+}
+
+std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::span<const PatchId> patches,
+                                       std::span<const double> weights, std::size_t count,
+                                       std::uint64_t seed) {
+  PENUMBRA_CHECK(!patches.empty() && weights.size() == patches.size());
   std::vector<double> up_to;
   double total = 0;
   for (const double weight : weights) up_to.push_back(total += weight);
@@ -39,10 +48,11 @@ std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::span<const doubl
     const double at = (static_cast<double>(i) + random.Uniform()) / static_cast<double>(count) * total;
     const auto found = std::upper_bound(up_to.begin(), up_to.end(), at);
     // Rounding may put `at` at the total itself: that is of the last patch which weighs anything.
-    const auto p = static_cast<std::size_t>(
-        (found == up_to.end() ? std::lower_bound(up_to.begin(), up_to.end(), total) : found) - up_to.begin());
+    const PatchId p = patches[static_cast<std::size_t>(
+        (found == up_to.end() ? std::lower_bound(up_to.begin(), up_to.end(), total) : found) -
+        up_to.begin())];
     const double s = random.Uniform(), t = random.Uniform();
-    points.push_back({static_cast<PatchId>(p), PointOn(scene.patches[p].Vertices(), s, t)});
+    points.push_back({p, PointOn(scene.patches[static_cast<std::size_t>(p)].Vertices(), s, t)});
   }
   return points;
 }

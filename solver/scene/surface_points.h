@@ -31,4 +31,9 @@ std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::size_t count, st
 std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::span<const double> weights, std::size_t count,
                                        std::uint64_t seed);
 
+// The same for the listed patches alone; weights[i] belongs to patches[i].
+std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::span<const PatchId> patches,
+                                       std::span<const double> weights, std::size_t count,
+                                       std::uint64_t seed);
+
 }  // namespace penumbra

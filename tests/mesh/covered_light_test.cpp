@@ -103,7 +103,8 @@ std::vector<std::array<Rgb, 3>> Corners(const IrradianceMesh& mesh) {
 TEST(MidpointPrediction, IsExactForQuadraticsInsideAGrid) {
   const IrradianceMesh mesh = Grid(8, Quadratic);
   const std::vector<std::array<Rgb, 3>> corner = Corners(mesh);
-  const MidpointPrediction prediction(mesh, corner);
+  const CornerSheets sheets(mesh);
+  const MidpointPrediction prediction(mesh, sheets, corner);
   double worst = 0, worst_at_border = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -138,7 +139,8 @@ TEST(MidpointPrediction, StopsAtDiscontinuities) {
     if (middle > 0.5)
       for (Rgb& value : corner[t]) value += 100;
   }
-  const MidpointPrediction prediction(mesh, corner);
+  const CornerSheets sheets(mesh);
+  const MidpointPrediction prediction(mesh, sheets, corner);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(prediction.At(t, k).bend.abs().maxCoeff(), 1e-12);
 }

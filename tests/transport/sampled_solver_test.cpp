@@ -122,7 +122,7 @@ TEST(ShadowRays, AgreeWithExactDirectLight) {
   const Scene scene = *LoadBuiltinScene("office", {});
   const RayCaster caster(scene);
   const ShadowRays rays(scene, caster);
-  const ShadowRayEffort fine = {.divisions = 8, .exact_above = 0.001, .seed = 0};
+  const ShadowRayEffort fine = {.divisions = 8, .closer_above = 0.001, .seed = 0};
   double worst = 0, sum = 0;
   for (const SurfacePoint& point : SpreadPoints(scene, 300, 2)) {
     const ReceiverPoint at = At(scene, point);

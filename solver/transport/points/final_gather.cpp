@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "solver/base/check.h"
 #include "solver/base/parallel.h"
 #include "solver/base/random.h"
 #include "solver/geometry/polygon.h"
@@ -173,7 +174,7 @@ Rgb FinalGather::RadiosityAt(PatchId patch, const Vec3& point, std::size_t ray) 
   if ((reflectance <= 0).all()) return Rgb::Zero();
   const ReceiverPoint at{.position = point, .normal = hit.normal, .approach = hit.normal};
   const ShadowRayEffort effort{.divisions = 0,
-                               .exact_above = std::numeric_limits<double>::infinity(),
+                               .closer_above = std::numeric_limits<double>::infinity(),
                                .seed = options_.shadows.seed + ray};
   Rgb irradiance = in.emitters.At(at, effort);
   const Frame frame = MakeFrame(Vec3::Zero(), hit.normal);
@@ -187,35 +188,71 @@ Rgb FinalGather::RadiosityAt(PatchId patch, const Vec3& point, std::size_t ray) 
   return reflectance * irradiance;
 }
 
-bool FinalGather::IsOneSided(const ReceiverPoint& at) const {
+std::uint32_t FinalGather::AreOneSided(std::span<const ReceiverPoint> points) const {
+  PENUMBRA_CHECK(points.size() <= kTogether);
+  if (points.empty()) return 0;
   const Shared& in = *shared_;
-  const Frame frame = MakeFrame(Vec3::Zero(), at.normal);
-  const Vec3 centre = at.position + in.lift * at.normal;
+  const Frame frame = MakeFrame(Vec3::Zero(), points[0].normal);
+  std::array<Vec3, kTogether> from, to;
+  const std::size_t count = points.size();
+  std::uint32_t one_sided = 0;
   for (int k = 0; k < kLooksAround; ++k) {
     const double angle = 2 * std::numbers::pi * k / kLooksAround;
     const Vec3 aside = std::cos(angle) * frame.u + std::sin(angle) * frame.v;
-    if (in.caster.Blocked(centre, centre + kAside * in.lift * aside)) return true;
+    for (std::size_t i = 0; i < count; ++i) {
+      from[i] = points[i].position + in.lift * points[i].normal;
+      to[i] = from[i] + kAside * in.lift * aside;
+    }
+    if (count == 1)
+      one_sided |= in.caster.Blocked(from[0], to[0]) ? 1 : 0;
+    else
+      one_sided |= in.caster.BlockedTogether(std::span(from).first(count), std::span(to).first(count));
   }
-  return false;
+  return one_sided;
 }
 
-Rgb FinalGather::At(const ReceiverPoint& at, IrradianceParts* parts) const {
+// Adds the light that dim surfaces reflect to the points. `parts`, unless null, is that of the first point.
+void FinalGather::AddReflected(std::span<const ReceiverPoint> points, std::span<Rgb> irradiance,
+                               IrradianceParts* parts) const {
   const Shared& in = *shared_;
-  const Rgb bright = in.luminaires.At(at, options_.shadows, parts);
-  const Frame frame = MakeFrame(Vec3::Zero(), at.normal);
-  const Vec3 start = RayStart(at, in.lift);
-  Rgb reflected = Rgb::Zero();
+  const Frame frame = MakeFrame(Vec3::Zero(), points[0].normal);
+  std::array<Vec3, kTogether> starts;
+  std::array<RayCaster::Hit, kTogether> hits;
+  std::array<Rgb, kTogether> reflected;
+  reflected.fill(Rgb::Zero());
+  const std::size_t count = points.size();
+  for (std::size_t i = 0; i < count; ++i) starts[i] = RayStart(points[i], in.lift);
   const double each = 1 / static_cast<double>(directions_.size());
   for (std::size_t k = 0; k < directions_.size(); ++k) {
     const Vec3& local = directions_[k];
     const Vec3 direction = local.x() * frame.u + local.y() * frame.v + local.z() * frame.n;
-    const RayCaster::Hit hit = in.caster.Cast(start, direction);
-    if (hit.patch == kNoPatch || !hit.front) continue;
-    const Rgb radiosity = RadiosityAt(hit.patch, start + hit.distance * direction, k);
-    reflected += radiosity;
-    if (parts && (radiosity > 0).any()) parts->contributions.push_back({hit.patch, each * radiosity});
+    if (count == 1)  // a packet of one ray is slower
+      hits[0] = in.caster.Cast(starts[0], direction);
+    else
+      in.caster.CastTogether(std::span(starts).first(count), direction, std::span(hits).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      const RayCaster::Hit& hit = hits[i];
+      if (hit.patch == kNoPatch || !hit.front) continue;
+      const Rgb radiosity = RadiosityAt(hit.patch, starts[i] + hit.distance * direction, k);
+      reflected[i] += radiosity;
+      if (parts && i == 0 && (radiosity > 0).any())
+        parts->contributions.push_back({hit.patch, each * radiosity});
+    }
   }
-  return bright + each * reflected;
+  for (std::size_t i = 0; i < count; ++i) irradiance[i] += each * reflected[i];
+}
+
+Rgb FinalGather::At(const ReceiverPoint& at, IrradianceParts* parts) const {
+  Rgb irradiance = shared_->luminaires.At(at, options_.shadows, parts);
+  AddReflected({&at, 1}, {&irradiance, 1}, parts);
+  return irradiance;
+}
+
+void FinalGather::AtAll(std::span<const ReceiverPoint> points, std::span<Rgb> irradiance) const {
+  PENUMBRA_CHECK(points.size() <= kTogether && irradiance.size() == points.size());
+  if (points.empty()) return;
+  shared_->luminaires.AtAll(points, options_.shadows, irradiance);
+  AddReflected(points, irradiance, nullptr);
 }
 
 }  // namespace penumbra

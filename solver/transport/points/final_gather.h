@@ -14,10 +14,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "solver/transport/links/solution.h"
 #include "solver/transport/points/shadow_rays.h"
+#include "solver/visibility/point/ray_caster.h"
 
 namespace penumbra {
 
@@ -40,9 +42,15 @@ class FinalGather {
   // no gradient. May be called from any thread.
   Rgb At(const ReceiverPoint& at, IrradianceParts* parts = nullptr) const;
 
-  // True if another surface stands on the point's, so near that light may jump there: the irradiance is then
-  // a limit for the point's approach.
-  bool IsOneSided(const ReceiverPoint& at) const;
+  // The most points that one call of AtAll() takes.
+  static constexpr std::size_t kTogether = RayCaster::kPacket;
+  // Sets irradiance[i] to At(points[i]). Rays of neighbouring points are traced together. REQUIRES: at most
+  // kTogether points with equal normals, and as many values.
+  void AtAll(std::span<const ReceiverPoint> points, std::span<Rgb> irradiance) const;
+
+  // Bit i of the result tells whether another surface stands on that of points[i], so near that light may
+  // jump there: the irradiance is then a limit for the point's approach. REQUIRES: as AtAll().
+  std::uint32_t AreOneSided(std::span<const ReceiverPoint> points) const;
 
   // The same light, gathered in another way.
   FinalGather With(const FinalGatherOptions& options) const;
@@ -54,6 +62,8 @@ class FinalGather {
   FinalGather(std::shared_ptr<const Shared> shared, const FinalGatherOptions& options);
   void MakeDirections();
   Rgb RadiosityAt(PatchId patch, const Vec3& point, std::size_t ray) const;
+  void AddReflected(std::span<const ReceiverPoint> points, std::span<Rgb> irradiance,
+                    IrradianceParts* parts) const;
 
   std::shared_ptr<const Shared> shared_;
   FinalGatherOptions options_;

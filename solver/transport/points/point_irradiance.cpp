@@ -1,6 +1,7 @@
 #include "solver/transport/points/point_irradiance.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <numeric>
 #include <tuple>
@@ -8,9 +9,11 @@
 #include <vector>
 
 #include "solver/base/check.h"
+#include "solver/base/parallel.h"
 #include "solver/base/scratch.h"
 #include "solver/transport/links/solution.h"
 #include "solver/transport/points/gathering.h"
+#include "solver/transport/points/neighbour_groups.h"
 #include "solver/visibility/exact/backprojection.h"
 #include "solver/visibility/point/form_factor.h"
 #include "solver/visibility/point/point_view.h"
@@ -37,14 +40,30 @@ constexpr double kHolds = 8;
 // Values that the user asks for get more rays than the nodes of a mesh, in other directions.
 constexpr std::size_t kCloserRays = 4;
 constexpr int kCloserDivisions = 6;
-constexpr double kCloserExact = 0.005;
+constexpr double kCloserAbove = 0.005;
+// At nodes of a mesh, an emitter that is partly hidden gets 1 / kRaysForHidden of the rays for reflected
+// light. Above kMostForHidden it is cut by its blockers, which costs no more and has no error.
+constexpr std::size_t kRaysForHidden = 4, kMostForHidden = 256;
+
+FinalGatherOptions AtNodes(std::size_t rays) {
+  FinalGatherOptions options;
+  options.rays = rays;
+  const std::size_t for_hidden = rays / kRaysForHidden;
+  options.shadows.rays_if_hidden = for_hidden > kMostForHidden ? 0 : static_cast<int>(for_hidden);
+  return options;
+}
 
 FinalGatherOptions Closer(FinalGatherOptions options) {
   options.rays *= kCloserRays;
   options.seed += 1;
   options.shadows.divisions = kCloserDivisions;
-  options.shadows.exact_above = kCloserExact;
+  options.shadows.closer_above = kCloserAbove;
+  options.shadows.rays_if_hidden = 0;
   return options;
+}
+
+PointIrradianceResult Sampled(const FinalGather& gather, const ReceiverPoint& at, IrradianceParts* parts) {
+  return {gather.At(at, parts), gather.AreOneSided({&at, 1}) != 0, nullptr};
 }
 
 // A source with an estimate of its unoccluded light.
@@ -68,9 +87,7 @@ PointIrradiance::PointIrradiance(const RadiositySolution& solution, const PatchV
   ChooseMethod();
   BuildHierarchies();
   if (solution.rays_per_point == 0) return;
-  FinalGatherOptions gathering;
-  gathering.rays = solution.rays_per_point;
-  gather_.emplace(solution, gathering);
+  gather_.emplace(solution, AtNodes(solution.rays_per_point));
   closer_gather_ = gather_->With(Closer(gather_->options()));
 }
 
@@ -166,7 +183,7 @@ void PointIrradiance::GatherOnPatch(PatchId patch, const ReceiverPoint& at, Gath
 PointIrradianceResult PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given,
                                                IrradianceParts* parts) const {
   const ReceiverPoint at = Nudged(given);
-  if (closer_gather_) return {closer_gather_->At(at, parts), closer_gather_->IsOneSided(at), nullptr};
+  if (closer_gather_) return Sampled(*closer_gather_, at, parts);
   Gathering gathering(scene_, sources_, at, options_, parts);
   GatherOnPatch(patch, at, gathering);
   return {gathering.irradiance(), gathering.one_sided(), nullptr};
@@ -176,7 +193,7 @@ PointIrradianceResult PointIrradiance::NearlyOnPatch(PatchId patch, const Receiv
                                                      double tolerance) const {
   tolerance *= options_.part_of_tolerance;
   const ReceiverPoint at = Nudged(given);
-  if (gather_) return {gather_->At(at), gather_->IsOneSided(at), nullptr};
+  if (gather_) return Sampled(*gather_, at, nullptr);
   Gathering gathering(scene_, sources_, at, options_, nullptr);
   if (options_.method != nullptr || forest_ == nullptr) {
     GatherOnPatch(patch, at, gathering);
@@ -190,6 +207,27 @@ PointIrradianceResult PointIrradiance::NearlyOnPatch(PatchId patch, const Receiv
   closer.AllowAggregates(tolerance, light, /*mostly_hidden=*/true);
   GatherBrightestFirst(patch, at, DimSources::kLeaveOut, closer);
   return {closer.irradiance(), closer.one_sided(), nullptr};
+}
+
+void PointIrradiance::SampleTogether(std::span<const PatchPoint> points,
+                                     std::span<PointIrradianceResult> results) const {
+  PENUMBRA_CHECK(IsSampled() && results.size() == points.size());
+  std::vector<ReceiverPoint> receivers;
+  receivers.reserve(points.size());
+  for (const PatchPoint& point : points) receivers.push_back(point.at);
+  const std::vector<std::vector<std::size_t>> groups = GroupNeighbours(receivers, FinalGather::kTogether);
+  constexpr std::size_t kGroupsATask = 4;
+  ParallelFor(groups.size(), kGroupsATask, [&](std::size_t g) {
+    std::array<ReceiverPoint, FinalGather::kTogether> at;
+    std::array<Rgb, FinalGather::kTogether> irradiance;
+    const std::size_t count = groups[g].size();
+    for (std::size_t k = 0; k < count; ++k) at[k] = receivers[groups[g][k]];
+    const std::span<const ReceiverPoint> together = std::span(at).first(count);
+    gather_->AtAll(together, std::span(irradiance).first(count));
+    const std::uint32_t one_sided = gather_->AreOneSided(together);
+    for (std::size_t k = 0; k < count; ++k)
+      results[groups[g][k]] = {irradiance[k], (one_sided >> k & 1) != 0, nullptr};
+  });
 }
 
 PointIrradianceResult PointIrradiance::RecordOnPatch(PatchId patch, const ReceiverPoint& given,
@@ -300,7 +338,7 @@ Rgb PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given, std::spa
 
 PointIrradianceResult PointIrradiance::Anywhere(const ReceiverPoint& given, IrradianceParts* parts) const {
   const ReceiverPoint at = Nudged(given);
-  if (closer_gather_) return {closer_gather_->At(at, parts), closer_gather_->IsOneSided(at), nullptr};
+  if (closer_gather_) return Sampled(*closer_gather_, at, parts);
   Gathering gathering(scene_, sources_, at, options_, parts);
   const Scratch<std::vector<PatchId>> found;
   const Scratch<std::vector<Screen>> screens;

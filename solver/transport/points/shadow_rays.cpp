@@ -1,6 +1,7 @@
 #include "solver/transport/points/shadow_rays.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -20,6 +21,8 @@ namespace {
 constexpr double kStrong = 0.05;
 // Farther than this times its radius, the sum over rays tells the light of a reflector to a per cent.
 constexpr double kFarFromReflector = 4;
+// A luminaire a b c d is a parallelogram if |a - b + c - d| is less than this times its radius.
+constexpr double kParallelogram = 1e-6;
 
 std::vector<PatchId> EveryPatch(const Scene& scene) {
   std::vector<PatchId> all(scene.patches.size());
@@ -29,17 +32,22 @@ std::vector<PatchId> EveryPatch(const Scene& scene) {
 
 }  // namespace
 
-// The light that has been found so far.
-struct ShadowRays::Gathered {
-  Rgb light = Rgb::Zero();
-  double unoccluded = 0;  // of all luminaires, estimated in the brightest channel [W/m^2]
-  IrradianceParts* parts = nullptr;
+// Neighbouring points, and the light that has been found for them so far.
+struct ShadowRays::Group {
+  std::span<const ReceiverPoint> at;
+  std::array<Vec3, kTogether> from;  // where rays start
+  Values unoccluded{};               // of all luminaires, estimated in the brightest channel [W/m^2]
+  std::span<Rgb> light;
+  IrradianceParts* parts = nullptr;  // of the first point
 
-  void Add(PatchId patch, bool emits, const Rgb& irradiance) {
-    light += irradiance;
-    if (!parts || !(irradiance > 0).any()) return;
-    parts->contributions.push_back({patch, irradiance});
-    if (emits) parts->direct += irradiance;
+  std::size_t size() const { return at.size(); }
+  std::uint32_t All() const { return (std::uint32_t{1} << size()) - 1; }
+
+  void Add(std::size_t point, const Luminaire& luminaire, const Rgb& irradiance) {
+    light[point] += irradiance;
+    if (!parts || point != 0 || !(irradiance > 0).any()) return;
+    parts->contributions.push_back({luminaire.patch, irradiance});
+    if (luminaire.emits) parts->direct += irradiance;
   }
 };
 
@@ -54,6 +62,11 @@ ShadowRays::ShadowRays(const Scene& scene, const RayCaster& caster,
     if (!sources_.Tree(p).empty())
       AddLuminaire(p, scene.patches[static_cast<std::size_t>(p)].Vertices(), sources_.Emittance(p), true);
   for (const BrightReflector& r : reflectors) AddLuminaire(r.patch, r.polygon, r.radiosity, false);
+}
+
+Vec3 ShadowRays::Luminaire::Place(double s, double t) const {
+  if (!is_parallelogram) return PointOn(Vertices(), s, t);
+  return vertex[0] + s * (vertex[1] - vertex[0]) + t * (vertex[3] - vertex[0]);
 }
 
 void ShadowRays::AddLuminaire(PatchId patch, std::span<const Vec3> polygon, const Rgb& radiosity,
@@ -71,27 +84,38 @@ void ShadowRays::AddLuminaire(PatchId patch, std::span<const Vec3> polygon, cons
   for (const Vec3& v : polygon) added.radius = std::max(added.radius, (v - added.centre).norm());
   added.radiosity = radiosity;
   added.brightness = radiosity.maxCoeff();
+  added.is_parallelogram = polygon.size() == 4 && (polygon[0] - polygon[1] + polygon[2] - polygon[3]).norm() <
+                                                      kParallelogram * added.radius;
   luminaires_.push_back(added);
 }
 
-// Lists the luminaires that lie before the point, and before which the point lies, in descending order of
-// light.
-void ShadowRays::FindSeen(const ReceiverPoint& at, std::vector<Seen>& seen) const {
+// An estimate of the unoccluded light of a luminaire at a point, in the brightest channel [W/m^2]. Zero if
+// the luminaire does not lie before the point, or the point not before the luminaire.
+double ShadowRays::Estimate(const ReceiverPoint& at, const Luminaire& luminaire) const {
+  const Vec3 to = luminaire.centre - at.position;
+  const double high = at.normal.dot(to) + luminaire.radius, deep = -luminaire.normal.dot(to);
+  // What lies in the plane of a reflector gets none of its light.
+  if (high <= 0 || deep < (luminaire.emits ? -lift_ : lift_)) return 0;
+  const double distance = std::max(to.norm(), luminaire.radius);
+  // Near a large luminaire, parts of it are seen much less obliquely than its centre.
+  const double bulge = luminaire.radius * luminaire.radius / distance;
+  const double cosines = std::min(1.0, high / distance) * std::min(1.0, (deep + bulge) / distance);
+  return luminaire.brightness *
+         std::min(1.0, luminaire.area * cosines / (std::numbers::pi * distance * distance));
+}
+
+// Lists the luminaires that may light a point of the group, in descending order of light.
+void ShadowRays::FindSeen(Group& group, std::vector<Seen>& seen) const {
   for (std::size_t i = 0; i < luminaires_.size(); ++i) {
-    const Luminaire& luminaire = luminaires_[i];
-    const Vec3 to = luminaire.centre - at.position;
-    const double high = at.normal.dot(to) + luminaire.radius, deep = -luminaire.normal.dot(to);
-    // What lies in the plane of a reflector gets none of its light.
-    if (high <= 0 || deep < (luminaire.emits ? -lift_ : lift_)) continue;
-    const double distance = std::max(to.norm(), luminaire.radius);
-    // Near a large luminaire, parts of it are seen much less obliquely than its centre.
-    const double bulge = luminaire.radius * luminaire.radius / distance;
-    const double cosines = std::min(1.0, high / distance) * std::min(1.0, (deep + bulge) / distance);
-    seen.push_back({luminaire.brightness *
-                        std::min(1.0, luminaire.area * cosines / (std::numbers::pi * distance * distance)),
-                    i});
+    Seen luminaire{.light = {}, .total = 0, .luminaire = i};
+    for (std::size_t p = 0; p < group.size(); ++p) {
+      luminaire.light[p] = Estimate(group.at[p], luminaires_[i]);
+      luminaire.total += luminaire.light[p];
+      group.unoccluded[p] += luminaire.light[p];
+    }
+    if (luminaire.total > 0) seen.push_back(luminaire);
   }
-  std::stable_sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.light > b.light; });
+  std::stable_sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.total > b.total; });
 }
 
 namespace {
@@ -105,32 +129,68 @@ double Kernel(const ReceiverPoint& at, const Vec3& normal, const Vec3& to) {
 
 }  // namespace
 
+// Adds the Kernel() of a place of the luminaire to the sums of the points in `which`.
+void ShadowRays::AddPlace(const Group& group, std::uint32_t which, const Luminaire& luminaire, const Vec3& to,
+                          RaySums& sums) const {
+  std::array<std::size_t, kTogether> point;
+  std::array<Vec3, kTogether> from, end;
+  std::array<double, kTogether> weight;
+  std::size_t count = 0;
+  for (std::size_t p = 0; p < group.size(); ++p) {
+    if ((which >> p & 1) == 0) continue;
+    weight[count] = Kernel(group.at[p], luminaire.normal, to);
+    if (weight[count] <= 0) continue;
+    point[count] = p;
+    from[count] = group.from[p];
+    end[count] = to + lift_ * luminaire.normal;
+    ++count;
+  }
+  if (count == 0) return;
+  const std::uint32_t blocked =
+      count == 1 ? (caster_.Blocked(from[0], end[0]) ? 1 : 0)
+                 : caster_.BlockedTogether(std::span(from).first(count), std::span(end).first(count));
+  for (std::size_t k = 0; k < count; ++k) {
+    sums.all[point[k]] += weight[k];
+    if ((blocked >> k & 1) == 0) sums.visible[point[k]] += weight[k];
+  }
+}
+
 // Follows rays to the same place in each of divisions^2 cells of the luminaire.
-ShadowRays::RaySums ShadowRays::CastRays(const Vec3& from, const ReceiverPoint& at,
-                                         const Luminaire& luminaire, const ShadowRayEffort& effort) const {
+ShadowRays::RaySums ShadowRays::CastRays(const Group& group, std::uint32_t which, const Luminaire& luminaire,
+                                         const ShadowRayEffort& effort) const {
   const int divisions = effort.divisions;
   const double s = AdditiveRecurrence(effort.seed, kR2Alpha[0]),
                t = AdditiveRecurrence(effort.seed, kR2Alpha[1]);
-  double all = 0, visible = 0;
+  RaySums sums;
   for (int i = 0; i < divisions; ++i)
-    for (int j = 0; j < divisions; ++j) {
-      const Vec3 to = PointOn(luminaire.Vertices(), (i + s) / divisions, (j + t) / divisions);
-      const double weight = Kernel(at, luminaire.normal, to);
-      if (weight <= 0) continue;
-      all += weight;
-      if (!caster_.Blocked(from, to + lift_ * luminaire.normal)) visible += weight;
-    }
-  if (all <= 0) {
-    // Only a part between the places is above the horizon.
-    const Polygon3 above = ClipToHalfSpace(luminaire.Vertices(), at.normal, at.position);
-    if (above.size() < 3) return {0, 0};
-    Vec3 centre = Vec3::Zero();
-    for (const Vec3& v : above) centre += v / static_cast<double>(above.size());
-    all = Kernel(at, luminaire.normal, centre);
-    visible = caster_.Blocked(from, centre + lift_ * luminaire.normal) ? 0 : all;
-  }
+    for (int j = 0; j < divisions; ++j)
+      AddPlace(group, which, luminaire, luminaire.Place((i + s) / divisions, (j + t) / divisions), sums);
   const double of_cell = luminaire.area / (std::numbers::pi * divisions * divisions);
-  return {of_cell * all, of_cell * visible};
+  for (std::size_t p = 0; p < group.size(); ++p) {
+    if ((which >> p & 1) != 0 && sums.all[p] <= 0) {
+      // Only a part between the places is above the horizon.
+      const ReceiverPoint& at = group.at[p];
+      const Polygon3 above = ClipToHalfSpace(luminaire.Vertices(), at.normal, at.position);
+      if (above.size() < 3) continue;
+      AddPlace(group, std::uint32_t{1} << p, luminaire, Centroid(above), sums);
+    }
+    sums.all[p] *= of_cell;
+    sums.visible[p] *= of_cell;
+  }
+  return sums;
+}
+
+// Follows rays to evenly distributed places: along each line across the luminaire, a thin blocker hides about
+// the right number of them, unlike places in rows and columns.
+ShadowRays::RaySums ShadowRays::CastMoreRays(const Group& group, std::uint32_t which,
+                                             const Luminaire& luminaire,
+                                             const ShadowRayEffort& effort) const {
+  RaySums sums;
+  const auto rays = static_cast<std::uint64_t>(effort.rays_if_hidden);
+  for (std::uint64_t k = effort.seed * rays; k < (effort.seed + 1) * rays; ++k)
+    AddPlace(group, which, luminaire,
+             luminaire.Place(AdditiveRecurrence(k, kR2Alpha[0]), AdditiveRecurrence(k, kR2Alpha[1])), sums);
+  return sums;
 }
 
 Rgb ShadowRays::Unhindered(const ReceiverPoint& at, const Luminaire& luminaire) const {
@@ -153,60 +213,110 @@ Rgb ShadowRays::Exact(const ReceiverPoint& at, PatchId emitter) const {
   return gathering.irradiance();
 }
 
-// Rays to points of the weak luminaires, as many to each as its estimated light deserves.
-void ShadowRays::AddWeak(const Vec3& from, const ReceiverPoint& at, std::span<const Seen> weak,
-                         const ShadowRayEffort& effort, Gathered& sum) const {
-  double total = 0;
-  for (const Seen& s : weak) total += s.light;
-  if (total <= 0) return;
-  const int each = effort.divisions * effort.divisions;
-  const int rays =
-      std::max({1, each, static_cast<int>(std::ceil(each * total / (kStrong * sum.unoccluded)))});
-  const double shift = AdditiveRecurrence(effort.seed, kR2Alpha[0]);
-  std::size_t i = 0;
-  double before = 0;
-  for (int k = 0; k < rays; ++k) {
-    const double place = (k + shift) / rays * total;
-    while (i + 1 < weak.size() && before + weak[i].light <= place) before += weak[i++].light;
-    const Luminaire& luminaire = luminaires_[weak[i].luminaire];
-    const auto number = static_cast<std::uint64_t>(k) + effort.seed * static_cast<std::uint64_t>(rays);
-    const Vec3 to = PointOn(luminaire.Vertices(), AdditiveRecurrence(number, kR2Alpha[0]),
-                            AdditiveRecurrence(number, kR2Alpha[1]));
-    const double kernel = Kernel(at, luminaire.normal, to);
-    if (kernel <= 0 || caster_.Blocked(from, to + lift_ * luminaire.normal)) continue;
-    const double factor = kernel * luminaire.area / std::numbers::pi;
-    const double chosen = rays * weak[i].light / total;  // the expected number of rays of this luminaire
-    sum.Add(luminaire.patch, luminaire.emits, factor / chosen * luminaire.radiosity);
+// Adds the light of a strong luminaire. `rest` is the estimated light of the luminaires after it.
+void ShadowRays::AddStrong(const Luminaire& luminaire, const Values& rest, const ShadowRayEffort& effort,
+                           Group& group) const {
+  const RaySums rays = CastRays(group, group.All(), luminaire, effort);
+  std::uint32_t hidden = 0;
+  std::array<Rgb, kTogether> unhindered;
+  for (std::size_t p = 0; p < group.size(); ++p) {
+    if (rays.visible[p] <= 0) continue;
+    const ReceiverPoint& at = group.at[p];
+    const bool is_far = (luminaire.centre - at.position).norm() > kFarFromReflector * luminaire.radius;
+    if (!luminaire.emits && is_far) {
+      group.Add(p, luminaire, rays.visible[p] * luminaire.radiosity);
+      continue;
+    }
+    unhindered[p] = Unhindered(at, luminaire);
+    const bool matters =
+        unhindered[p].maxCoeff() > effort.closer_above * (group.light[p].maxCoeff() + rest[p]);
+    if (luminaire.emits && rays.visible[p] < rays.all[p] && matters)
+      hidden |= std::uint32_t{1} << p;
+    else
+      group.Add(p, luminaire, rays.visible[p] / rays.all[p] * unhindered[p]);
+  }
+  if (hidden == 0) return;
+  RaySums more;
+  if (effort.rays_if_hidden > 0) more = CastMoreRays(group, hidden, luminaire, effort);
+  for (std::size_t p = 0; p < group.size(); ++p) {
+    if ((hidden >> p & 1) == 0) continue;
+    if (effort.rays_if_hidden == 0)
+      group.Add(p, luminaire, Exact(group.at[p], luminaire.patch));
+    else if (more.visible[p] > 0)
+      group.Add(p, luminaire, more.visible[p] / more.all[p] * unhindered[p]);
   }
 }
 
-Rgb ShadowRays::At(const ReceiverPoint& at, const ShadowRayEffort& effort, IrradianceParts* parts) const {
+// Rays to points of the weak luminaires, as many to each as its estimated light deserves. All points of the
+// group use the same places, so that their rays can be traced together.
+void ShadowRays::AddWeak(std::span<const Seen> weak, const ShadowRayEffort& effort, Group& group) const {
+  Values total{};
+  for (const Seen& s : weak)
+    for (std::size_t p = 0; p < group.size(); ++p) total[p] += s.light[p];
+  const int each = effort.divisions * effort.divisions;
+  int rays = std::max(1, each);
+  for (std::size_t p = 0; p < group.size(); ++p)
+    if (total[p] > 0)
+      rays = std::max(rays, static_cast<int>(std::ceil(each * total[p] / (kStrong * group.unoccluded[p]))));
+  // The sum over the points of the relative light of each luminaire, up to and including it.
+  const Scratch<std::vector<double>> scratch;
+  std::vector<double>& up_to = *scratch;
+  double sum = 0;
+  for (const Seen& s : weak) {
+    for (std::size_t p = 0; p < group.size(); ++p)
+      if (s.light[p] > 0) sum += s.light[p] / group.unoccluded[p];
+    up_to.push_back(sum);
+  }
+  if (sum <= 0) return;
+  const double shift = AdditiveRecurrence(effort.seed, kR2Alpha[0]);
+  std::size_t i = 0;
+  for (int k = 0; k < rays; ++k) {
+    while (i + 1 < weak.size() && up_to[i] <= (k + shift) / rays * sum) ++i;
+    const Luminaire& luminaire = luminaires_[weak[i].luminaire];
+    const auto number = static_cast<std::uint64_t>(k) + effort.seed * static_cast<std::uint64_t>(rays);
+    RaySums seen;
+    AddPlace(
+        group, group.All(), luminaire,
+        luminaire.Place(AdditiveRecurrence(number, kR2Alpha[0]), AdditiveRecurrence(number, kR2Alpha[1])),
+        seen);
+    // The expected number of rays of this luminaire.
+    const double chosen = rays * (up_to[i] - (i > 0 ? up_to[i - 1] : 0)) / sum;
+    const double factor = luminaire.area / std::numbers::pi / chosen;
+    for (std::size_t p = 0; p < group.size(); ++p)
+      if (seen.visible[p] > 0) group.Add(p, luminaire, factor * seen.visible[p] * luminaire.radiosity);
+  }
+}
+
+void ShadowRays::AtAll(std::span<const ReceiverPoint> points, const ShadowRayEffort& effort,
+                       std::span<Rgb> irradiance, IrradianceParts* parts) const {
+  PENUMBRA_CHECK(points.size() <= kTogether && irradiance.size() == points.size());
+  Group group{.at = points, .from = {}, .unoccluded = {}, .light = irradiance, .parts = parts};
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    group.from[p] = RayStart(points[p], lift_);
+    irradiance[p] = Rgb::Zero();
+  }
   const Scratch<std::vector<Seen>> scratch;
   std::vector<Seen>& seen = *scratch;
-  FindSeen(at, seen);
-  Gathered sum{.light = Rgb::Zero(), .unoccluded = 0, .parts = parts};
-  for (const Seen& s : seen) sum.unoccluded += s.light;
-  double rest = sum.unoccluded;
-  const Vec3 from = RayStart(at, lift_);
-  std::size_t i = 0;
-  for (; effort.divisions > 0 && i < seen.size() && seen[i].light >= kStrong * sum.unoccluded; ++i) {
-    rest -= seen[i].light;
-    const Luminaire& luminaire = luminaires_[seen[i].luminaire];
-    const RaySums rays = CastRays(from, at, luminaire, effort);
-    if (rays.visible <= 0) continue;
-    const bool is_far = (luminaire.centre - at.position).norm() > kFarFromReflector * luminaire.radius;
-    if (!luminaire.emits && is_far) {
-      sum.Add(luminaire.patch, false, rays.visible * luminaire.radiosity);
-      continue;
-    }
-    const Rgb unhindered = Unhindered(at, luminaire);
-    const bool exact = luminaire.emits && rays.visible < rays.all &&
-                       unhindered.maxCoeff() > effort.exact_above * (sum.light.maxCoeff() + rest);
-    sum.Add(luminaire.patch, luminaire.emits,
-            exact ? Exact(at, luminaire.patch) : Rgb(rays.visible / rays.all * unhindered));
+  FindSeen(group, seen);
+  Values rest = group.unoccluded;
+  const auto is_strong = [&](const Seen& s) {
+    for (std::size_t p = 0; p < points.size(); ++p)
+      if (s.light[p] > 0 && s.light[p] >= kStrong * group.unoccluded[p]) return true;
+    return false;
+  };
+  const auto weak =
+      effort.divisions > 0 ? std::stable_partition(seen.begin(), seen.end(), is_strong) : seen.begin();
+  for (auto strong = seen.begin(); strong != weak; ++strong) {
+    for (std::size_t p = 0; p < points.size(); ++p) rest[p] -= strong->light[p];
+    AddStrong(luminaires_[strong->luminaire], rest, effort, group);
   }
-  AddWeak(from, at, std::span(seen).subspan(i), effort, sum);
-  return sum.light;
+  AddWeak(std::span(weak, seen.end()), effort, group);
+}
+
+Rgb ShadowRays::At(const ReceiverPoint& at, const ShadowRayEffort& effort, IrradianceParts* parts) const {
+  Rgb irradiance;
+  AtAll({&at, 1}, effort, {&irradiance, 1}, parts);
+  return irradiance;
 }
 
 }  // namespace penumbra

@@ -3,7 +3,7 @@
 // The light of chosen surfaces, the luminaires, by shadow rays: emitters, and small surfaces that reflect so
 // much that rays in random directions would find them too rarely. Rays decide how much of a luminaire a point
 // sees; the unoccluded light is exact. Where rays find that an emitter is partly hidden and its light
-// matters, the blockers may be cut out of it instead, as PointIrradiance does.
+// matters, more rays decide, or the blockers are cut out of it, as PointIrradiance does.
 
 #pragma once
 
@@ -29,9 +29,11 @@ struct ShadowRayEffort {
   // a single ray goes to one luminaire, chosen in proportion to the light of all: right on average over many
   // seeds.
   int divisions = 4;
-  // An emitter that is partly hidden is cut by its blockers if its unoccluded light exceeds this times the
-  // light of all emitters that are seen; otherwise the rays decide which part of it is visible.
-  double exact_above = 0.02;
+  // An emitter that is partly hidden deserves more effort if its unoccluded light exceeds this times the
+  // light of all emitters that are seen. Otherwise the rays above decide which part of it is visible.
+  double closer_above = 0.02;
+  // The effort: this number of rays, or, if 0, its blockers are cut out of it exactly.
+  int rays_if_hidden = 0;
   std::uint64_t seed = 0;  // of the places in the cells; 0: their centres
 };
 
@@ -48,15 +50,23 @@ class ShadowRays {
   // the object.
   ShadowRays(const Scene& scene, const RayCaster& caster, std::span<const BrightReflector> reflectors = {});
 
-  // The light of the luminaires at a point [W/m^2]. Adds the contributions, and the direct light of emitters,
-  // to `parts`, unless null; `parts` gets no gradient. The value depends on the point and the effort alone.
-  // May be called from any thread.
+  // The most points that one call of AtAll() takes.
+  static constexpr std::size_t kTogether = RayCaster::kPacket;
+  // Sets irradiance[i] to the light of the luminaires at points[i] [W/m^2]. Rays of neighbouring points are
+  // traced together. Adds the contributions, and the direct light of emitters, at the first point to `parts`,
+  // unless null; `parts` gets no gradient. The values depend on the points and the effort alone. May be
+  // called from any thread. REQUIRES: at most kTogether points with equal normals, and as many values.
+  void AtAll(std::span<const ReceiverPoint> points, const ShadowRayEffort& effort, std::span<Rgb> irradiance,
+             IrradianceParts* parts = nullptr) const;
+  // The same for one point.
   Rgb At(const ReceiverPoint& at, const ShadowRayEffort& effort, IrradianceParts* parts = nullptr) const;
 
  private:
-  // A luminaire as a point sees it.
+  using Values = std::array<double, kTogether>;  // one for each point of a group
+  // A luminaire as a group of points sees it.
   struct Seen {
-    double light;  // estimate of the unoccluded light in the brightest channel [W/m^2]
+    Values light;  // estimate of the unoccluded light in the brightest channel [W/m^2]
+    double total;
     std::size_t luminaire;
   };
   struct Luminaire {
@@ -68,24 +78,33 @@ class ShadowRays {
     double radius, area;
     Rgb radiosity;      // [W/m^2]
     double brightness;  // in the brightest channel [W/m^2]
+    bool is_parallelogram;
 
     std::span<const Vec3> Vertices() const { return {vertex.data(), size}; }
+    // Uniformly distributed over the luminaire if (s, t) are uniformly distributed over the unit square.
+    Vec3 Place(double s, double t) const;
   };
-  struct Gathered;
+  struct Group;
+  // Form factors of a luminaire, and of its visible part, from rays to places on it. Some functions omit a
+  // common factor.
+  struct RaySums {
+    Values all{}, visible{};
+  };
 
   void AddLuminaire(PatchId patch, std::span<const Vec3> polygon, const Rgb& radiosity, bool emits);
-
-  void FindSeen(const ReceiverPoint& at, std::vector<Seen>& seen) const;
-  // Form factors by the midpoint rule: of the whole luminaire, and of the cells that are visible.
-  struct RaySums {
-    double all, visible;
-  };
-  RaySums CastRays(const Vec3& from, const ReceiverPoint& at, const Luminaire& luminaire,
+  double Estimate(const ReceiverPoint& at, const Luminaire& luminaire) const;
+  void FindSeen(Group& group, std::vector<Seen>& seen) const;
+  void AddPlace(const Group& group, std::uint32_t which, const Luminaire& luminaire, const Vec3& to,
+                RaySums& sums) const;
+  RaySums CastRays(const Group& group, std::uint32_t which, const Luminaire& luminaire,
                    const ShadowRayEffort& effort) const;
+  RaySums CastMoreRays(const Group& group, std::uint32_t which, const Luminaire& luminaire,
+                       const ShadowRayEffort& effort) const;
   Rgb Unhindered(const ReceiverPoint& at, const Luminaire& luminaire) const;
   Rgb Exact(const ReceiverPoint& at, PatchId emitter) const;
-  void AddWeak(const Vec3& from, const ReceiverPoint& at, std::span<const Seen> weak,
-               const ShadowRayEffort& effort, Gathered& sum) const;
+  void AddStrong(const Luminaire& luminaire, const Values& rest, const ShadowRayEffort& effort,
+                 Group& group) const;
+  void AddWeak(std::span<const Seen> weak, const ShadowRayEffort& effort, Group& group) const;
 
   const Scene& scene_;
   const RayCaster& caster_;

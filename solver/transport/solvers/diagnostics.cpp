@@ -28,6 +28,7 @@ LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution, const Execution
   const Scene& scene = solution.forest.scene();
   LinkDiagnostics diagnostics;
   diagnostics.closure.assign(scene.patches.size(), 0);
+  if (solution.links.links.empty()) return diagnostics;
   // The flux per unit radiosity between two patches, lower number first: the flux in one direction minus that
   // in the other.
   struct Exchange {
@@ -83,6 +84,33 @@ LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution, const Execution
   return diagnostics;
 }
 
+namespace {
+
+// Numbers of rays, for each patch.
+struct RayCounts {
+  const std::vector<std::size_t>&away, &back, &covered;
+};
+
+void TellFronts(const Scene& scene, const RayCounts& counts, std::size_t rays_per_patch,
+                ViewDiagnostics* diagnostics) {
+  const auto rays = static_cast<double>(rays_per_patch);
+  double area = 0, fronts = 0;
+  for (std::size_t p = 0; p < scene.patches.size(); ++p) {
+    const double covered = static_cast<double>(counts.covered[p]) / rays;
+    diagnostics->covered_area += covered * scene.patches[p].area;
+    if (counts.covered[p] == rays_per_patch) continue;
+    const double lost = static_cast<double>(counts.away[p] + counts.back[p]) / rays;
+    const double closure = 1 - lost / (1 - covered), free = (1 - covered) * scene.patches[p].area;
+    diagnostics->fronts_min = area == 0 ? closure : std::min(diagnostics->fronts_min, closure);
+    diagnostics->fronts_max = std::max(diagnostics->fronts_max, closure);
+    fronts += free * closure;
+    area += free;
+  }
+  if (area > 0) diagnostics->fronts_mean = fronts / area;
+}
+
+}  // namespace
+
 ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch, std::uint64_t seed,
                               const ExecutionContext& context) {
   ViewDiagnostics diagnostics;
@@ -111,6 +139,7 @@ ViewDiagnostics DiagnoseViews(const Scene& scene, std::size_t rays_per_patch, st
       ++(lid.patch != kNoPatch && lid.distance <= (kLiftsBehind + 1) * lift ? covered : back)[p];
     }
   });
+  TellFronts(scene, {away, back, covered}, rays_per_patch, &diagnostics);
   double area = 0;
   std::map<std::int32_t, bool> blind;  // of faces with an uncovered part: true if they see only backs
   for (std::size_t p = 0; p < scene.patches.size(); ++p) {

@@ -31,12 +31,16 @@ struct LinkDiagnostics {
   std::size_t link_pairs = 0, patch_pairs = 0;
   double link_reciprocity = 0, patch_reciprocity = 0;  // the largest values
 };
-// The result is useless if the context is cancelled.
+// Without links, all values are 0. The result is useless if the context is cancelled.
 LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution,
                               const ExecutionContext& context = ExecutionContext());
 
 struct ViewDiagnostics {
   std::size_t rays = 0;
+  // For the patches that are not completely covered: which fraction of the rays that start uncovered hits
+  // fronts. The sampled solver transports light along such rays, so that this is its closure.
+  double fronts_min = 0, fronts_max = 0, fronts_mean = 0;  // the mean is weighted by free area
+  double covered_area = 0;                                 // estimated from the rays [m^2]
   double escaping = 0;  // fraction of the diffuse light leaving the fronts, evenly, that meets nothing
   // The numbers of the faces from whose fronts only backs of other faces are visible, apart from covered
   // parts. The user may have given the vertices of reversed_faces in the wrong order.

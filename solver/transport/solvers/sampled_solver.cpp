@@ -27,7 +27,7 @@ constexpr int kMostLevels = 10;
 constexpr std::size_t kMostSweeps = 100'000;
 // Direct light on elements: its errors average out over the elements that a point sees.
 constexpr ShadowRayEffort kRough = {
-    .divisions = 2, .exact_above = std::numeric_limits<double>::infinity(), .seed = 0};
+    .divisions = 2, .closer_above = std::numeric_limits<double>::infinity(), .seed = 0};
 
 RadiositySolution Unlit(const Scene& scene, const SampledOptions& options) {
   RadiositySolution solution;

@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <new>
 #include <optional>
@@ -62,6 +63,8 @@ struct RayCaster::Impl {
 
   RTCRayHit Intersect(const Vec3& from, const Vec3& direction, double near, double far,
                       FilterContext& context) const;
+  // The first hit of a ray, or the coincident front of another patch (RayCaster::Cast()).
+  Hit FrontOf(const Hit& first, const Vec3& from, const Vec3& direction, FilterContext context) const;
   // Sets `from` to the start of the ray from `origin`, in Embree's coordinates. Returns the distance skipped
   // before the start, in lengths of `direction`; nothing if the ray misses the scene.
   std::optional<double> Approach(const Vec3& origin, const Vec3& direction, Vec3* from) const;
@@ -125,6 +128,19 @@ RTCRay MakeRay(const Vec3& from, const Vec3& direction, double near, double far)
   return ray;
 }
 
+// Makes a ray the i-th of a packet.
+void Set(RTCRay8& packet, std::size_t i, const RTCRay& ray) {
+  packet.org_x[i] = ray.org_x;
+  packet.org_y[i] = ray.org_y;
+  packet.org_z[i] = ray.org_z;
+  packet.dir_x[i] = ray.dir_x;
+  packet.dir_y[i] = ray.dir_y;
+  packet.dir_z[i] = ray.dir_z;
+  packet.tnear[i] = ray.tnear;
+  packet.tfar[i] = ray.tfar;
+  packet.mask[i] = ray.mask;
+}
+
 }  // namespace
 
 RTCRayHit RayCaster::Impl::Intersect(const Vec3& from, const Vec3& direction, double near, double far,
@@ -136,9 +152,24 @@ RTCRayHit RayCaster::Impl::Intersect(const Vec3& from, const Vec3& direction, do
   return ray;
 }
 
+RayCaster::Hit RayCaster::Impl::FrontOf(const Hit& first, const Vec3& from, const Vec3& direction,
+                                        FilterContext context) const {
+  if (normals[static_cast<std::size_t>(first.patch)].dot(direction) < 0)
+    return {first.patch, first.distance, true};
+  const double margin = kSamePlace * diagonal / direction.norm();
+  context.backs = &normals;
+  context.direction = direction;
+  UseFilter(context);
+  const RTCRayHit front =
+      Intersect(from, direction, std::max(0.0, first.distance - margin), first.distance + margin, context);
+  if (front.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {first.patch, first.distance, false};
+  return {static_cast<PatchId>(front.hit.primID), static_cast<double>(front.ray.tfar), true};
+}
+
 std::optional<double> RayCaster::Impl::Approach(const Vec3& start, const Vec3& direction, Vec3* from) const {
   // A ray from far away starts near the sphere around the scene: floats would overflow or lose digits.
   *from = start - origin;
+  if (from->squaredNorm() <= diagonal * diagonal) return 0;
   const double distance = from->stableNorm(), reach = diagonal;
   if (distance <= 2 * reach) return 0;
   const double along =
@@ -164,19 +195,55 @@ RayCaster::Hit RayCaster::Cast(const Vec3& origin, const Vec3& direction, PatchI
   const double infinity = std::numeric_limits<double>::infinity();
   const RTCRayHit first = impl_->Intersect(from, direction, 0, infinity, context);
   if (first.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  const Vec3& normal = impl_->normals[first.hit.primID];
-  const double at = static_cast<double>(first.ray.tfar);
-  if (normal.dot(direction) >= 0) {
-    const double margin = kSamePlace * impl_->diagonal / direction.norm();
-    context.backs = &impl_->normals;
-    context.direction = direction;
-    UseFilter(context);
-    const RTCRayHit front =
-        impl_->Intersect(from, direction, std::max(0.0, at - margin), at + margin, context);
-    if (front.hit.geomID != RTC_INVALID_GEOMETRY_ID)
-      return {static_cast<PatchId>(front.hit.primID), skipped + static_cast<double>(front.ray.tfar), true};
+  Hit hit = impl_->FrontOf({static_cast<PatchId>(first.hit.primID), static_cast<double>(first.ray.tfar)},
+                           from, direction, context);
+  hit.distance += skipped;
+  return hit;
+}
+
+void RayCaster::CastTogether(std::span<const Vec3> origins, const Vec3& direction,
+                             std::span<Hit> hits) const {
+  PENUMBRA_CHECK(origins.size() <= kPacket && hits.size() == origins.size());
+  alignas(32) RTCRayHit8 packet{};
+  alignas(32) std::array<int, kPacket> valid{};
+  std::array<double, kPacket> skipped{};
+  for (std::size_t i = 0; i < origins.size(); ++i) {
+    Vec3 from;
+    const std::optional<double> approach = impl_->Approach(origins[i], direction, &from);
+    if (!approach) continue;
+    skipped[i] = *approach;
+    valid[i] = -1;
+    Set(packet.ray, i, MakeRay(from, direction, 0, std::numeric_limits<double>::infinity()));
+    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
   }
-  return {static_cast<PatchId>(first.hit.primID), skipped + at, normal.dot(direction) < 0};
+  FilterContext context;
+  context.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect8(valid.data(), impl_->scene, &context.base, &packet);
+  for (std::size_t i = 0; i < origins.size(); ++i) {
+    hits[i] = {};
+    if (valid[i] == 0 || packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    const Hit first{static_cast<PatchId>(packet.hit.primID[i]), static_cast<double>(packet.ray.tfar[i])};
+    hits[i] = impl_->FrontOf(first, origins[i] - impl_->origin + skipped[i] * direction, direction, {});
+    hits[i].distance += skipped[i];
+  }
+}
+
+std::uint32_t RayCaster::BlockedTogether(std::span<const Vec3> from, std::span<const Vec3> to) const {
+  PENUMBRA_CHECK(from.size() <= kPacket && to.size() == from.size());
+  alignas(32) RTCRay8 packet{};
+  alignas(32) std::array<int, kPacket> valid{};
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    valid[i] = -1;
+    Set(packet, i, MakeRay(from[i] - impl_->origin, to[i] - from[i], 0, 1));
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcOccluded8(valid.data(), impl_->scene, &context, &packet);
+  std::uint32_t blocked = 0;
+  for (std::size_t i = 0; i < from.size(); ++i)
+    if (packet.tfar[i] < 0) blocked |= std::uint32_t{1} << i;
+  return blocked;
 }
 
 bool RayCaster::Blocked(const Vec3& from, const Vec3& to) const {
