@@ -334,7 +334,8 @@ void AddSolvers(Entries& table) {
       {.name = "solver",
        .field = NameField(&PipelineOptions::solver, LightSolvers()),
        .links_depend = true,
-       .otherwise = "hierarchical, or sampled where a scene has more than 400 polygons",
+       .otherwise = "hierarchical; sampled where a scene has more than 400 polygons, or more than 150 at "
+                    "--error 0.05 or more",
        .help = "How to solve: `hierarchical`; `sampled`, by rays, for scenes of many polygons; or `dense`, "
                "which solves the linear system of a uniform mesh directly with exact form factors: a "
                "reference for small scenes",

@@ -67,7 +67,7 @@ std::string MissedError(const PipelineReport& report, const PartError* worst) {
 
 // Sampled light errs little: its interpolants may use the whole error on nearly the whole area allowed, and a
 // second look would only chase noise.
-constexpr double kSampledShare = 1, kSampledShareAbove = 0.008;
+constexpr double kSampledShare = 0.8, kSampledShareAbove = 0.006;
 
 ShownMeshOptions HowToShow(const PipelineOptions& options, const ResolvedOptions& resolved) {
   ShownMeshOptions how;
@@ -78,6 +78,7 @@ ShownMeshOptions HowToShow(const PipelineOptions& options, const ResolvedOptions
   if (resolved.solver_name != "sampled") return how;
   how.interpolant_share = kSampledShare;
   how.share_above = kSampledShareAbove;
+  how.suspicion = 0;
   how.most_turns = 0;
   return how;
 }

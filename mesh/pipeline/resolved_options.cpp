@@ -9,6 +9,7 @@
 #include "solver/transport/links/link_form_factor_methods.h"
 #include "solver/transport/links/refinement_oracles.h"
 #include "solver/transport/solvers/light_solvers.h"
+#include "solver/transport/solvers/mean_free_path.h"
 
 namespace penumbra {
 namespace {
@@ -25,22 +26,29 @@ constexpr double kWeightOfMeanIrradiance = 0.15;
 // The weight of the lightest discontinuity that representation-based refinement may request, as the same
 // fraction.
 constexpr double kWantedWeight = 0.05;
-constexpr int kCrowdedSplits = 3;           // DiscontinuityOptions::crowded_splits
-constexpr double kMinAreaOfScene = 1e-7;    // of the fronts' total area
-constexpr double kMinAreaOfSampled = 1e-6;  // the same, for the sampled solver at kSampledError
+constexpr int kCrowdedSplits = 3;         // DiscontinuityOptions::crowded_splits
+constexpr double kMinAreaOfScene = 1e-7;  // of the fronts' total area
 constexpr double kCutoffOfError = 0.005;
 constexpr double kCorrectionOfError = 0.04;  // SolverOptions::correction_tolerance
 // With representation-based refinement alone, links are refined to this times the eps of transport-based
 // refinement.
 constexpr double kCoarseEps = 4;
 
-// Scenes with more patches are solved by sampling unless the user says otherwise.
-constexpr std::size_t kMostPatchesOfPairs = 400;
+// Scenes with more patches are solved by sampling unless the user says otherwise. Where a loose error is
+// asked for, kLooseError or more, sampling pays earlier.
+constexpr std::size_t kMostPatchesOfPairs = 400, kMostPatchesIfLoose = 150;
+constexpr double kLooseError = 0.05;
 // The error for which the defaults of SampledOptions suffice.
 constexpr double kSampledError = 0.1;
+// The side of the largest element of the sampled solver, and of the smallest leaf of its mesh, at this error:
+// as fractions of the mean free path, the size of a typical room. Their areas are proportional to the error.
+// Without edges along shadows, leaves there become as small as they may.
+constexpr double kSideOfSampled = 0.07, kLeastSideOfSampled = 0.008;
+constexpr std::size_t kMostElements = 4'000'000;
 
 struct SceneTotals {
   double area = 0, flux = 0, reflectance = 0, strongest = 0;  // of the brightest channel
+  double free_path = 0;                                       // MeanFreePath(), only if solved by sampling
 };
 
 SceneTotals Total(const Scene& scene) {
@@ -60,14 +68,18 @@ SceneTotals Total(const Scene& scene) {
 }
 
 // The options of the sampled solver for the requested error.
-SampledOptions SamplingFor(const PipelineOptions& options) {
+SampledOptions SamplingFor(const SceneTotals& totals, const PipelineOptions& options) {
   SampledOptions sampled;
   const double finer = kSampledError / options.error;  // than the settings' defaults
   const auto scaled = [&](std::size_t number, double power, std::size_t least, std::size_t most) {
     const double value = static_cast<double>(number) * std::pow(finer, power);
     return static_cast<std::size_t>(std::clamp(value, static_cast<double>(least), static_cast<double>(most)));
   };
-  sampled.elements = scaled(sampled.elements, 1, 2'000, 500'000);
+  if (totals.free_path > 0) {
+    const double side = kSideOfSampled * totals.free_path;
+    sampled.elements = static_cast<std::size_t>(
+        std::clamp(totals.area / (side * side) * finer, 2'000.0, static_cast<double>(kMostElements)));
+  }
   sampled.relative_spread = std::clamp(sampled.relative_spread / std::sqrt(finer), 0.02, 0.5);
   sampled.element_rays = scaled(sampled.element_rays, 0.5, 32, 1024);
   sampled.point_rays = options.rays > 0 ? options.rays : scaled(sampled.point_rays, 1.5, 64, 65'536);
@@ -79,7 +91,8 @@ SampledOptions SamplingFor(const PipelineOptions& options) {
 
 std::string SolverFor(const Scene& scene, const PipelineOptions& options) {
   if (options.solver) return *options.solver;
-  if (scene.patches.size() <= kMostPatchesOfPairs) return "hierarchical";
+  const std::size_t most = options.error < kLooseError ? kMostPatchesOfPairs : kMostPatchesIfLoose;
+  if (scene.patches.size() <= most) return "hierarchical";
   const PipelineOptions defaults;
   for (const SolveOption& option : OptionTable())
     if (option.solver == "hierarchical" && option.field.get(options) != option.field.get(defaults))
@@ -88,19 +101,20 @@ std::string SolverFor(const Scene& scene, const PipelineOptions& options) {
 }
 
 ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
-  const SceneTotals totals = Total(scene);
+  SceneTotals totals = Total(scene);
   // The mean irradiance if no light escapes and the light spreads evenly.
   const double mean = totals.area > 0 ? totals.flux / totals.area / (1 - totals.reflectance) : 0;
   ResolvedOptions resolved;
   resolved.solver_name = LightSolvers().Find(SolverFor(scene, options)).name;
-  resolved.sampled = SamplingFor(options);
+  const bool is_sampled = resolved.solver_name == "sampled";
+  if (is_sampled) totals.free_path = MeanFreePath(scene);
+  resolved.sampled = SamplingFor(totals, options);
   const double coarse = options.refine == RefineBy::kRepresentation ? kCoarseEps : 1;
   resolved.solver.eps = options.eps.value_or(coarse * kEpsOfMeanIrradiance * options.error * mean);
-  // Without edges along shadows, leaves there become as small as they may.
-  const double least = resolved.solver_name == "sampled"
-                           ? kMinAreaOfSampled * std::min(1.0, options.error / kSampledError)
-                           : kMinAreaOfScene;
-  resolved.solver.min_area = options.min_area.value_or(least * totals.area);
+  const double side = kLeastSideOfSampled * totals.free_path;
+  const double least =
+      is_sampled ? side * side * std::min(1.0, options.error / kSampledError) : kMinAreaOfScene * totals.area;
+  resolved.solver.min_area = options.min_area.value_or(least);
   resolved.solver.relative_cutoff = options.relative_cutoff.value_or(kCutoffOfError * options.error);
   resolved.solver.max_iterations = options.max_iterations;
   resolved.solver.max_corrections = options.max_corrections;

@@ -17,8 +17,6 @@
 namespace penumbra {
 namespace {
 
-// Triangles with an estimated error below this fraction of the requested error are not measured.
-constexpr double kSuspicion = 0.25;
 // Above this fraction, a triangle whose measured error is small is measured once more, at finer points.
 constexpr double kDoubt = 1;
 
@@ -36,7 +34,7 @@ std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& opt
   const std::vector<double> guess = GuessTriangleErrors(scene, refined->mesh, mean);
   std::vector<std::uint32_t> suspects;
   for (std::uint32_t t = 0; t < guess.size(); ++t)
-    if (guess[t] > kSuspicion * options.error) suspects.push_back(t);
+    if (guess[t] >= options.suspicion * options.error) suspects.push_back(t);
   MeasuredTriangles measured =
       MeasureTriangles(scene, refined->mesh, suspects, {options.samples, mean}, sampler, samples);
   refined->errors = std::move(measured.errors);

@@ -35,7 +35,10 @@ struct MeshRefinementOptions {
   double error = 0.02;
   double share_above = kShareAbove;
   double min_area = 0;  // no leaf becomes smaller than this [m^2]
-  int samples = 1;      // per side of a triangle: samples^2 points measure it (thesis, Appendix A)
+  // Triangles whose estimated error (GuessTriangleErrors) is below this fraction of `error` are not measured.
+  // The estimate holds for light that is smooth at the scale of a triangle.
+  double suspicion = 0.25;
+  int samples = 1;  // per side of a triangle: samples^2 points measure it (thesis, Appendix A)
   int max_rounds = 8;
   std::size_t max_triangles = 2'000'000;  // no round starts with more: about 2 GB with their samples
 };

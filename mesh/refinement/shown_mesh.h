@@ -37,6 +37,7 @@ struct ShownMeshOptions {
   // The fraction of the error for the interpolants, for a 99th percentile.
   double interpolant_share = 0.6;
   double share_above = kShareAbove;  // MeshRefinementOptions::share_above
+  double suspicion = 0.25;           // MeshRefinementOptions::suspicion
   int most_turns = 3;                // of refinement after random points have tested the mesh
 };
 

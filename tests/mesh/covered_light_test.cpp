@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include "mesh/interpolants/corner_sheets.h"
 #include "mesh/interpolants/midpoint_prediction.h"
 #include "mesh/refinement/covered_light.h"
 #include "solver/base/random.h"
@@ -143,6 +144,46 @@ TEST(MidpointPrediction, StopsAtDiscontinuities) {
   const MidpointPrediction prediction(mesh, sheets, corner);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(prediction.At(t, k).bend.abs().maxCoeff(), 1e-12);
+}
+
+// The sheet at the middle of a straight border is the same for any triangles.
+TEST(CornerSheets, AreStraightAlongBorders) {
+  for (const int n : {2, 4, 6}) {
+    IrradianceMesh mesh = Grid(n, Quadratic);
+    const CornerSheets sheets(mesh);
+    int straight = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t sheet = sheets.Of(CornerSheets::Corner(t, k));
+        const Vec3& p = mesh.positions[mesh.triangles[t].vertex[k]];
+        const bool on_x = p.x() == 0 || p.x() == 1, on_y = p.y() == 0 || p.y() == 1;
+        EXPECT_EQ(sheets.IsStraight(sheet), on_x != on_y);
+        if (!sheets.IsStraight(sheet)) continue;
+        ++straight;
+        const Vec3 want = on_x ? Vec3(1 - 2 * p.x(), 0, 0) : Vec3(0, 1 - 2 * p.y(), 0);
+        EXPECT_EQ(sheets.Into(sheet), want);
+      }
+    EXPECT_EQ(straight, 4 * (n - 1) * 3);
+  }
+}
+
+// A discontinuity along the middle of the square divides the sheets on it into two straight ones.
+TEST(CornerSheets, AreDividedByDiscontinuities) {
+  IrradianceMesh mesh = Grid(4, Quadratic);
+  for (IrradianceMesh::Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      t.discontinuity[k] =
+          mesh.positions[t.vertex[k]].x() == 0.5 && mesh.positions[t.vertex[(k + 1) % 3]].x() == 0.5;
+  const CornerSheets sheets(mesh);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    double middle = 0;
+    for (std::size_t k = 0; k < 3; ++k) middle += mesh.positions[mesh.triangles[t].vertex[k]].x() / 3;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& p = mesh.positions[mesh.triangles[t].vertex[k]];
+      if (p.x() != 0.5 || p.y() == 0 || p.y() == 1) continue;
+      EXPECT_EQ(sheets.Into(sheets.Of(CornerSheets::Corner(t, k))), Vec3(middle > 0.5 ? 1 : -1, 0, 0));
+    }
+  }
 }
 
 }  // namespace

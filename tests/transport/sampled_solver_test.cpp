@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <span>
+#include <vector>
 
 #include "solver/base/parallel.h"
 #include "solver/base/random.h"
@@ -14,8 +17,10 @@
 #include "solver/scene/surface_points.h"
 #include "solver/transport/links/element_locator.h"
 #include "solver/transport/points/final_gather.h"
+#include "solver/transport/points/neighbour_groups.h"
 #include "solver/transport/points/ray_ends.h"
 #include "solver/transport/points/shadow_rays.h"
+#include "solver/transport/solvers/mean_free_path.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra {
@@ -135,6 +140,56 @@ TEST(ShadowRays, AgreeWithExactDirectLight) {
   EXPECT_LT(worst, 0.05 * sum / 300);
 }
 
+// Points whose rays are traced together get the light that they get alone, but for the choice of the weak
+// luminaires.
+TEST(ShadowRays, GiveGroupsTheLightOfEachPoint) {
+  const Scene scene = *LoadBuiltinScene("office", {});
+  const RayCaster caster(scene);
+  const ShadowRays rays(scene, caster);
+  double worst = 0, sum = 0;
+  for (const int if_hidden : {0, 64}) {
+    const ShadowRayEffort effort{
+        .divisions = 4, .closer_above = 0.02, .rays_if_hidden = if_hidden, .seed = 0};
+    for (const SurfacePoint& point : SpreadPoints(scene, 100, 6)) {
+      std::array<ReceiverPoint, ShadowRays::kTogether> group;
+      group.fill(At(scene, point));
+      const Frame frame = MakeFrame(Vec3::Zero(), group[0].normal);
+      for (std::size_t k = 1; k < group.size(); ++k)
+        group[k].position += 0.02 * static_cast<double>(k) * (k % 2 == 0 ? frame.u : frame.v);
+      std::array<Rgb, ShadowRays::kTogether> together;
+      rays.AtAll(group, effort, together);
+      for (std::size_t k = 0; k < group.size(); ++k) {
+        const Rgb alone = rays.At(group[k], effort);
+        worst = std::max(worst, (together[k] - alone).abs().maxCoeff());
+        sum += alone.maxCoeff() / 1600;
+      }
+    }
+  }
+  std::printf("largest difference: %.2g of the mean direct light\n", worst / sum);
+  EXPECT_LT(worst, 0.05 * sum);
+}
+
+// A reflector lights the points before it and not those in its plane, also if their rays are traced together.
+TEST(ShadowRays, LeaveOutPointsInThePlaneOfAReflector) {
+  Scene scene;
+  scene_test::AddMaterial(scene, 0.5, 0);
+  scene_test::AddBox(scene, Vec3::Zero(), {2, 2, 2}, true, 0);
+  const RayCaster caster(scene);
+  // On the floor, beside the middle of the wall x = 0.
+  constexpr PatchId kWall = 4;
+  const BrightReflector wall{kWall, {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}, Rgb::Ones()};
+  const std::array<BrightReflector, 1> reflectors = {wall};
+  ASSERT_EQ(scene.patches[kWall].normal, Vec3::UnitX());
+  const ShadowRays rays(scene, caster, reflectors);
+  std::array<ReceiverPoint, 3> group;
+  for (std::size_t k = 0; k < group.size(); ++k)
+    group[k] = scene_test::Receiver({0.1 * static_cast<double>(k), 0.5, 0}, Vec3::UnitZ());
+  std::array<Rgb, 3> light;
+  rays.AtAll(group, {}, light);
+  EXPECT_EQ(light[0].maxCoeff(), 0);
+  EXPECT_GT(light[1].minCoeff(), light[2].maxCoeff());
+}
+
 // A bright reflector counts as a luminaire: the same light as that of an emitter in its place.
 TEST(ShadowRays, TakeReflectorsForEmitters) {
   Scene scene;
@@ -195,9 +250,39 @@ TEST(FinalGather, KnowsWhatStandsOnASurface) {
   scene_test::Add(scene, {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, 0);
   scene_test::Add(scene, {{-1, 0, 0}, {1, 0, 0}, {1, 0, 1}, {-1, 0, 1}}, 0);
   const FinalGather gather(Sampled(scene), {});
-  EXPECT_TRUE(gather.IsOneSided(scene_test::Receiver({0.3, 0, 0}, Vec3::UnitZ())));
-  EXPECT_FALSE(gather.IsOneSided(scene_test::Receiver({0.3, 0.01, 0}, Vec3::UnitZ())));
-  EXPECT_FALSE(gather.IsOneSided(scene_test::Receiver({1.5, 0, 0}, Vec3::UnitZ())));
+  const std::array<ReceiverPoint, 3> at = {scene_test::Receiver({0.3, 0, 0}, Vec3::UnitZ()),
+                                           scene_test::Receiver({0.3, 0.01, 0}, Vec3::UnitZ()),
+                                           scene_test::Receiver({1.5, 0, 0}, Vec3::UnitZ())};
+  EXPECT_EQ(gather.AreOneSided(at), 1U);
+  for (std::size_t k = 0; k < at.size(); ++k)
+    EXPECT_EQ(gather.AreOneSided(std::span(at).subspan(k, 1)), k == 0 ? 1U : 0U);
+}
+
+// The floor of two rooms is one patch. What the bright room reflects does not leak under the wall between.
+TEST(FinalGather, KeepsLightBehindAWall) {
+  Scene scene;
+  scene_test::AddMaterial(scene, 0.5, 0);
+  scene_test::AddMaterial(scene, 0, 10);
+  scene_test::AddMaterial(scene, 0, 1);
+  scene_test::AddBox(scene, Vec3::Zero(), {4, 2, 2}, true, 0);
+  scene_test::AddBox(scene, {2.03, 0, 0}, {2.08, 2, 2}, false, 0);
+  scene_test::AddBox(scene, {0.5, 0.5, 1.9}, {1.5, 1.5, 1.95}, false, 1);
+  scene_test::AddBox(scene, {2.5, 0.5, 1.9}, {3.5, 1.5, 1.95}, false, 2);
+  const PatchVisibility visibility(scene);
+  const RadiositySolution exact = scene_test::Solved(scene, 0.1, 1e-3);
+  const PointIrradiance reference(exact, visibility);
+  SampledOptions options = Coarse();
+  options.elements = 4000;
+  const FinalGather gather(Sampled(scene, options), {});
+  double worst = 0;
+  for (int k = 0; k < 8; ++k) {
+    // On the dark side of the wall, close to the floor.
+    const ReceiverPoint at = scene_test::Receiver({2.08, 0.3 + 0.2 * k, 0.05}, Vec3::UnitX(), Vec3::UnitX());
+    const double want = reference.Anywhere(at).irradiance[0];
+    worst = std::max(worst, std::abs(gather.At(at)[0] / want - 1));
+  }
+  std::printf("largest relative difference behind the wall: %.2g\n", worst);
+  EXPECT_LT(worst, 0.15);
 }
 
 // The bytes of the light do not depend on the number of threads, nor on whether the light was computed
@@ -248,6 +333,40 @@ TEST(SampledSolver, KeepsTheLightOfTheLastPass) {
     EXPECT_TRUE((solver.solution().irradiance[e] == before.irradiance[e]).all());
   EXPECT_TRUE(solver.Step(SolverStep::kIterate, {}));
   EXPECT_TRUE(solver.Converged());
+}
+
+TEST(MeanFreePath, IsFourVolumesPerAreaInAClosedRoom) {
+  for (const Vec3& size : {Vec3(1, 1, 1), Vec3(4, 5, 3), Vec3(1, 8, 2)}) {
+    Scene scene;
+    scene_test::AddMaterial(scene, 0.5, 0);
+    scene_test::AddBox(scene, Vec3::Zero(), size, true, 0);
+    const double area = 2 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
+    const double want = 4 * size.prod() / area, got = MeanFreePath(scene);
+    std::printf("mean free path %.4g, wanted %.4g\n", got, want);
+    EXPECT_NEAR(got, want, 0.03 * want);
+  }
+}
+
+TEST(NeighbourGroups, HaveEachPointOnceAndEqualNormals) {
+  Random random(17);
+  std::vector<ReceiverPoint> points;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 normal = Vec3::Unit(static_cast<int>(random.Index(3))) * (random.Index(2) == 0 ? 1 : -1);
+    points.push_back(scene_test::Receiver(
+        {random.Uniform(-5, 5), random.Uniform(0, 1e-3), i % 10 == 0 ? 0 : random.Uniform(0, 2)}, normal));
+  }
+  std::vector<int> times(points.size(), 0);
+  const std::vector<std::vector<std::size_t>> groups = GroupNeighbours(points, 8);
+  for (const std::vector<std::size_t>& group : groups) {
+    ASSERT_LE(group.size(), 8U);
+    for (const std::size_t i : group) {
+      ++times[i];
+      EXPECT_EQ(points[i].normal, points[group[0]].normal);
+    }
+  }
+  for (const int count : times) EXPECT_EQ(count, 1);
+  EXPECT_LE(groups.size(), points.size() / 8 + 6);  // only the last group of a normal is incomplete
+  EXPECT_TRUE(GroupNeighbours({}, 8).empty());
 }
 
 }  // namespace

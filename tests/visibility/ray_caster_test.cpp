@@ -4,6 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <span>
+
+#include "solver/base/random.h"
+#include "solver/scene/builtin_scenes.h"
 #include "solver/scene/surface_points.h"
 #include "tests/visibility/test_scenes.h"
 
@@ -52,6 +59,44 @@ TEST(RayCaster, ClosedRoomsAreTight) {
     }
     EXPECT_LE(away + backs, 2) << far << " m from the origin";
   }
+}
+
+// Rays that are traced together hit what they hit alone.
+TEST(RayCaster, TracesPacketsLikeSingleRays) {
+  const Scene scene = *LoadBuiltinScene("office", {});
+  const RayCaster caster(scene);
+  const auto [low, high] = scene.Bounds();
+  Random random(12);
+  int blocked = 0;
+  for (int i = 0; i < 500; ++i) {
+    const auto place = [&, low = low, high = high] {
+      return Vec3(random.Uniform(low.x(), high.x()), random.Uniform(low.y(), high.y()),
+                  random.Uniform(low.z(), high.z()));
+    };
+    const Vec3 centre = place(), direction = (place() - centre).normalized();
+    const std::size_t count = 1 + random.Index(RayCaster::kPacket);
+    std::array<Vec3, RayCaster::kPacket> from, to;
+    for (std::size_t k = 0; k < count; ++k) {
+      from[k] = centre + 0.3 * (place() - centre);
+      to[k] = from[k] + random.Uniform(0, 3) * direction;
+    }
+    if (i % 10 == 0) from[0] = centre - 1e7 * direction;  // from far away
+    std::array<RayCaster::Hit, RayCaster::kPacket> hits;
+    caster.CastTogether(std::span(from).first(count), direction, std::span(hits).first(count));
+    const std::uint32_t together =
+        caster.BlockedTogether(std::span(from).first(count), std::span(to).first(count));
+    EXPECT_EQ(together >> count, 0U);
+    for (std::size_t k = 0; k < count; ++k) {
+      const RayCaster::Hit alone = caster.Cast(from[k], direction);
+      EXPECT_EQ(hits[k].patch, alone.patch);
+      EXPECT_EQ(hits[k].front, alone.front);
+      EXPECT_NEAR(hits[k].distance, alone.distance, 1e-6 * std::max(1.0, alone.distance));
+      EXPECT_EQ((together >> k & 1) != 0, caster.Blocked(from[k], to[k]));
+      blocked += static_cast<int>(together >> k & 1);
+    }
+  }
+  std::printf("seed 12, %d segments are blocked\n", blocked);
+  EXPECT_GT(blocked, 100);
 }
 
 }  // namespace

@@ -29,6 +29,8 @@ constexpr std::size_t kStride = 7919;
 // RayLift() long.
 constexpr int kLooksAround = 8;
 constexpr double kAside = 4;
+// Light that differs by more than this factor between leaves that touch is not smooth.
+constexpr double kSharpEdge = 2;
 // The largest number of leaves that are luminaires; points look at all of them.
 constexpr std::size_t kMostReflectors = 2000;
 
@@ -74,25 +76,17 @@ struct CornerLight {
 };
 
 // The light at the corners of all leaves: the area-weighted mean over the leaves of the patch that meet
-// there, except those that are dark because they have become luminaires.
+// there, except those whose light differs so much that a shadow's edge or a wall must lie between, or that
+// are dark because they have become luminaires.
 std::vector<CornerLight> LightAtCorners(const ElementForest& forest, std::span<const Rgb> light) {
   std::vector<CornerLight> corners(forest.size());
   const std::size_t patches = forest.scene().patches.size();
   ParallelFor(patches, 16, [&](std::size_t p) {
-    struct Sum {
-      Rgb light = Rgb::Zero();
-      double area = 0;
-    };
-    std::unordered_map<LatticePoint, Sum, LatticePointHash> sums;
+    std::unordered_map<LatticePoint, std::vector<ElementId>, LatticePointHash> meeting;
     const std::vector<ElementId> leaves = forest.Leaves(static_cast<PatchId>(p));
     for (const ElementId leaf : leaves) {
-      const Rgb& of_leaf = light[static_cast<std::size_t>(leaf)];
-      if ((of_leaf <= 0).all()) continue;
-      for (const LatticePoint& corner : forest[leaf].Corners()) {
-        Sum& sum = sums[corner];
-        sum.light += forest[leaf].area * of_leaf;
-        sum.area += forest[leaf].area;
-      }
+      if ((light[static_cast<std::size_t>(leaf)] <= 0).all()) continue;
+      for (const LatticePoint& corner : forest[leaf].Corners()) meeting[corner].push_back(leaf);
     }
     for (const ElementId leaf : leaves) {
       CornerLight& own = corners[static_cast<std::size_t>(leaf)];
@@ -101,8 +95,16 @@ std::vector<CornerLight> LightAtCorners(const ElementForest& forest, std::span<c
       own.light.fill(of_leaf);
       if ((of_leaf <= 0).all()) continue;
       for (std::size_t k = 0; k < forest[leaf].Corners().size(); ++k) {
-        const Sum& sum = sums[forest[leaf].Corners()[k]];
-        own.light[k] = sum.light / sum.area;
+        Rgb sum = Rgb::Zero();
+        double area = 0;
+        for (const ElementId other : meeting[forest[leaf].Corners()[k]]) {
+          const Rgb& of_other = light[static_cast<std::size_t>(other)];
+          if (of_other.sum() > kSharpEdge * of_leaf.sum() || of_leaf.sum() > kSharpEdge * of_other.sum())
+            continue;
+          sum += forest[other].area * of_other;
+          area += forest[other].area;
+        }
+        own.light[k] = sum / area;
       }
     }
   });

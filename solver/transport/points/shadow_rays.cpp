@@ -22,7 +22,7 @@ constexpr double kStrong = 0.05;
 // Farther than this times its radius, the sum over rays tells the light of a reflector to a per cent.
 constexpr double kFarFromReflector = 4;
 // A luminaire a b c d is a parallelogram if |a - b + c - d| is less than this times its radius.
-constexpr double kParallelogram = 1e-6;
+constexpr double kMostSkew = 1e-6;
 
 std::vector<PatchId> EveryPatch(const Scene& scene) {
   std::vector<PatchId> all(scene.patches.size());
@@ -41,7 +41,6 @@ struct ShadowRays::Group {
   IrradianceParts* parts = nullptr;  // of the first point
 
   std::size_t size() const { return at.size(); }
-  std::uint32_t All() const { return (std::uint32_t{1} << size()) - 1; }
 
   void Add(std::size_t point, const Luminaire& luminaire, const Rgb& irradiance) {
     light[point] += irradiance;
@@ -85,8 +84,16 @@ void ShadowRays::AddLuminaire(PatchId patch, std::span<const Vec3> polygon, cons
   added.radiosity = radiosity;
   added.brightness = radiosity.maxCoeff();
   added.is_parallelogram = polygon.size() == 4 && (polygon[0] - polygon[1] + polygon[2] - polygon[3]).norm() <
-                                                      kParallelogram * added.radius;
+                                                      kMostSkew * added.radius;
   luminaires_.push_back(added);
+}
+
+// The points of a group that the luminaire may light, one bit for each.
+std::uint32_t ShadowRays::PointsLitBy(const Seen& seen) {
+  std::uint32_t points = 0;
+  for (std::size_t p = 0; p < seen.light.size(); ++p)
+    if (seen.light[p] > 0) points |= std::uint32_t{1} << p;
+  return points;
 }
 
 // An estimate of the unoccluded light of a luminaire at a point, in the brightest channel [W/m^2]. Zero if
@@ -214,9 +221,10 @@ Rgb ShadowRays::Exact(const ReceiverPoint& at, PatchId emitter) const {
 }
 
 // Adds the light of a strong luminaire. `rest` is the estimated light of the luminaires after it.
-void ShadowRays::AddStrong(const Luminaire& luminaire, const Values& rest, const ShadowRayEffort& effort,
+void ShadowRays::AddStrong(const Seen& strong, const Values& rest, const ShadowRayEffort& effort,
                            Group& group) const {
-  const RaySums rays = CastRays(group, group.All(), luminaire, effort);
+  const Luminaire& luminaire = luminaires_[strong.luminaire];
+  const RaySums rays = CastRays(group, PointsLitBy(strong), luminaire, effort);
   std::uint32_t hidden = 0;
   std::array<Rgb, kTogether> unhindered;
   for (std::size_t p = 0; p < group.size(); ++p) {
@@ -276,7 +284,7 @@ void ShadowRays::AddWeak(std::span<const Seen> weak, const ShadowRayEffort& effo
     const auto number = static_cast<std::uint64_t>(k) + effort.seed * static_cast<std::uint64_t>(rays);
     RaySums seen;
     AddPlace(
-        group, group.All(), luminaire,
+        group, PointsLitBy(weak[i]), luminaire,
         luminaire.Place(AdditiveRecurrence(number, kR2Alpha[0]), AdditiveRecurrence(number, kR2Alpha[1])),
         seen);
     // The expected number of rays of this luminaire.
@@ -308,7 +316,7 @@ void ShadowRays::AtAll(std::span<const ReceiverPoint> points, const ShadowRayEff
       effort.divisions > 0 ? std::stable_partition(seen.begin(), seen.end(), is_strong) : seen.begin();
   for (auto strong = seen.begin(); strong != weak; ++strong) {
     for (std::size_t p = 0; p < points.size(); ++p) rest[p] -= strong->light[p];
-    AddStrong(luminaires_[strong->luminaire], rest, effort, group);
+    AddStrong(*strong, rest, effort, group);
   }
   AddWeak(std::span(weak, seen.end()), effort, group);
 }

@@ -92,6 +92,7 @@ class ShadowRays {
   };
 
   void AddLuminaire(PatchId patch, std::span<const Vec3> polygon, const Rgb& radiosity, bool emits);
+  static std::uint32_t PointsLitBy(const Seen& seen);
   double Estimate(const ReceiverPoint& at, const Luminaire& luminaire) const;
   void FindSeen(Group& group, std::vector<Seen>& seen) const;
   void AddPlace(const Group& group, std::uint32_t which, const Luminaire& luminaire, const Vec3& to,
@@ -102,8 +103,7 @@ class ShadowRays {
                        const ShadowRayEffort& effort) const;
   Rgb Unhindered(const ReceiverPoint& at, const Luminaire& luminaire) const;
   Rgb Exact(const ReceiverPoint& at, PatchId emitter) const;
-  void AddStrong(const Luminaire& luminaire, const Values& rest, const ShadowRayEffort& effort,
-                 Group& group) const;
+  void AddStrong(const Seen& strong, const Values& rest, const ShadowRayEffort& effort, Group& group) const;
   void AddWeak(std::span<const Seen> weak, const ShadowRayEffort& effort, Group& group) const;
 
   const Scene& scene_;

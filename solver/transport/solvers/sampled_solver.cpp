@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kGrain = 16;
 // Elements are divided while their direct light varies, unless the variation of the flux that they reflect is
 // below kLeastFlux times all reflected flux.
-constexpr double kLeastFlux = 2e-6;
+constexpr double kLeastFlux = 0.015;
 // Light below this times the mean counts as dark: its variation is measured against the mean.
 constexpr double kDark = 0.05;
 // A pass before the last one allows areas and spreads that are larger by these factors for each pass to come.
@@ -65,15 +65,18 @@ SampledSolver::Limits SampledSolver::LimitsOf(int pass) const {
 SampledSolver::Direct SampledSolver::DirectOn(ElementId id) const {
   const Element& element = solution_.forest[id];
   const Vec3& normal = scene_.patches[static_cast<std::size_t>(element.patch)].normal;
+  std::array<ReceiverPoint, 4> at;
+  for (std::size_t k = 0; k < at.size(); ++k)
+    at[k] = {.position = PointOn(element.Vertices(), k % 2 == 0 ? 0.25 : 0.75, k < 2 ? 0.25 : 0.75),
+             .normal = normal,
+             .approach = normal,
+             .uncertainty = 0};
   std::array<Rgb, 4> light;
+  ShadowRayEffort effort = kRough;
+  effort.seed = static_cast<std::uint64_t>(id);
+  shadows_->AtAll(at, effort, light);
   Direct direct;
-  for (std::size_t k = 0; k < light.size(); ++k) {
-    const Vec3 place = PointOn(element.Vertices(), k % 2 == 0 ? 0.25 : 0.75, k < 2 ? 0.25 : 0.75);
-    ShadowRayEffort effort = kRough;
-    effort.seed = k + 4 * static_cast<std::uint64_t>(id);
-    light[k] = shadows_->At({.position = place, .normal = normal, .approach = normal}, effort);
-    direct.mean += light[k] / 4;
-  }
+  for (const Rgb& l : light) direct.mean += l / 4;
   for (const Rgb& l : light) direct.spread += (l - direct.mean).square() / 4;
   direct.spread = direct.spread.sqrt();
   return direct;
@@ -111,7 +114,8 @@ void SampledSolver::Divide(const Limits& limits, const ExecutionContext& context
     }
     const std::size_t count = solution_.forest.size();
     for (std::size_t e = first; e < count && solution_.forest.size() < options_.max_elements; ++e)
-      if (MustDivide(static_cast<ElementId>(e), limits, kLeastFlux * flux))
+      if (MustDivide(static_cast<ElementId>(e), limits,
+                     kLeastFlux * flux / static_cast<double>(options_.elements)))
         solution_.forest.Subdivide(static_cast<ElementId>(e));
     if (solution_.forest.size() == count) break;
     push_pull_.Update();

@@ -48,9 +48,9 @@ struct SampledOptions {
   std::size_t elements = 20'000;  // no element is larger than (area of all fronts) / elements
   // Elements are divided until the relative deviation of direct light within them is at most relative_spread.
   double relative_spread = 0.25;
-  std::size_t max_elements = 2'000'000;
+  std::size_t max_elements = 8'000'000;
   std::size_t element_rays = 64;  // of an element in the last pass
-  std::size_t point_rays = 256;   // RadiositySolution::rays_per_point
+  std::size_t point_rays = 192;   // RadiositySolution::rays_per_point
   int passes = 2;                 // each finer than the one before
   double relative_cutoff = 1e-4;  // as SolverOptions::relative_cutoff
 };
