@@ -65,9 +65,11 @@ std::string MissedError(const PipelineReport& report, const PartError* worst) {
   return line + fmt::format("the worst point is ({:.4g}, {:.4g}, {:.4g})", at.x(), at.y(), at.z());
 }
 
-// Sampled light errs little: its interpolants may use the whole error on nearly the whole area allowed, and a
-// second look would only chase noise.
+// Sampled light errs little: its interpolants may use most of the error on most of the area allowed. A second
+// look would only chase noise.
 constexpr double kSampledShare = 0.8, kSampledShareAbove = 0.006;
+// Without edges along shadows, light may vary within triangles in ways that their vertices do not tell.
+constexpr double kSampledSteep = 2;
 
 ShownMeshOptions HowToShow(const PipelineOptions& options, const ResolvedOptions& resolved) {
   ShownMeshOptions how;
@@ -79,6 +81,7 @@ ShownMeshOptions HowToShow(const PipelineOptions& options, const ResolvedOptions
   how.interpolant_share = kSampledShare;
   how.share_above = kSampledShareAbove;
   how.suspicion = 0;
+  how.steep = kSampledSteep;
   how.most_turns = 0;
   return how;
 }

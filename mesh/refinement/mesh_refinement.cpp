@@ -26,6 +26,13 @@ struct LightAt {
   const ExecutionContext& context;
 };
 
+// True if the light at the vertices differs by more than the factor.
+bool IsSteep(const QuadraticInterpolant& light, const Rgb& mean, double factor) {
+  const Rgb floor = kErrorFloor * mean;
+  const Rgb a = light.At(0, 0).max(floor), b = light.At(1, 0).max(floor), c = light.At(0, 1).max(floor);
+  return (a.max(b).max(c) > factor * a.min(b).min(c)).any();
+}
+
 // Measures the errors of triangles for which the interpolants' gradients give reason. Returns the number of
 // evaluations.
 std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& options,
@@ -40,7 +47,9 @@ std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& opt
   refined->errors = std::move(measured.errors);
   std::vector<std::uint32_t> doubtful;
   for (const std::uint32_t t : suspects)
-    if (refined->errors[t].max <= options.error && guess[t] > kDoubt * options.error) doubtful.push_back(t);
+    if (refined->errors[t].max <= options.error &&
+        (guess[t] > kDoubt * options.error || IsSteep(refined->mesh.irradiance[t], mean, options.steep)))
+      doubtful.push_back(t);
   const MeasuredTriangles finer =
       MeasureTriangles(scene, refined->mesh, doubtful, {options.samples + 1, mean}, sampler, samples);
   for (const std::uint32_t t : doubtful)

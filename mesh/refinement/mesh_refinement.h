@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "mesh/discontinuities/mesh_options.h"
@@ -38,6 +39,8 @@ struct MeshRefinementOptions {
   // Triangles whose estimated error (GuessTriangleErrors) is below this fraction of `error` are not measured.
   // The estimate holds for light that is smooth at the scale of a triangle.
   double suspicion = 0.25;
+  // Triangles whose vertices differ by more than this factor are measured at finer points, too.
+  double steep = std::numeric_limits<double>::infinity();
   int samples = 1;  // per side of a triangle: samples^2 points measure it (thesis, Appendix A)
   int max_rounds = 8;
   std::size_t max_triangles = 2'000'000;  // no round starts with more: about 2 GB with their samples

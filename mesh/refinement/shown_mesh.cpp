@@ -301,6 +301,7 @@ MeshRefinementOptions ShownMesh::RefinementTo(double error) const {
   refinement.share_above = options_.share_above;
   refinement.min_area = options_.solver.min_area;
   refinement.suspicion = options_.suspicion;
+  refinement.steep = options_.steep;
   refinement.samples = options_.error_samples;
   return refinement;
 }

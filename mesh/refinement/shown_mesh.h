@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -36,9 +37,10 @@ struct ShownMeshOptions {
   SolverOptions solver;  // the options of the solution
   // The fraction of the error for the interpolants, for a 99th percentile.
   double interpolant_share = 0.6;
-  double share_above = kShareAbove;  // MeshRefinementOptions::share_above
-  double suspicion = 0.25;           // MeshRefinementOptions::suspicion
-  int most_turns = 3;                // of refinement after random points have tested the mesh
+  double share_above = kShareAbove;                        // MeshRefinementOptions::share_above
+  double suspicion = 0.25;                                 // MeshRefinementOptions::suspicion
+  double steep = std::numeric_limits<double>::infinity();  // MeshRefinementOptions::steep
+  int most_turns = 3;  // of refinement after random points have tested the mesh
 };
 
 // Seconds spent on sources and on meshes.

@@ -272,7 +272,8 @@ TEST(FinalGather, KeepsLightBehindAWall) {
   const RadiositySolution exact = scene_test::Solved(scene, 0.1, 1e-3);
   const PointIrradiance reference(exact, visibility);
   SampledOptions options = Coarse();
-  options.elements = 4000;
+  options.elements = 500;
+  options.passes = 1;
   const FinalGather gather(Sampled(scene, options), {});
   double worst = 0;
   for (int k = 0; k < 8; ++k) {
