@@ -21,14 +21,18 @@ constexpr std::size_t kPointsATask = 16;
 constexpr std::size_t kPartPoints = 20, kAllPartPoints = 160, kFewestPartPoints = 4;
 constexpr std::size_t kAllSuspectPoints = 6000, kFewestSuspectPoints = 12;
 
+// Errors count only beyond this many standard errors of the truth, as in comparisons with path tracing.
+constexpr double kSurelyDifferent = 2;
+
 // The fractions of values below and above the 99th percentile.
 constexpr double kP99 = 0.99, kAboveP99 = 0.01;
 
 // The values at the points of a measurement.
 struct Values {
   std::vector<SurfacePoint> at;
-  std::vector<Rgb> shown, exact;         // [W/m^2]
-  std::vector<std::vector<Rgb>> truths;  // from each of the better samplers
+  std::vector<Rgb> shown, exact;             // [W/m^2]
+  std::vector<std::vector<Rgb>> truths;      // from each of the better samplers
+  std::vector<std::vector<Rgb>> deviations;  // of the truths
 };
 
 // Appends the values at additional points.
@@ -41,7 +45,9 @@ void Evaluate(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSa
   values.shown.resize(values.at.size());
   values.exact.resize(values.at.size());
   values.truths.resize(better.size());
+  values.deviations.resize(better.size());
   for (std::vector<Rgb>& truth : values.truths) truth.resize(values.at.size());
+  for (std::vector<Rgb>& deviation : values.deviations) deviation.resize(values.at.size());
   std::vector<PatchPoint> receivers(points.size());
   for (std::size_t p = 0; p < points.size(); ++p) {
     receivers[p].patch = points[p].patch;
@@ -54,7 +60,10 @@ void Evaluate(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSa
     for (std::size_t p = 0; p < found.size(); ++p) of[before + p] = found[p].irradiance;
   };
   sample(sampler, values.exact);
-  for (std::size_t k = 0; k < better.size(); ++k) sample(better[k], values.truths[k]);
+  for (std::size_t k = 0; k < better.size(); ++k) {
+    sample(better[k], values.truths[k]);
+    for (std::size_t p = 0; p < found.size(); ++p) values.deviations[k][before + p] = found[p].deviation;
+  }
   ParallelFor(points.size(), kPointsATask, [&](std::size_t p) {
     const std::size_t i = before + p;
     const SurfacePoint& at = values.at[i];
@@ -88,6 +97,19 @@ RepresentationError Summarise(const Scene& scene, std::span<const SurfacePoint> 
   error.p95 = Quantile(errors, 0.95);
   error.rms = std::sqrt(squares / static_cast<double>(errors.size()));
   return error;
+}
+
+// The errors of the first values against the k-th truth. Of each difference, only the part beyond
+// kSurelyDifferent standard errors of the truth counts.
+std::vector<ValueError> ErrorsBeyondNoise(const Scene& scene, const Values& values,
+                                          std::span<const Rgb> shown, std::size_t k) {
+  std::vector<Rgb> truth(values.truths[k].begin(),
+                         values.truths[k].begin() + static_cast<std::ptrdiff_t>(shown.size()));
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const Rgb noise = kSurelyDifferent * values.deviations[k][i];
+    truth[i] = shown[i].max(truth[i] - noise).min(truth[i] + noise);
+  }
+  return SeenErrors(scene, std::span(values.at).first(shown.size()), shown, truth);
 }
 
 // Replaces each error in `largest` by the larger of the two lists' errors. `largest` may be empty initially.
@@ -131,8 +153,8 @@ std::vector<PartError> MeasureParts(const Scene& scene,
   const std::vector<double> areas = ReflectingAreas(scene);
   const auto summarise = [&] {
     std::vector<ValueError> errors;
-    for (const std::vector<Rgb>& truth : values.truths)
-      KeepLarger(SeenErrors(scene, values.at, values.shown, truth), errors);
+    for (std::size_t k = 0; k < values.truths.size(); ++k)
+      KeepLarger(ErrorsBeyondNoise(scene, values, values.shown, k), errors);
     return SummariseParts(scene, parts, values.at, errors);
   };
   if (parts.size() < 2) return summarise();
@@ -223,9 +245,9 @@ MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const
       Summarise(scene, evenly, SeenErrors(scene, evenly, first(values.shown), first(values.exact)));
   if (better.empty()) return error;
   std::vector<ValueError> sources, whole;
-  for (const std::vector<Rgb>& truth : values.truths) {
-    KeepLarger(SeenErrors(scene, evenly, first(values.exact), first(truth)), sources);
-    KeepLarger(SeenErrors(scene, evenly, first(values.shown), first(truth)), whole);
+  for (std::size_t k = 0; k < values.truths.size(); ++k) {
+    KeepLarger(ErrorsBeyondNoise(scene, values, first(values.exact), k), sources);
+    KeepLarger(ErrorsBeyondNoise(scene, values, first(values.shown), k), whole);
   }
   error.sources = Summarise(scene, evenly, sources);
   error.whole = Summarise(scene, evenly, whole);

@@ -22,8 +22,9 @@ namespace {
 // The tolerance of samples in measurements for details of their sources, as a fraction of the error. The
 // tolerance changes results by at most this.
 constexpr double kMeasuredShare = 0.1;
-// The irradiance that measures sampled light takes this times the rays, in other directions.
-constexpr std::size_t kTruthRays = 2;
+// The irradiance that measures sampled light is the mean of this many sets of rays in other directions, which
+// also tell its standard error.
+constexpr std::size_t kTruthSets = 4;
 constexpr std::uint64_t kTruthSeed = 1000;
 // The number of random points that measure the sources. If the fraction of values above the requested error
 // lies between kClearlyMet and kClearlyMissed, more points are used, because these few cannot tell whether it
@@ -84,6 +85,18 @@ ShownMeshOptions HowToShow(const PipelineOptions& options, const ResolvedOptions
   how.steep = kSampledSteep;
   how.most_turns = 0;
   return how;
+}
+
+// The mean of the irradiance of all sets, with its standard error.
+PointIrradianceResult MeanOf(std::span<const FinalGather> sets, const ReceiverPoint& at) {
+  const auto count = static_cast<double>(sets.size());
+  std::vector<Rgb> values;
+  PointIrradianceResult mean;
+  for (const FinalGather& set : sets) mean.irradiance += values.emplace_back(set.At(at)) / count;
+  Rgb squares = Rgb::Zero();
+  for (const Rgb& value : values) squares += (value - mean.irradiance).square();
+  mean.deviation = (squares / (count * (count - 1))).sqrt();
+  return mean;
 }
 
 // The roots of the solution's quadtrees, with their mean light.
@@ -279,21 +292,31 @@ struct Pipeline::Impl {
     std::vector<IrradianceSampler> samplers;
   };
 
+  // Gathers with rays in directions that differ from those of the solution's points, and from set to set.
+  std::vector<FinalGather> TruthSets() {
+    std::vector<FinalGather> sets;
+    for (std::size_t k = 0; k < kTruthSets; ++k) {
+      FinalGatherOptions how;
+      how.rays = Solution().rays_per_point;
+      how.seed = kTruthSeed + kTruthSets * options.seed + k;
+      how.regather = true;
+      how.shadows.seed = how.seed;
+      if (sets.empty())
+        sets.emplace_back(Solution(), how);
+      else
+        sets.push_back(sets.front().With(how));
+    }
+    return sets;
+  }
+
   // No samplers if cancelled. `context` must outlive the result.
   Truths BetterLight(const ExecutionContext& context) {
     Truths truths;
     if (Solution().rays_per_point > 0) {
-      FinalGatherOptions how;
-      how.rays = kTruthRays * Solution().rays_per_point;
-      how.seed = kTruthSeed + options.seed;
-      how.regather = true;
-      how.shadows.seed = how.seed;
-      const auto gather = std::make_shared<const FinalGather>(Solution(), how);
-      truths.owned = {gather};
-      const auto sample = [gather = gather.get()](PatchId, const ReceiverPoint& at) {
-        return PointIrradianceResult{gather->At(at)};
-      };
-      truths.samplers = {WhileGoing(sample, context)};
+      const auto sets = std::make_shared<const std::vector<FinalGather>>(TruthSets());
+      truths.owned = {sets};
+      truths.samplers = {WhileGoing(
+          [sets = sets.get()](PatchId, const ReceiverPoint& at) { return MeanOf(*sets, at); }, context)};
       return truths;
     }
     const SourceCells finest = shown.FinestCells(Solution(), context);

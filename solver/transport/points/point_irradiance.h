@@ -37,6 +37,8 @@ struct PointIrradianceResult {
   bool one_sided = false;
   // The form factors that led to the value; null if they were not asked for.
   std::shared_ptr<FactorRow> row = nullptr;
+  // The standard error of the irradiance, as far as it is known from independent samples [W/m^2].
+  Rgb deviation = Rgb::Zero();
 };
 
 // A point on the front of a patch.
