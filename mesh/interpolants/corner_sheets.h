@@ -26,8 +26,8 @@ class CornerSheets {
   // A sheet is straight if its angles add up to pi: its vertex lies within a straight border of a patch, or
   // within a straight discontinuity.
   bool IsStraight(std::size_t sheet) const { return !into_[sheet].isZero(0); }
-  // The direction from the vertex of a straight sheet into it, at right angles to its border. The vector does
-  // not depend on the triangles of the sheet. Zero for other sheets.
+  // For a straight sheet, the direction from its vertex into the sheet, perpendicular to the border of the
+  // sheet. The direction is the same for every triangulation. For other sheets, the zero vector.
   const Vec3& Into(std::size_t sheet) const { return into_[sheet]; }
 
  private:

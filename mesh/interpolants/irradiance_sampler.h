@@ -24,7 +24,7 @@ class IrradianceSampler {
   // Several threads call the function at once.
   template <std::invocable<PatchId, const ReceiverPoint&> Function>
   IrradianceSampler(Function one) : one_(std::move(one)) {}  // NOLINT: a function is a sampler
-  // `many` gives the same values for many points as `one` gives for each, in parallel.
+  // `many` evaluates many points in parallel. Its values agree with those of `one` within the error of both.
   IrradianceSampler(One one, Many many) : one_(std::move(one)), many_(std::move(many)) {}
 
   PointIrradianceResult operator()(PatchId patch, const ReceiverPoint& at) const { return one_(patch, at); }
@@ -40,8 +40,9 @@ class IrradianceSampler {
 
 // A sampler that calls exact.NearlyOnPatch() with the given tolerance. `exact` must outlive the sampler.
 IrradianceSampler NearSampler(const PointIrradiance& exact, double tolerance);
-// A sampler that calls exact.RecordOnPatch() with the given tolerance, so that its samples have rows. `exact`
-// must outlive the sampler.
+// A sampler that calls exact.RecordOnPatch() with the given tolerance. Each sample then contains its form
+// factors (FactorRow), unless rays give the irradiance (PointIrradiance::IsSampled). `exact` must outlive the
+// sampler.
 IrradianceSampler RecordingSampler(const PointIrradiance& exact, double tolerance);
 // A sampler that calls `sampler`, but returns irradiance 0 after the context is cancelled. `context` must
 // outlive the returned function.

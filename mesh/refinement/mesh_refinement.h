@@ -30,9 +30,9 @@ namespace penumbra {
 inline constexpr double kShareAbove = 0.005;
 
 struct MeshRefinementOptions {
-  // The relative error must be at most `error` on a fraction 1 - share_above of the area of the fronts that
-  // reflect (ReflectingAreas), and on the same fraction of the area of the other fronts. In each part of the
-  // scene (PartsOf), the limit is kPartError * error.
+  // The fronts whose relative error exceeds `error` may cover at most the fraction share_above of the area of
+  // all fronts that reflect (ReflectingAreas). The same holds for the other fronts, among themselves. In each
+  // part of the scene (PartsOf), the limit of the error is kPartError * error.
   double error = 0.02;
   double share_above = kShareAbove;
   double min_area = 0;  // no leaf becomes smaller than this [m^2]

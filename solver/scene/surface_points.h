@@ -31,7 +31,8 @@ std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::size_t count, st
 std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::span<const double> weights, std::size_t count,
                                        std::uint64_t seed);
 
-// The same for the listed patches alone; weights[i] belongs to patches[i].
+// Like the function above, but chooses points on the listed patches only. weights[i] is the weight of
+// patches[i]. REQUIRES: at least one weight is not 0.
 std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::span<const PatchId> patches,
                                        std::span<const double> weights, std::size_t count,
                                        std::uint64_t seed);

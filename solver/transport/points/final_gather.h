@@ -27,9 +27,10 @@ struct FinalGatherOptions {
   std::size_t rays = 1024;  // for reflected light
   ShadowRayEffort shadows;
   std::uint64_t seed = 0;  // of the pattern of directions
-  // If true, the element that a ray hits does not tell its own radiosity: direct light there comes by shadow
-  // rays to the very point, and reflected light by one more ray. Much slower; independent of the division
-  // into elements for all light that was reflected once, except for that of luminaires.
+  // If false, a ray brings the radiosity that the solution stores for the element at the hit. If true, the
+  // irradiance at the hit is computed anew: direct light by shadow rays from the hit, reflected light by one
+  // more ray. This is much slower. Errors of the stored elements then affect only light that was reflected
+  // at least twice, and the light of luminaires.
   bool regather = false;
 };
 
@@ -44,8 +45,9 @@ class FinalGather {
 
   // The most points that one call of AtAll() takes.
   static constexpr std::size_t kTogether = RayCaster::kPacket;
-  // Sets irradiance[i] to At(points[i]). Rays of neighbouring points are traced together. REQUIRES: at most
-  // kTogether points with equal normals, and as many values.
+  // Sets irradiance[i] to the irradiance at points[i]. Rays of neighbouring points are traced together. The
+  // values differ from those of At() only because all points share the choice of weak luminaires
+  // (ShadowRays). REQUIRES: at most kTogether points with equal normals, and as many values.
   void AtAll(std::span<const ReceiverPoint> points, std::span<Rgb> irradiance) const;
 
   // Bit i of the result tells whether another surface stands on that of points[i], so near that light may

@@ -76,8 +76,10 @@ class PointIrradiance {
 
   // True if rays give the irradiance (RadiositySolution::rays_per_point > 0).
   bool IsSampled() const { return gather_.has_value(); }
-  // Sets results[i] to NearlyOnPatch() of points[i], in parallel: neighbouring points share their rays'
-  // directions, and are several times cheaper together. The values do not depend on the number of threads.
+  // Sets results[i] to the irradiance at points[i], in parallel. Rays of neighbouring points are traced
+  // together, which takes less time than NearlyOnPatch() for each point. The values differ from those of
+  // NearlyOnPatch() only because neighbours share the choice of weak luminaires (ShadowRays); they do not
+  // depend on the number of threads.
   // REQUIRES: IsSampled(), and the sizes are equal.
   void SampleTogether(std::span<const PatchPoint> points, std::span<PointIrradianceResult> results) const;
 

@@ -54,7 +54,8 @@ class ShadowRays {
   static constexpr std::size_t kTogether = RayCaster::kPacket;
   // Sets irradiance[i] to the light of the luminaires at points[i] [W/m^2]. Rays of neighbouring points are
   // traced together. Adds the contributions, and the direct light of emitters, at the first point to `parts`,
-  // unless null; `parts` gets no gradient. The values depend on the points and the effort alone. May be
+  // unless null; `parts` gets no gradient. The points share the places on weak luminaires to
+  // which rays go, so that a value depends on all points of the call, and on the effort. May be
   // called from any thread. REQUIRES: at most kTogether points with equal normals, and as many values.
   void AtAll(std::span<const ReceiverPoint> points, const ShadowRayEffort& effort, std::span<Rgb> irradiance,
              IrradianceParts* parts = nullptr) const;

@@ -72,9 +72,10 @@ class SampledSolver final : public LightSolver {
   std::unique_ptr<const ShadowRays> shadows_;  // for the present emittances
   RadiositySolution solution_;
   PushPull push_pull_;
-  std::vector<Direct> direct_;     // by element
-  std::vector<std::int32_t> row_;  // rays_ entries for each leaf, in the order of push_pull_.leaves(): the
-                                   // place of the leaf that was hit in this order; -1: none
+  std::vector<Direct> direct_;  // by element
+  // For each leaf in push_pull_.leaves(), rays_ entries, one for each ray from the leaf: the index in
+  // push_pull_.leaves() of the leaf that the ray hits, or -1 if the ray hits no front.
+  std::vector<std::int32_t> row_;
   std::size_t rays_ = 0;
   int pass_ = 0;
   double residual_ = 1;
