@@ -31,6 +31,7 @@ constexpr double kP99 = 0.99, kAboveP99 = 0.01;
 struct Values {
   std::vector<SurfacePoint> at;
   std::vector<Rgb> shown, exact;             // [W/m^2]
+  std::vector<Rgb> exact_deviation;          // of `exact`
   std::vector<std::vector<Rgb>> truths;      // from each of the better samplers
   std::vector<std::vector<Rgb>> deviations;  // of the truths
 };
@@ -44,6 +45,7 @@ void Evaluate(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSa
   values.at.insert(values.at.end(), points.begin(), points.end());
   values.shown.resize(values.at.size());
   values.exact.resize(values.at.size());
+  values.exact_deviation.resize(values.at.size());
   values.truths.resize(better.size());
   values.deviations.resize(better.size());
   for (std::vector<Rgb>& truth : values.truths) truth.resize(values.at.size());
@@ -55,15 +57,15 @@ void Evaluate(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSa
     receivers[p].at.normal = scene.patches[static_cast<std::size_t>(points[p].patch)].normal;
   }
   std::vector<PointIrradianceResult> found(points.size());
-  const auto sample = [&](const IrradianceSampler& with, std::vector<Rgb>& of) {
+  const auto sample = [&](const IrradianceSampler& with, std::vector<Rgb>& of, std::vector<Rgb>& deviation) {
     with.SampleAll(receivers, found);
-    for (std::size_t p = 0; p < found.size(); ++p) of[before + p] = found[p].irradiance;
+    for (std::size_t p = 0; p < found.size(); ++p) {
+      of[before + p] = found[p].irradiance;
+      deviation[before + p] = found[p].deviation;
+    }
   };
-  sample(sampler, values.exact);
-  for (std::size_t k = 0; k < better.size(); ++k) {
-    sample(better[k], values.truths[k]);
-    for (std::size_t p = 0; p < found.size(); ++p) values.deviations[k][before + p] = found[p].deviation;
-  }
+  sample(sampler, values.exact, values.exact_deviation);
+  for (std::size_t k = 0; k < better.size(); ++k) sample(better[k], values.truths[k], values.deviations[k]);
   ParallelFor(points.size(), kPointsATask, [&](std::size_t p) {
     const std::size_t i = before + p;
     const SurfacePoint& at = values.at[i];
@@ -99,17 +101,18 @@ RepresentationError Summarise(const Scene& scene, std::span<const SurfacePoint> 
   return error;
 }
 
-// The errors of the first values against the k-th truth. Of each difference, only the part beyond
-// kSurelyDifferent standard errors of the truth counts.
-std::vector<ValueError> ErrorsBeyondNoise(const Scene& scene, const Values& values,
-                                          std::span<const Rgb> shown, std::size_t k) {
-  std::vector<Rgb> truth(values.truths[k].begin(),
-                         values.truths[k].begin() + static_cast<std::ptrdiff_t>(shown.size()));
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    const Rgb noise = kSurelyDifferent * values.deviations[k][i];
-    truth[i] = shown[i].max(truth[i] - noise).min(truth[i] + noise);
+// The errors of the first values against a truth. Of each difference, only the part beyond kSurelyDifferent
+// standard errors of the truth counts.
+std::vector<ValueError> ErrorsBeyondNoise(const Scene& scene, std::span<const SurfacePoint> at,
+                                          std::span<const Rgb> shown, std::span<const Rgb> truth,
+                                          std::span<const Rgb> deviation) {
+  std::vector<Rgb> nearest;
+  nearest.reserve(at.size());
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const Rgb noise = kSurelyDifferent * deviation[i];
+    nearest.push_back(shown[i].max(truth[i] - noise).min(truth[i] + noise));
   }
-  return SeenErrors(scene, std::span(values.at).first(shown.size()), shown, truth);
+  return SeenErrors(scene, at, shown, nearest);
 }
 
 // Replaces each error in `largest` by the larger of the two lists' errors. `largest` may be empty initially.
@@ -154,7 +157,8 @@ std::vector<PartError> MeasureParts(const Scene& scene,
   const auto summarise = [&] {
     std::vector<ValueError> errors;
     for (std::size_t k = 0; k < values.truths.size(); ++k)
-      KeepLarger(ErrorsBeyondNoise(scene, values, values.shown, k), errors);
+      KeepLarger(ErrorsBeyondNoise(scene, values.at, values.shown, values.truths[k], values.deviations[k]),
+                 errors);
     return SummariseParts(scene, parts, values.at, errors);
   };
   if (parts.size() < 2) return summarise();
@@ -239,15 +243,15 @@ MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const
   Evaluate(scene, mesh, sampler, better, SpreadPoints(scene, areas, points, seed), values);
   // The first points, which are distributed uniformly, determine means and all statistics except those of
   // parts.
-  const auto first = [&](const std::vector<Rgb>& of) { return std::span(of).first(points); };
   const std::span<const SurfacePoint> evenly = std::span(values.at).first(points);
-  error.interpolant =
-      Summarise(scene, evenly, SeenErrors(scene, evenly, first(values.shown), first(values.exact)));
+  error.interpolant = Summarise(
+      scene, evenly, ErrorsBeyondNoise(scene, evenly, values.shown, values.exact, values.exact_deviation));
   if (better.empty()) return error;
   std::vector<ValueError> sources, whole;
   for (std::size_t k = 0; k < values.truths.size(); ++k) {
-    KeepLarger(ErrorsBeyondNoise(scene, values, first(values.exact), k), sources);
-    KeepLarger(ErrorsBeyondNoise(scene, values, first(values.shown), k), whole);
+    KeepLarger(ErrorsBeyondNoise(scene, evenly, values.exact, values.truths[k], values.deviations[k]),
+               sources);
+    KeepLarger(ErrorsBeyondNoise(scene, evenly, values.shown, values.truths[k], values.deviations[k]), whole);
   }
   error.sources = Summarise(scene, evenly, sources);
   error.whole = Summarise(scene, evenly, whole);
