@@ -84,6 +84,7 @@ ShownMeshOptions HowToShow(const PipelineOptions& options, const ResolvedOptions
   how.suspicion = 0;
   how.steep = kSampledSteep;
   how.most_turns = 0;
+  how.lookouts = resolved.lookouts;
   return how;
 }
 

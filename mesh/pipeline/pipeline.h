@@ -104,6 +104,7 @@ struct ResolvedOptions {
   // with --refine transport, where the light is determined by links alone, and with --source-error, where the
   // solver's corrections divide the sources.
   bool refine_light = true;
+  std::size_t lookouts = 0;  // ShownMeshOptions::lookouts
 };
 // The solver that PipelineOptions::solver names. If the option is omitted: `sampled` for scenes with so many
 // polygons that pairs of polygons would take minutes, unless an option is set that only `hierarchical` obeys;

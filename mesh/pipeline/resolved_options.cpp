@@ -45,6 +45,10 @@ constexpr double kSampledError = 0.1;
 // Without edges along shadows, leaves there become as small as they may.
 constexpr double kSideOfSampled = 0.07, kLeastSideOfSampled = 0.008;
 constexpr std::size_t kMostElements = 4'000'000;
+// The distance between the points that look for shadows which the mesh misses, as a fraction of the mean free
+// path.
+constexpr double kLookoutDistance = 0.25;
+constexpr std::size_t kMostLookouts = 200'000;
 
 struct SceneTotals {
   double area = 0, flux = 0, reflectance = 0, strongest = 0;  // of the brightest channel
@@ -115,6 +119,11 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   const double least =
       is_sampled ? side * side * std::min(1.0, options.error / kSampledError) : kMinAreaOfScene * totals.area;
   resolved.solver.min_area = options.min_area.value_or(least);
+  if (totals.free_path > 0) {
+    const double distance = kLookoutDistance * totals.free_path;
+    resolved.lookouts = static_cast<std::size_t>(
+        std::min(totals.area / (distance * distance), static_cast<double>(kMostLookouts)));
+  }
   resolved.solver.relative_cutoff = options.relative_cutoff.value_or(kCutoffOfError * options.error);
   resolved.solver.max_iterations = options.max_iterations;
   resolved.solver.max_corrections = options.max_corrections;

@@ -20,10 +20,12 @@ namespace {
 // Above this fraction, a triangle whose measured error is small is measured once more, at finer points.
 constexpr double kDoubt = 1;
 
-// The sampler of a run that may be cancelled.
+// The sampler of a run that may be cancelled, and what is known already.
 struct LightAt {
   const IrradianceSampler& sampler;
   const ExecutionContext& context;
+  SampleCache& samples;
+  std::span<const KnownLight> known;
 };
 
 // True if the light at the vertices differs by more than the factor.
@@ -35,25 +37,26 @@ bool IsSteep(const QuadraticInterpolant& light, const Rgb& mean, double factor) 
 
 // Measures the errors of triangles for which the interpolants' gradients give reason. Returns the number of
 // evaluations.
-std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& options,
-                            const IrradianceSampler& sampler, SampleCache* samples, RefinedMesh* refined) {
+std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& options, const LightAt& light,
+                            RefinedMesh* refined) {
   const Rgb mean = MeanIrradiance(scene, refined->mesh).max(NoLight(scene) / kErrorFloor);
   const std::vector<double> guess = GuessTriangleErrors(scene, refined->mesh, mean);
   std::vector<std::uint32_t> suspects;
   for (std::uint32_t t = 0; t < guess.size(); ++t)
     if (guess[t] >= options.suspicion * options.error) suspects.push_back(t);
-  MeasuredTriangles measured =
-      MeasureTriangles(scene, refined->mesh, suspects, {options.samples, mean}, sampler, samples);
+  MeasuredTriangles measured = MeasureTriangles(scene, refined->mesh, suspects, {options.samples, mean},
+                                                light.sampler, &light.samples);
   refined->errors = std::move(measured.errors);
   std::vector<std::uint32_t> doubtful;
   for (const std::uint32_t t : suspects)
     if (refined->errors[t].max <= options.error &&
         (guess[t] > kDoubt * options.error || IsSteep(refined->mesh.irradiance[t], mean, options.steep)))
       doubtful.push_back(t);
-  const MeasuredTriangles finer =
-      MeasureTriangles(scene, refined->mesh, doubtful, {options.samples + 1, mean}, sampler, samples);
+  const MeasuredTriangles finer = MeasureTriangles(
+      scene, refined->mesh, doubtful, {options.samples + 1, mean}, light.sampler, &light.samples);
   for (const std::uint32_t t : doubtful)
     if (finer.errors[t].max > refined->errors[t].max) refined->errors[t] = finer.errors[t];
+  RaiseErrors(scene, refined->mesh, light.known, mean, refined->errors);
   return measured.point_evaluations + finer.point_evaluations;
 }
 
@@ -61,23 +64,22 @@ std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& opt
 // error above the requested one, the midpoints are sampled: that costs less than smaller triangles. Returns
 // the number of evaluations.
 std::size_t Interpolate(const Scene& scene, const MeshOptions& mesh_options,
-                        const MeshRefinementOptions& options, const LightAt& light, SampleCache& samples,
-                        RefinedMesh* refined) {
+                        const MeshRefinementOptions& options, const LightAt& light, RefinedMesh* refined) {
   constexpr int kMostPasses = 2;
   std::size_t evaluations = 0;
   for (int pass = 1;; ++pass) {
     BuiltMesh built =
         BuildIrradianceMesh(scene, refined->triangulations, {mesh_options.order, mesh_options.smooth},
-                            light.sampler, light.context, &samples);
+                            light.sampler, light.context, &light.samples);
     evaluations += built.point_evaluations;
     if (light.context.Cancelled()) return evaluations;
     refined->mesh = std::move(built.mesh);
-    evaluations += MeasureSuspects(scene, options, light.sampler, &samples, refined);
+    evaluations += MeasureSuspects(scene, options, light, refined);
     if (pass == kMostPasses) return evaluations;
     std::erase_if(built.predicted, [&](std::uint32_t t) { return refined->errors[t].max <= options.error; });
     if (built.predicted.empty() || light.context.Cancelled()) return evaluations;
     evaluations +=
-        SampleMidpoints(scene, refined->mesh, built.predicted, light.sampler, light.context, samples);
+        SampleMidpoints(scene, refined->mesh, built.predicted, light.sampler, light.context, light.samples);
   }
 }
 
@@ -221,7 +223,8 @@ RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options
     evaluations += refined.report.counts.point_evaluations;
     const Stopwatch interpolating;
     if (context.Cancelled()) return {};
-    evaluations += Interpolate(scene, mesh_options, options, {light.sampler, context}, *samples, &refined);
+    evaluations +=
+        Interpolate(scene, mesh_options, options, {light.sampler, context, *samples, memory.known}, &refined);
     if (context.Cancelled()) return {};
     seconds.interpolate += interpolating.Seconds();
 

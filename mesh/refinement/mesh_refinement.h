@@ -8,11 +8,13 @@
 
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "mesh/discontinuities/mesh_options.h"
 #include "mesh/interpolants/irradiance_mesh.h"
 #include "mesh/interpolants/irradiance_mesh_builder.h"
+#include "mesh/interpolants/known_light.h"
 #include "mesh/interpolants/representation_error.h"
 #include "mesh/interpolants/sample_cache.h"
 #include "mesh/interpolants/triangle_error.h"
@@ -68,8 +70,9 @@ struct LightToShow {
 // Data from an earlier refinement that RefineMesh() reuses; each member may be null.
 struct RefinementMemory {
   LocalPassCache* local_pass = nullptr;
-  const MeshPlan* start = nullptr;  // the initial plan; BeginPlan() if null
-  SampleCache* samples = nullptr;   // samples of the same sampler
+  const MeshPlan* start = nullptr;    // the initial plan; BeginPlan() if null
+  SampleCache* samples = nullptr;     // samples of the same sampler
+  std::span<const KnownLight> known;  // additional points that test each mesh
 };
 
 // Refines the mesh until the error exceeds its limit on at most the fraction share_above of the area,

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "mesh/interpolants/known_light.h"
 #include "mesh/interpolants/representation_error.h"
 #include "solver/base/stopwatch.h"
 #include "solver/transport/solvers/hierarchical_solver.h"
@@ -261,6 +262,8 @@ std::optional<double> ShownMesh::RefineSources(LightSolver& solver, const Execut
 bool ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOptions& options,
                              const ExecutionContext& context) {
   const double error = options_.interpolant_share * options_.error;
+  known_.clear();
+  if (options_.lookouts > 0) LookAround(options_.lookouts, options_.seed + 1, context);
   std::optional<RefinedMesh> refined = Refine(solution, options, RefinementTo(error), Rows::kNone, context);
   if (!refined) return false;
   double onward = error;
@@ -289,7 +292,8 @@ bool ShownMesh::RefineLeaves(const RadiositySolution& solution, const MeshOption
 double ShownMesh::LookAround(std::size_t points, std::uint64_t seed, const ExecutionContext& context) {
   const Stopwatch stopwatch;
   const IrradianceSampler sampler = Sampler(Rows::kNone, context);
-  const RepresentationError seen = MeasureRepresentationError(scene_, mesh_, sampler, points, seed);
+  const RepresentationError seen =
+      MeasureRepresentationError(scene_, mesh_, Remembering(sampler, known_), points, seed);
   report_.counts.point_evaluations += points;
   report_.seconds.interpolate += stopwatch.Seconds();
   return seen.p99_at_most;
@@ -316,7 +320,7 @@ std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, 
   seconds_of_sources_ += stopwatch.Seconds();
   const IrradianceSampler sampler = Sampler(rows, context);
   RefinedMesh refined = RefineMesh({visibility_, solution, sampler}, options, refinement, context,
-                                   {&LocalPass(), &plan_, &samples_});
+                                   {&LocalPass(), &plan_, &samples_, known_});
   if (context.Cancelled()) {
     samples_.Clear();
     return std::nullopt;

@@ -41,6 +41,9 @@ struct ShownMeshOptions {
   double suspicion = 0.25;                                 // MeshRefinementOptions::suspicion
   double steep = std::numeric_limits<double>::infinity();  // MeshRefinementOptions::steep
   int most_turns = 3;  // of refinement after random points have tested the mesh
+  // The number of random points, spread over the scene, that test each mesh in addition to those of its
+  // triangles.
+  std::size_t lookouts = 0;
 };
 
 // Seconds spent on sources and on meshes.
@@ -157,6 +160,7 @@ class ShownMesh {
   bool has_looked_ = false;             // mesh_ is RefineLight()'s, for the present light
   std::optional<MeshPlan> light_plan_;  // with which RefineLight() ended, for the present light
   std::optional<std::string> unmet_;
+  std::vector<KnownLight> known_;  // at the points that have tested meshes of the present light
 };
 
 }  // namespace penumbra

@@ -215,7 +215,11 @@ Rgb ShadowRays::Unhindered(const ReceiverPoint& at, const Luminaire& luminaire) 
 }
 
 Rgb ShadowRays::Exact(const ReceiverPoint& at, PatchId emitter) const {
-  Gathering gathering(scene_, sources_, at, {}, nullptr);
+  // As for rays: the digits of a file leave a face planar to rounding only, so that a point on a face may lie
+  // behind parts of the face.
+  ReceiverPoint lifted = at;
+  lifted.position = RayStart(at, lift_);
+  Gathering gathering(scene_, sources_, lifted, {}, nullptr);
   gathering.AddSource(emitter, patches_, {});
   return gathering.irradiance();
 }

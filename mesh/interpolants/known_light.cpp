@@ -1,0 +1,49 @@
+#include "mesh/interpolants/known_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "mesh/interpolants/mesh_locator.h"
+#include "solver/base/check.h"
+#include "solver/base/parallel.h"
+#include "solver/transport/sources/error_floors.h"
+
+namespace penumbra {
+
+IrradianceSampler Remembering(IrradianceSampler sampler, std::vector<KnownLight>& known) {
+  return {[](PatchId, const ReceiverPoint&) -> PointIrradianceResult {
+            PENUMBRA_CHECK(false);
+            return {};
+          },
+          [sampler = std::move(sampler), &known](std::span<const PatchPoint> points,
+                                                 std::span<PointIrradianceResult> results) {
+            sampler.SampleAll(points, results);
+            for (std::size_t i = 0; i < points.size(); ++i)
+              known.push_back({points[i].patch, points[i].at.position, results[i].irradiance});
+          }};
+}
+
+void RaiseErrors(const Scene& scene, const IrradianceMesh& mesh, std::span<const KnownLight> known,
+                 const Rgb& mean, std::span<TriangleError> errors) {
+  PENUMBRA_CHECK(errors.size() == mesh.triangles.size());
+  if (known.empty()) return;
+  const MeshLocator locator(scene, mesh);
+  std::vector<std::optional<MeshLocator::Location>> places(known.size());
+  constexpr std::size_t kPointsATask = 64;
+  ParallelFor(known.size(), kPointsATask,
+              [&](std::size_t i) { places[i] = locator.Find(known[i].patch, known[i].position); });
+  const Rgb floor = kErrorFloor * mean;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (!places[i]) continue;
+    const Rgb shown = IrradianceAt(mesh, *places[i]).max(0.0);
+    const Rgb difference = (shown - known[i].irradiance).abs();
+    double& largest = errors[places[i]->triangle].max;
+    for (int c = 0; c < 3; ++c)
+      if (difference[c] > 0)
+        largest = std::max(largest, difference[c] / std::max(known[i].irradiance[c], floor[c]));
+  }
+}
+
+}  // namespace penumbra
