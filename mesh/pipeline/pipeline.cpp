@@ -71,6 +71,8 @@ std::string MissedError(const PipelineReport& report, const PartError* worst) {
 constexpr double kSampledShare = 0.8, kSampledShareAbove = 0.006;
 // Without edges along shadows, light may vary within triangles in ways that their vertices do not tell.
 constexpr double kSampledSteep = 2;
+// A floor of many metres with the shadow of a slat takes more rounds of quartering than a room.
+constexpr int kSampledRounds = 16;
 
 ShownMeshOptions HowToShow(const PipelineOptions& options, const ResolvedOptions& resolved) {
   ShownMeshOptions how;
@@ -85,7 +87,19 @@ ShownMeshOptions HowToShow(const PipelineOptions& options, const ResolvedOptions
   how.steep = kSampledSteep;
   how.most_turns = 0;
   how.lookouts = resolved.lookouts;
+  how.max_rounds = kSampledRounds;
   return how;
+}
+
+// A solver that needs no pairs of patches leaves the pairs of emitters and receivers to the discontinuities.
+// Behind more blockers than this, shadows overlap so much that single edges say little.
+constexpr std::size_t kMostShadowBlockers = 100;
+
+std::vector<PatchId> Emitters(const Scene& scene) {
+  std::vector<PatchId> emitters;
+  for (PatchId p = 0; p < static_cast<PatchId>(scene.patches.size()); ++p)
+    if ((scene.MaterialOf(p).emittance > 0).any()) emitters.push_back(p);
+  return emitters;
 }
 
 // The mean of the irradiance of all sets, with its standard error.
@@ -156,15 +170,21 @@ struct Pipeline::Impl {
   NewSolver MakeSolver(RadiositySolution* from, const ExecutionContext& context) {
     NewSolver made;
     const Stopwatch stopwatch;
+    bool has_pairs = from != nullptr;
     const auto pairs = [&](const ExecutionContext& finding) -> const PatchVisibility& {
       const Stopwatch seconds;
-      if (!from) visibility = PatchVisibility(scene, finding);
+      if (!has_pairs) visibility = PatchVisibility(scene, finding);
+      has_pairs = true;
       made.pairs = seconds.Seconds();
       return visibility;
     };
     made.solver = LightSolvers().Make(resolved.solver_name, {scene, pairs, from},
                                       {resolved.solver, options.dense, resolved.sampled}, context);
     made.making = stopwatch.Seconds() - made.pairs;
+    if (has_pairs || !made.solver) return made;
+    const Stopwatch seconds;
+    visibility = PatchVisibility::OfSources(scene, Emitters(scene), kMostShadowBlockers, context);
+    made.pairs = seconds.Seconds();
     return made;
   }
 

@@ -70,9 +70,9 @@ struct LightToShow {
 // Data from an earlier refinement that RefineMesh() reuses; each member may be null.
 struct RefinementMemory {
   LocalPassCache* local_pass = nullptr;
-  const MeshPlan* start = nullptr;    // the initial plan; BeginPlan() if null
-  SampleCache* samples = nullptr;     // samples of the same sampler
-  std::span<const KnownLight> known;  // additional points that test each mesh
+  const MeshPlan* start = nullptr;         // the initial plan; BeginPlan() if null
+  SampleCache* samples = nullptr;          // samples of the same sampler
+  std::span<const KnownLight> known = {};  // additional points that test each mesh
 };
 
 // Refines the mesh until the error exceeds its limit on at most the fraction share_above of the area,

@@ -307,6 +307,7 @@ MeshRefinementOptions ShownMesh::RefinementTo(double error) const {
   refinement.suspicion = options_.suspicion;
   refinement.steep = options_.steep;
   refinement.samples = options_.error_samples;
+  refinement.max_rounds = options_.max_rounds;
   return refinement;
 }
 

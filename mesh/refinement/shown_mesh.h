@@ -44,6 +44,7 @@ struct ShownMeshOptions {
   // The number of random points, spread over the scene, that test each mesh in addition to those of its
   // triangles.
   std::size_t lookouts = 0;
+  int max_rounds = 8;  // MeshRefinementOptions::max_rounds
 };
 
 // Seconds spent on sources and on meshes.

@@ -12,6 +12,7 @@
 #include <set>
 #include <span>
 
+#include "mesh/interpolants/mesh_locator.h"
 #include "mesh/pipeline/pipeline.h"
 #include "mesh/refinement/local_pass.h"
 #include "mesh/refinement/mesh_refinement.h"
@@ -355,6 +356,40 @@ TEST(Refinement, ReachesTheErrorThatCentroidsOverlook) {
 
 // Dividing leaves for the mesh evaluates new nodes only, leaves the solution alone, and lowers the share of
 // the area that errs.
+// The shadow of a plate lies within the large triangles of an empty floor, away from their vertices and
+// centres. The mesh of sampled light shows it without edges along discontinuities.
+TEST(Refinement, FindsAShadowWithinALargeTriangle) {
+  Scene scene;
+  const std::int32_t grey = AddMaterial(scene, 0.5, 0), lamp = AddMaterial(scene, 0, 40);
+  AddBox(scene, Vec3::Zero(), {5, 4, 3}, true, grey);
+  AddBox(scene, {2.9, 1.9, 0.2}, {3.6, 2.4, 0.22}, false, grey);
+  Add(scene, {{2.4, 1.9, 2.98}, {2.4, 2.1, 2.98}, {2.6, 2.1, 2.98}, {2.6, 1.9, 2.98}}, lamp);
+  PipelineOptions options = Options(0.1);
+  options.solver = "sampled";
+  options.discontinuities = "none";
+  Pipeline pipeline(scene, options);
+  pipeline.Solve({});
+  pipeline.BuildMesh(MeshKind::kInterpolant, {});
+  const MeshLocator locator(scene, pipeline.mesh());
+  constexpr PatchId kFloor = 0;
+  ASSERT_EQ(scene.patches[kFloor].normal, Vec3::UnitZ());
+  constexpr int kSide = 15;
+  int far_off = 0, points = 0;
+  for (int i = 0; i < kSide; ++i)
+    for (int j = 0; j < kSide; ++j) {
+      ReceiverPoint at;
+      at.position = {3.0 + 0.5 * (i + 0.5) / kSide, 2.0 + 0.3 * (j + 0.5) / kSide, 0};
+      at.normal = Vec3::UnitZ();
+      const auto place = locator.Find(kFloor, at.position);
+      ASSERT_TRUE(place);
+      const double want = pipeline.irradiance().OnPatch(kFloor, at).irradiance.maxCoeff();
+      far_off += std::abs(IrradianceAt(pipeline.mesh(), *place).maxCoeff() - want) > want ? 1 : 0;
+      ++points;
+    }
+  std::printf("%d of %d points in the shadow err by more than their irradiance\n", far_off, points);
+  EXPECT_LE(far_off, points / 20);
+}
+
 TEST(Refinement, KeepsSamplesAndSolution) {
   Solved solved(0.1);
   const RadiositySolution before = solved.pipeline.solution();

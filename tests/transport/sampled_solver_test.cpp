@@ -169,6 +169,30 @@ TEST(ShadowRays, GiveGroupsTheLightOfEachPoint) {
   EXPECT_LT(worst, 0.05 * sum);
 }
 
+// The digits of a file leave a face planar to rounding only, so that a point on it may lie behind a part of
+// it. The point gets the light of the point a hundredth of a millimetre before the face.
+TEST(ShadowRays, LightPointsOnFacesThatAreRounded) {
+  constexpr double kOffPlane = 1e-8;  // far below the 1e-6 of its diameter that a face may be off its plane
+  Scene scene;
+  const std::int32_t grey = scene_test::AddMaterial(scene, 0.5, 0),
+                     lamp = scene_test::AddMaterial(scene, 0, 3);
+  scene_test::Add(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, kOffPlane}, {0, 1, 0}}, grey);
+  scene_test::Add(scene, {{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, lamp);
+  scene_test::Add(scene, {{0.2, 0.3, 0.5}, {0.2, 0.6, 0.5}, {0.5, 0.6, 0.5}, {0.5, 0.3, 0.5}}, grey);
+  const RayCaster caster(scene);
+  const ShadowRays rays(scene, caster);
+  double worst = 0;
+  for (const SurfacePoint& point : SpreadPoints(scene, std::vector<double>{1, 0, 0}, 50, 3)) {
+    ReceiverPoint at = At(scene, point), above = at;
+    at.position.z() -= kOffPlane;
+    above.position.z() += 1e-5;
+    const double want = rays.At(above, {}).maxCoeff();
+    worst = std::max(worst, std::abs(rays.At(at, {}).maxCoeff() - want) / want);
+  }
+  std::printf("largest relative difference: %.2g\n", worst);
+  EXPECT_LT(worst, 1e-3);
+}
+
 // A reflector lights the points before it and not those in its plane, also if their rays are traced together.
 TEST(ShadowRays, LeaveOutPointsInThePlaneOfAReflector) {
   Scene scene;

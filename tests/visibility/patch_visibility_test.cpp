@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <optional>
 
@@ -76,6 +77,40 @@ TEST(PatchVisibility, SameAsAllPairs) {
   std::printf("seed 611: %d pairs see each other, %d are hidden by one blocker\n", pairs, hidden);
   EXPECT_GT(pairs, 1000);
   EXPECT_GT(hidden, 1000);
+}
+
+// The pairs of some sources are those of the whole scene, without pairs that have too many blockers.
+TEST(PatchVisibility, OfSourcesIsAPartOfTheWhole) {
+  Random random(612);
+  std::size_t kept = 0, left_out = 0;
+  for (int i = 0; i < 6; ++i) {
+    const Scene scene = FurnishedRoom(random, 8);
+    const PatchVisibility whole(scene);
+    std::vector<PatchId> sources;
+    for (PatchId p = 0; p < static_cast<PatchId>(scene.patches.size()); p += 7) sources.push_back(p);
+    constexpr std::size_t kMost = 3;
+    const PatchVisibility part = PatchVisibility::OfSources(scene, sources, kMost, {});
+    for (PatchId r = 0; r < static_cast<PatchId>(scene.patches.size()); ++r) {
+      std::vector<PatchId> want, got;
+      for (const PatchPair& pair : whole.SourcesOf(r))
+        if (std::binary_search(sources.begin(), sources.end(), pair.source)) {
+          if (pair.blocker_count <= kMost)
+            want.push_back(pair.source);
+          else
+            ++left_out;
+        }
+      for (const PatchPair& pair : part.SourcesOf(r)) {
+        got.push_back(pair.source);
+        EXPECT_LE(part.Blockers(pair).size(), kMost);
+        EXPECT_EQ(pair.visibility, part.Blockers(pair).empty() ? Visibility::kVisible : Visibility::kPartial);
+      }
+      ASSERT_EQ(got, want) << i << " receiver " << r;
+      kept += got.size();
+    }
+  }
+  std::printf("seed 612: %zu pairs kept, %zu left out\n", kept, left_out);
+  EXPECT_GT(kept, 100u);
+  EXPECT_GT(left_out, 10u);
 }
 
 }  // namespace

@@ -29,9 +29,9 @@ class PairFinder {
     patches_ = PatchHierarchy(scene, std::move(all));
   }
 
-  // The patches with larger numbers than i that see patch i, ascending, with their blockers. Incomplete if
-  // cancelled.
-  std::vector<Found> Find(PatchId i, const ExecutionContext& context) const {
+  // The patches with numbers of at least `least` that see patch i, ascending, with their blockers. Incomplete
+  // if cancelled.
+  std::vector<Found> Find(PatchId i, PatchId least, const ExecutionContext& context) const {
     const Patch& patch = scene_.patches[i];
     std::vector<ReceiverPoint> corners;
     for (const Vec3& v : patch.Vertices()) corners.push_back({v, patch.normal, Vec3::Zero(), 0});
@@ -41,7 +41,7 @@ class PairFinder {
     patches_.Find({{patch.normal, patch.normal.dot(patch.vertex[0])}}, screens, in_sight);
     std::vector<Found> found;
     for (const PatchId j : in_sight) {
-      if (j <= i) continue;
+      if (j < least || j == i) continue;
       if (context.Cancelled()) break;
       const Patch& other = scene_.patches[j];
       const std::optional<TubeEnds> ends = ClipToEachOther(patch.Vertices(), patch, other.Vertices(), other);
@@ -60,12 +60,40 @@ class PairFinder {
 
 }  // namespace
 
+PatchVisibility PatchVisibility::OfSources(const Scene& scene, std::span<const PatchId> sources,
+                                           std::size_t most_blockers, const ExecutionContext& context) {
+  const PairFinder finder(scene);
+  std::vector<std::vector<Found>> found(sources.size());
+  ParallelFor(sources.size(), 1, [&](std::size_t i) {
+    if (!context.Cancelled()) found[i] = finder.Find(sources[i], 0, context);
+  });
+  if (context.Cancelled()) return WithoutPairs(scene);
+  Rows rows;
+  std::vector<std::vector<PatchPair>> by_receiver(scene.patches.size());
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    for (const Found& pair : found[i]) {
+      if (pair.blockers.size() > most_blockers) continue;
+      by_receiver[static_cast<std::size_t>(pair.other)].push_back(
+          {sources[i], pair.blockers.empty() ? Visibility::kVisible : Visibility::kPartial,
+           static_cast<std::uint32_t>(rows.blockers.size()),
+           static_cast<std::uint32_t>(pair.blockers.size())});
+      rows.blockers.insert(rows.blockers.end(), pair.blockers.begin(), pair.blockers.end());
+    }
+  rows.first.assign(1, 0);
+  for (const std::vector<PatchPair>& pairs : by_receiver) {
+    rows.pairs.insert(rows.pairs.end(), pairs.begin(), pairs.end());
+    rows.first.push_back(rows.pairs.size());
+  }
+  return PatchVisibility(std::move(rows));
+}
+
 PatchVisibility::PatchVisibility(const Scene& scene, const ExecutionContext& context) {
   const std::size_t count = scene.patches.size();
   const PairFinder finder(scene);
   std::vector<std::vector<Found>> found(count);  // found[i] holds the pairs (i, j) with i < j
   ParallelFor(count, 1, [&](std::size_t i) {
-    if (!context.Cancelled()) found[i] = finder.Find(static_cast<PatchId>(i), context);
+    if (!context.Cancelled())
+      found[i] = finder.Find(static_cast<PatchId>(i), static_cast<PatchId>(i) + 1, context);
   });
   std::vector<std::vector<PatchPair>> by_receiver(count);
   for (std::size_t i = 0; i < count && !context.Cancelled(); ++i) {

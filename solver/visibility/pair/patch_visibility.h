@@ -43,6 +43,11 @@ class PatchVisibility {
   static PatchVisibility WithoutPairs(const Scene& scene) {
     return PatchVisibility({std::vector<std::size_t>(scene.patches.size() + 1, 0), {}, {}});
   }
+  // Only the pairs of the given sources, ascending, with receivers that at most `most_blockers` patches may
+  // hide from them: for methods that need the sharp shadows of the strongest sources. The relation is not
+  // symmetric. If the context is cancelled, the object has no pairs.
+  static PatchVisibility OfSources(const Scene& scene, std::span<const PatchId> sources,
+                                   std::size_t most_blockers, const ExecutionContext& context);
   // Restores an object from the result of rows() of another object.
   explicit PatchVisibility(Rows rows) : rows_(std::move(rows)) {}
 
