@@ -17,6 +17,7 @@
 #include "apps/output.h"
 #include "apps/scene_arguments.h"
 #include "solver/base/check.h"
+#include "solver/base/similar_names.h"
 #include "solver/transport/links/approximate_form_factor.h"
 #include "solver/visibility/area/area_form_factor.h"
 #include "solver/visibility/exact/occlusion_methods.h"
@@ -102,8 +103,9 @@ std::vector<std::int32_t> FindFaces(const FormFactorArguments& arguments, const 
     if (stop != end || name.empty() || error == std::errc::invalid_argument)
       fail(
           fmt::format("there is no object or group `{}`; there are {}, and faces by the number of their f "
-                      "line, from 0",
-                      name, scene.objects.empty() ? "none" : NameList(NamesOf(scene.objects))));
+                      "line, from 0{}",
+                      name, scene.objects.empty() ? "none" : NameList(NamesOf(scene.objects)),
+                      DidYouMean(name, NamesOf(scene.objects))));
     if (error != std::errc() || index >= scene.faces.size())
       fail(scene.faces.empty() ? fmt::format("there is no face {}; the scene has none", name)
                                : fmt::format("there is no face {}; faces have the numbers 0 to {}", name,

@@ -6,8 +6,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "apps/commands.h"
+#include "apps/option_values.h"
 #include "apps/options_used.h"
 #include "apps/output.h"
 #include "apps/report.h"
@@ -16,6 +18,7 @@
 #include "apps/solve_options.h"
 #include "apps/solve_run.h"
 #include "mesh/pipeline/solution_file.h"
+#include "solver/geometry/polygon.h"
 #include "solver/scene/plane_overlaps.h"
 
 namespace penumbra {
@@ -63,18 +66,55 @@ Json SolutionJson(const StoredSolve& stored) {
           {"report", Json::parse(LastingReportJson(state.report))}};
 }
 
+// The objects and groups, with the numbers of their faces.
+Json ObjectsJson(const Scene& scene) {
+  Json objects = Json::array();
+  for (const Object& object : scene.objects)
+    objects.push_back(
+        {{"name", object.name}, {"faces", object.faces.size()}, {"face_numbers", object.faces}});
+  return objects;
+}
+
+Json MaterialsJson(const Scene& scene) {
+  std::vector<std::size_t> faces(scene.materials.size());
+  for (const Face& face : scene.faces) ++faces[static_cast<std::size_t>(face.material)];
+  Json materials = Json::array();
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    materials.push_back({{"name", scene.materials[i].name},
+                         {"reflectance", ToJson(scene.materials[i].reflectance.matrix())},
+                         {"emittance", ToJson(scene.materials[i].emittance.matrix())},
+                         {"faces", faces[i]}});
+  return materials;
+}
+
+// The faces in the order of their numbers. The area of a dropped face is 0.
+Json FacesJson(const Scene& scene) {
+  Json faces = Json::array();
+  for (std::size_t i = 0; i < scene.faces.size(); ++i) {
+    const Face& face = scene.faces[i];
+    const Vec3 area = VectorArea(face.vertices);
+    const Object* object =
+        scene.objects.empty() ? nullptr : &scene.objects[static_cast<std::size_t>(face.object)];
+    faces.push_back({{"face", i},
+                     {"object", object ? Json(object->name) : Json()},
+                     {"material", scene.materials[static_cast<std::size_t>(face.material)].name},
+                     {"vertices", face.vertices.size()},
+                     {"area", area.norm()},
+                     {"normal", ToJson(area.stableNormalized())}});
+  }
+  return faces;
+}
+
 std::string InfoJson(const LoadedScene& loaded, const SceneSummary& summary) {
   const Scene& scene = loaded.scene;
   const auto [low, high] = scene.Bounds();
-  Json cameras = Json::array(), objects = Json::array();
+  Json cameras = Json::array();
   for (const Camera& camera : scene.cameras)
     cameras.push_back({{"name", camera.name},
                        {"eye", ToJson(camera.eye)},
                        {"look_at", ToJson(camera.look_at)},
                        {"up", ToJson(camera.up)},
                        {"fov", camera.vertical_fov}});
-  for (const Object& object : scene.objects)
-    objects.push_back({{"name", object.name}, {"faces", object.faces.size()}});
   Json info = {{"name", scene.name},
                {"faces", scene.faces.size()},
                {"dropped", summary.dropped},
@@ -82,13 +122,14 @@ std::string InfoJson(const LoadedScene& loaded, const SceneSummary& summary) {
                {"triangles", summary.triangles},
                {"quadrilaterals", summary.quadrilaterals},
                {"emitters", summary.emitters},
-               {"materials", scene.materials.size()},
-               {"objects", objects},
+               {"materials", MaterialsJson(scene)},
+               {"objects", ObjectsJson(scene)},
                {"bounds", {{"min", ToJson(low)}, {"max", ToJson(high)}}},
                {"area", summary.area},
                {"emitted_power", ToJson(summary.emitted_power.matrix())},
                {"cameras", cameras},
-               {"warnings", scene.warnings}};
+               {"warnings", scene.warnings},
+               {"face_list", FacesJson(scene)}};
   if (loaded.stored) {
     info["solution"] = SolutionJson(*loaded.stored);
   } else {
@@ -96,6 +137,13 @@ std::string InfoJson(const LoadedScene& loaded, const SceneSummary& summary) {
     info["plane_tolerance"] = LargestPlaneDistance(scene);
   }
   return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+// "2: floor and lamp".
+std::string CountedNames(const auto& named) {
+  std::vector<std::string> names;
+  for (const auto& one : named) names.push_back(one.name);
+  return names.empty() ? "0" : fmt::format("{}: {}", names.size(), NameList(names));
 }
 
 std::string InfoText(const LoadedScene& loaded, const SceneSummary& summary) {
@@ -110,8 +158,8 @@ std::string InfoText(const LoadedScene& loaded, const SceneSummary& summary) {
   add("patches", fmt::format("{}: {} triangles, {} quadrilaterals", scene.patches.size(), summary.triangles,
                              summary.quadrilaterals));
   add("emitters", fmt::format("{}", summary.emitters));
-  add("materials", fmt::format("{}", scene.materials.size()));
-  add("objects", fmt::format("{}", scene.objects.size()));
+  add("materials", CountedNames(scene.materials));
+  add("objects", CountedNames(scene.objects));
   add("bounds [m]", fmt::format("{:g},{:g},{:g} to {:g},{:g},{:g}", low.x(), low.y(), low.z(), high.x(),
                                 high.y(), high.z()));
   add("area [m^2]", fmt::format("{:g}", summary.area));
@@ -138,7 +186,6 @@ std::string InfoText(const LoadedScene& loaded, const SceneSummary& summary) {
 }
 
 void Info(SceneArguments arguments, bool as_json) {
-  arguments.outputs.Add("--report", arguments.report);
   LoadedScene loaded = LoadToSolve(arguments);
   const SceneSummary summary = Summarise(loaded.scene);
   const std::string info = as_json ? InfoJson(loaded, summary) : InfoText(loaded, summary);
@@ -152,6 +199,15 @@ void Info(SceneArguments arguments, bool as_json) {
   WriteResult(std::nullopt, info);
 }
 
+void InfoOfAll(SceneArguments arguments, bool as_json) {
+  RefuseForSeveralScenes(arguments, "--report", arguments.report);
+  arguments.outputs.Add("--report", arguments.report);
+  for (const std::string& scene : arguments.scenes) {
+    arguments.scene = scene;
+    Info(arguments, as_json);
+  }
+}
+
 }  // namespace
 
 Command AddInfoCommand(CLI::App& program) {
@@ -159,7 +215,7 @@ Command AddInfoCommand(CLI::App& program) {
       program.add_subcommand("info", "Tell what is in a scene or a solution, and what was repaired in it");
   const auto arguments = std::make_shared<SceneArguments>();
   const auto as_json = std::make_shared<bool>(false);
-  AddSceneArguments(*app, arguments.get());
+  AddSeveralScenesArguments(*app, arguments.get());
   app->add_flag("--json", *as_json, "Print JSON");
   AddSolveOptions(*app, arguments.get());
   AddRestartOption(*app, arguments.get());
@@ -168,7 +224,7 @@ Command AddInfoCommand(CLI::App& program) {
       "Nothing of a scene is solved, and the options of solving change nothing, unless --report asks what a "
       "solve of\n"
       "the scene takes and reaches. The report of a solution is that of the solve that made it.");
-  return {app, [arguments, as_json] { Info(*arguments, *as_json); }};
+  return {app, [arguments, as_json] { InfoOfAll(*arguments, *as_json); }};
 }
 
 }  // namespace penumbra

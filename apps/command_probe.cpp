@@ -13,6 +13,7 @@
 #include "apps/option_values.h"
 #include "apps/options_used.h"
 #include "apps/output.h"
+#include "apps/photometric_option.h"
 #include "apps/points_csv.h"
 #include "apps/probe.h"
 #include "apps/restart.h"
@@ -33,12 +34,12 @@ struct ProbeArguments {
   std::optional<std::string> output;
   std::string method = "auto";
   bool direct = false;
-  bool parts = false;
+  ProbeColumns columns;
 };
 
 // What a probe may be told beside the options of a solve.
 nlohmann::ordered_json ProbeOptions(const ProbeArguments& arguments) {
-  return {{"method", arguments.method}, {"direct", arguments.direct}, {"parts", arguments.parts}};
+  return {{"method", arguments.method}, {"direct", arguments.direct}, {"parts", arguments.columns.parts}};
 }
 
 constexpr const char* kFastest = "auto";
@@ -61,7 +62,7 @@ std::vector<Measurement> MeasureDirect(const ProbeArguments& arguments, const Sc
   const PatchVisibility unused;  // which patch sees which matters on patches only; points may lie anywhere
   const SourceSet sources = SourceSet::Emitters(scene);
   const PointIrradiance irradiance(scene, unused, sources, how);
-  return Measure(Prober(scene, irradiance, nullptr, arguments.parts), points);
+  return Measure(Prober(scene, irradiance, nullptr, arguments.columns.parts), points);
 }
 
 void CheckMethod(const ProbeArguments& arguments) {
@@ -73,13 +74,9 @@ void CheckMethod(const ProbeArguments& arguments) {
                     arguments.method));
 }
 
-void Probe(ProbeArguments arguments) {
-  CheckMethod(arguments);
-  arguments.scene.outputs.Add("-o", arguments.output);
-  arguments.scene.outputs.Add("--report", arguments.scene.report);
-  arguments.scene.outputs.RefuseInput(arguments.points);
-  const std::vector<ProbePoint> points = ReadPointsCsv(arguments.points);
+void Probe(ProbeArguments arguments, std::vector<ProbePoint> points) {
   LoadedScene loaded = LoadToSolve(arguments.scene);
+  TakeNormalsOfFaces(loaded.scene, NameOfPoints(arguments.points), &points);
 
   PointIrradianceOptions how = loaded.stored ? loaded.stored->solving.point : arguments.scene.solving.point;
   const std::unique_ptr<const OcclusionMethod> method =
@@ -97,14 +94,29 @@ void Probe(ProbeArguments arguments) {
     run->Run(MeshKind::kInterpolant, WantsReport(arguments.scene));
     const Pipeline& pipeline = run->pipeline();
     const PointIrradiance irradiance(pipeline.solution(), pipeline.visibility(), how);
-    measurements = Measure(Prober(loaded.scene, irradiance, &pipeline, arguments.parts), points);
+    measurements = Measure(Prober(loaded.scene, irradiance, &pipeline, arguments.columns.parts), points);
   }
 
   CheckMeasurements(measurements);
   const std::string warning = SurroundingsWarning(measurements);
   if (!warning.empty()) Say("warning: " + warning);
   if (run) run->Tell();
-  WriteResult(arguments.output, MeasurementsCsv(measurements, arguments.parts));
+  WriteResult(arguments.output, MeasurementsCsv(measurements, arguments.columns));
+}
+
+// The points are read once, whatever the number of scenes: standard input cannot be read twice.
+void ProbeAll(ProbeArguments arguments) {
+  CheckMethod(arguments);
+  RefuseForSeveralScenes(arguments.scene, "-o", arguments.output);
+  RefuseForSeveralScenes(arguments.scene, "--report", arguments.scene.report);
+  arguments.scene.outputs.Add("-o", arguments.output);
+  arguments.scene.outputs.Add("--report", arguments.scene.report);
+  if (arguments.points != kPointsFromInput) arguments.scene.outputs.RefuseInput(arguments.points);
+  const std::vector<ProbePoint> points = ReadPointsCsv(arguments.points);
+  for (const std::string& scene : arguments.scene.scenes) {
+    arguments.scene.scene = scene;
+    Probe(arguments, points);
+  }
 }
 
 }  // namespace
@@ -112,11 +124,11 @@ void Probe(ProbeArguments arguments) {
 Command AddProbeCommand(CLI::App& program) {
   CLI::App* app = program.add_subcommand("probe", "Measure irradiance at points, exact and interpolated");
   const auto arguments = std::make_shared<ProbeArguments>();
-  AddSceneArguments(*app, &arguments->scene);
+  AddSeveralScenesArguments(*app, &arguments->scene);
   app->add_option(
          "--points", arguments->points,
-         "The points [m] and normals, of any length: a CSV file with the header x,y,z,nx,ny,nz; points "
-         "may lie on surfaces or in free space")
+         "The points [m] and normals, of any length: a CSV file with the header x,y,z,nx,ny,nz, or - for "
+         "standard input; points may lie on surfaces or in free space; on faces the normals may be left out")
       ->required()
       ->type_name("POINTS.csv");
   app->add_option("-o,--output", arguments->output, "Write the rows here (default: standard output)")
@@ -125,9 +137,10 @@ Command AddProbeCommand(CLI::App& program) {
       app->add_flag("--direct", arguments->direct,
                     "Only what surfaces emit of themselves; nothing is solved or interpolated");
   app->add_flag(
-      "--parts", arguments->parts,
+      "--parts", arguments->columns.parts,
       "Add the share of direct light and the gradient of the irradiance by the point's position, its "
       "normal fixed [W/m^3]");
+  AddPhotometricOption(*app, &arguments->columns.unit);
   std::vector<std::string> methods = OcclusionMethods().Names();
   methods.insert(methods.begin(), kFastest);
   app->add_option(
@@ -143,12 +156,14 @@ Command AddProbeCommand(CLI::App& program) {
   app->footer(
       "Prints x,y,z,nx,ny,nz,patch,exact_r,exact_g,exact_b,interp_r,interp_g,interp_b, a row a point, in "
       "order,\n"
-      "and with --parts direct_r,direct_g,direct_b,grad_r_x,grad_r_y, ... grad_b_z.\n"
+      "and with --parts direct_r,direct_g,direct_b,grad_r_x,grad_r_y, ... grad_b_z. With --photometric: "
+      "exact_lux,\n"
+      "interp_lux, direct_lux, grad_lux_x, ... Of several scenes, a table each, in order.\n"
       "exact: irradiance from the whole scene [W/m^2]; interp: the interpolant's where the point lies on "
       "the\n"
       "front of a face (within 1e-6 of the scene's diagonal, normals within 1 degree), else nan; patch: the\n"
       "number of that face's f line, from 0, else -1.");
-  return {app, [arguments] { Probe(*arguments); }};
+  return {app, [arguments] { ProbeAll(*arguments); }};
 }
 
 }  // namespace penumbra

@@ -39,5 +39,6 @@ Command AddExportCommand(CLI::App& program);
 Command AddDiffCommand(CLI::App& program);
 Command AddInfoCommand(CLI::App& program);
 Command AddScenesCommand(CLI::App& program);
+Command AddMethodsCommand(CLI::App& program);
 
 }  // namespace penumbra

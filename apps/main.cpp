@@ -13,6 +13,8 @@
 #include "apps/commands.h"
 #include "apps/messages.h"
 #include "apps/output.h"
+#include "apps/unknown_words.h"
+#include "apps/version.h"
 #include "solver/base/check.h"
 
 namespace penumbra {
@@ -37,22 +39,26 @@ int Main(int argc, char** argv) {
   CLI::App program(
       "Penumbra computes the light in a scene of diffuse polygons, once, and shows it from anywhere.",
       "penumbra");
-  program.set_version_flag("--version", "penumbra " PENUMBRA_VERSION, "Print the version and exit");
+  program.set_version_flag("--version", VersionLine(), "Print the version and exit");
   program.set_help_flag("-h,--help", "Print this help and exit");
   program.require_subcommand(1);
   program.footer(kFooter);
   program.get_formatter()->column_width(34);
-  const std::vector<Command> commands = {
-      AddSolveCommand(program),      AddRenderCommand(program), AddProbeCommand(program),
-      AddFormFactorCommand(program), AddViewCommand(program),   AddExportCommand(program),
-      AddDiffCommand(program),       AddInfoCommand(program),   AddScenesCommand(program)};
+  const std::vector<Command> commands = {AddSolveCommand(program),  AddRenderCommand(program),
+                                         AddProbeCommand(program),  AddFormFactorCommand(program),
+                                         AddViewCommand(program),   AddExportCommand(program),
+                                         AddDiffCommand(program),   AddInfoCommand(program),
+                                         AddScenesCommand(program), AddMethodsCommand(program)};
   try {
     try {
       program.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {
       return program.exit(help_or_version);
     } catch (const CLI::ParseError& error) {
-      return Fail(kUsageStatus, fmt::format("penumbra: error: {}; see `penumbra --help`", error.what()));
+      const std::string unknown = UnknownWord(program, std::vector<std::string>(argv + 1, argv + argc));
+      const std::string what = unknown.empty() ? error.what() : unknown;
+      return Fail(kUsageStatus, fmt::format("penumbra: error: {}{} `penumbra --help`", what,
+                                            what.ends_with('?') ? " See" : "; see"));
     }
     for (const Command& command : commands)
       if (command.app->parsed()) command.run();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
+#include "solver/base/similar_names.h"
 
 namespace penumbra {
 
@@ -41,8 +42,9 @@ void ChangeMaterials(const std::vector<MaterialChange>& changes, Rgb Material::*
     if (found) continue;
     std::vector<std::string> names;
     for (const Material& material : materials) names.push_back(material.name);
-    throw UsageError(fmt::format("the scene has no material '{}'; it has {}", change.material,
-                                 names.empty() ? "none" : NameList(names)));
+    throw UsageError(fmt::format("the scene has no material '{}'; it has {}{}", change.material,
+                                 names.empty() ? "none" : NameList(names),
+                                 DidYouMean(change.material, names)));
   }
 }
 

@@ -14,7 +14,8 @@
 namespace penumbra {
 namespace {
 
-constexpr std::string_view kHeader = "x,y,z,nx,ny,nz";
+constexpr std::string_view kHeader = "x,y,z,nx,ny,nz", kShortHeader = "x,y,z";
+constexpr std::size_t kPositionColumns = 3;
 constexpr std::array<const char*, 6> kColumns = {"x", "y", "z", "nx", "ny", "nz"};
 
 std::string_view Trim(std::string_view text) {
@@ -34,20 +35,28 @@ std::vector<std::string_view> SplitAtCommas(std::string_view line) {
   }
 }
 
-void CheckHeader(const std::string& path, int number, std::string_view line) {
+// The number of columns that the header names.
+std::size_t ReadHeader(const std::string& path, int number, std::string_view line) {
   const std::vector<std::string_view> fields = SplitAtCommas(line);
-  if (!std::equal(fields.begin(), fields.end(), kColumns.begin(), kColumns.end()))
-    throw ErrorAt(path, number, fmt::format("the header is {}; it must be '{}'", Quoted(line), kHeader));
+  const bool is_known = (fields.size() == kColumns.size() || fields.size() == kPositionColumns) &&
+                        std::equal(fields.begin(), fields.end(), kColumns.begin());
+  if (!is_known)
+    throw ErrorAt(path, number,
+                  fmt::format("the header is {}; it must be '{}', or '{}' for points on faces", Quoted(line),
+                              kHeader, kShortHeader));
+  return fields.size();
 }
 
-ProbePoint ReadRow(const std::string& path, int number, std::string_view line) {
+ProbePoint ReadRow(const std::string& path, int number, std::string_view line, std::size_t columns) {
   const std::vector<std::string_view> fields = SplitAtCommas(line);
-  if (fields.size() != kColumns.size())
+  if (fields.size() != columns && fields.size() != kPositionColumns)
     throw ErrorAt(path, number,
-                  fmt::format("{} values where the header names {}; give '{}'", fields.size(),
-                              kColumns.size(), kHeader));
+                  fmt::format("{} values where the header names {}; give '{}'", fields.size(), columns,
+                              columns == kPositionColumns ? kShortHeader : kHeader));
   std::array<double, 6> values{};
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  const bool has_normal =
+      std::any_of(fields.begin() + kPositionColumns, fields.end(), [](auto field) { return !field.empty(); });
+  for (std::size_t i = 0; i < (has_normal ? columns : kPositionColumns); ++i) {
     const std::optional<double> value = ToNumber(fields[i]);
     if (!value || !std::isfinite(*value))
       throw ErrorAt(path, number,
@@ -55,36 +64,40 @@ ProbePoint ReadRow(const std::string& path, int number, std::string_view line) {
                                 Quoted(fields[i]), kColumns[i]));
     values[i] = *value;
   }
-  return {{values[0], values[1], values[2]}, {values[3], values[4], values[5]}};
+  return {{values[0], values[1], values[2]}, {values[3], values[4], values[5]}, has_normal, number};
 }
 
 }  // namespace
 
+std::string NameOfPoints(const std::string& path) {
+  return path == kPointsFromInput ? "standard input" : path;
+}
+
 std::vector<ProbePoint> ReadPointsCsv(const std::string& path) {
+  const std::string name = NameOfPoints(path);
   std::string text;
   try {
-    text = ReadFileBytes(path);
+    text = ReadFileBytes(path == kPointsFromInput ? "/dev/stdin" : path);
   } catch (const ReadFailure& failure) {
-    throw ErrorAt(path, 0, fmt::format("{}; name a CSV file with the header '{}'", failure.what(), kHeader));
+    throw ErrorAt(name, 0, fmt::format("{}; name a CSV file with the header '{}'", failure.what(), kHeader));
   }
-  return ReadPointsText(text, path);
+  return ReadPointsText(text, name);
 }
 
 std::vector<ProbePoint> ReadPointsText(std::string_view text, const std::string& path) {
   RefuseForeignFormat(text, path, fmt::format("a CSV file with the header '{}'", kHeader));
   std::vector<ProbePoint> points;
-  bool has_header = false;
+  std::size_t columns = 0;  // 0: the header has not come yet
   for (LineReader lines(text); !lines.AtEnd();) {
     const int number = lines.NextLine();
     const std::string_view line = Trim(lines.Take());
     if (line.empty()) continue;
-    if (has_header)
-      points.push_back(ReadRow(path, number, line));
+    if (columns > 0)
+      points.push_back(ReadRow(path, number, line, columns));
     else
-      CheckHeader(path, number, line);
-    has_header = true;
+      columns = ReadHeader(path, number, line);
   }
-  if (!has_header)
+  if (columns == 0)
     throw ErrorAt(path, 1, fmt::format("the file is empty; begin it with the header '{}'", kHeader));
   return points;
 }

@@ -10,30 +10,16 @@
 #include <vector>
 
 #include "apps/points_csv.h"
+#include "apps/surroundings.h"
+#include "display/photometry.h"
 #include "mesh/pipeline/pipeline.h"
 #include "solver/base/progress.h"
 #include "solver/scene/scene.h"
 #include "solver/transport/points/point_irradiance.h"
-#include "solver/visibility/point/ray_caster.h"
 
 namespace penumbra {
 
-// A point lies on a patch if its distance is at most kOnPatchDistance times the scene's diagonal, and its
-// normal deviates by at most kOnPatchDegrees degrees.
-inline constexpr double kOnPatchDistance = 1e-6;
-inline constexpr double kOnPatchDegrees = 1;
-
-// A point is far outside if its distance from the scene's bounding box exceeds kFarDiagonals * (diagonal of
-// the box). For example, points that the user gave in centimetres are far outside a scene in metres.
-inline constexpr double kFarDiagonals = 10;
-
-// The face and the patch on whose front a point lies.
-struct PointFace {
-  std::int32_t face = -1;  // its number in outputs; -1: none
-  PatchId patch = kNoPatch;
-};
-
-enum class Surroundings {
+enum class PointPlace {
   kOpen,
   kBehind,      // inside a solid, or behind faces: sees only backs
   kZeroNormal,  // no direction to measure in
@@ -47,7 +33,7 @@ struct Measurement {
   Rgb direct = Rgb::Zero();  // directly from emitters, part of `exact`; if requested [W/m^2]
   IrradianceGradient gradient = IrradianceGradient::Zero();  // of `exact`; if requested [W/m^3]
   Rgb interpolated = Rgb::Zero();                            // [W/m^2]; nan if not on a front, or not solved
-  Surroundings surroundings = Surroundings::kOpen;
+  PointPlace place = PointPlace::kOpen;
   bool sound = true;  // no value is infinite, and values are nan only as described above
 };
 
@@ -62,30 +48,28 @@ class Prober {
   std::vector<Measurement> Measure(const std::vector<ProbePoint>& points,
                                    const ExecutionContext& context) const;
 
-  // Finds the face on whose front the point lies; if the point lies on several fronts, the face with the
-  // lowest index. `normal` is a unit vector.
-  PointFace FindFooting(const Vec3& position, const Vec3& normal) const;
-
  private:
   // The receiver point for a position. If the position lies on a patch, it is projected onto the plane of the
   // patch, because rounded coordinates may lie behind the front.
   ReceiverPoint ReceiverPointAt(PatchId patch, const Vec3& position, const Vec3& normal) const;
   Measurement MeasureAt(const ProbePoint& point) const;
-  bool IsFar(const Vec3& position) const;
-  bool SeesOnlyBacks(const Vec3& position, const Vec3& normal) const;
 
   const Scene& scene_;
   const PointIrradiance& irradiance_;
   const Pipeline* pipeline_;
   bool parts_;
-  RayCaster rays_;
-  double reach_;     // [m]
-  Vec3 low_, high_;  // of the scene's bounding box [m]
+  Surroundings surroundings_;
+  double reach_;  // [m]
 };
 
-// The measurements as CSV, one row for each, with all digits. If `parts` is true, rows include direct light
-// and gradients.
-std::string MeasurementsCsv(const std::vector<Measurement>& measurements, bool parts);
+struct ProbeColumns {
+  bool parts = false;  // direct light and gradients, too
+  LightUnit unit = LightUnit::kWatts;
+};
+
+// The measurements as CSV, one row for each, with all digits: three columns for each value in W/m^2, or one
+// in lux.
+std::string MeasurementsCsv(const std::vector<Measurement>& measurements, const ProbeColumns& columns);
 
 // Throws InputError if a measurement is not sound (Measurement::sound).
 void CheckMeasurements(const std::vector<Measurement>& measurements);

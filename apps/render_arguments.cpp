@@ -47,6 +47,13 @@ void SetMode(const std::string& name, RenderMode* mode) {
   throw CLI::ValidationError("--mode", fmt::format("'{}' is none of {}", name, names));
 }
 
+// What each mode shows.
+std::string ModeHelp() {
+  std::vector<std::string> modes;
+  for (const RenderMode& mode : kRenderModes) modes.push_back(fmt::format("{}: {}", mode.name, mode.help));
+  return fmt::format("{}", fmt::join(modes, "; "));
+}
+
 // What each format holds.
 std::string PictureHelp() {
   std::vector<std::string> formats;
@@ -137,12 +144,7 @@ void AddFileAndMode(CLI::App& app, RenderArguments* arguments) {
          PictureHelp())
       ->type_name(fmt::format("IMAGE{}", fmt::join(Dotted(ImageWriters().Names()), "|")));
   app.add_option_function<std::string>(
-         "--mode", [arguments](const std::string& name) { SetMode(name, &arguments->mode); },
-         "flat: one value an element; gouraud: exact irradiance at the elements' corners, linear between; "
-         "gouraud-mesh: the same on the discontinuity mesh; interpolant: quadratic on that mesh, the "
-         "two-pass display; exact: exact irradiance at every pixel, by rays (RayShade); lerp: the "
-         "interpolant, "
-         "found by rays (LerpShade); rho: reflectance alone")
+         "--mode", [arguments](const std::string& name) { SetMode(name, &arguments->mode); }, ModeHelp())
       ->type_name("MODE")
       ->default_str(arguments->mode.name)
       ->group("Picture");
@@ -166,7 +168,7 @@ void AddColours(CLI::App& app, RenderArguments* arguments) {
   AddNumber(app, "--exposure", &arguments->exposure, kPositive,
             "Brightness on the screen, 0 to 1, per W/m^2 (default: metered from the picture; rho: 1)")
       ->group("Picture");
-  app.add_flag("--false-colour", arguments->false_colour,
+  app.add_flag("--false-colour,--false-color", arguments->false_colour,
                "A PNG shows the mean of the channels in false colours, with a scale in W/m^2 (rho: 1)")
       ->group("Picture");
   AddNumber(app, "--scale-max", &arguments->scale_max, kPositive,

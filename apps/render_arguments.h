@@ -31,15 +31,21 @@ struct RenderMode {
   RenderMethod method;
   std::optional<MeshKind> mesh;
   ShadingMode shading;
+  const char* help;
 };
 inline constexpr std::array<RenderMode, 7> kRenderModes = {
-    {{"flat", RenderMethod::kTwoPass, MeshKind::kFlat, ShadingMode::kRadiosity},
-     {"gouraud", RenderMethod::kTwoPass, MeshKind::kGouraud, ShadingMode::kRadiosity},
-     {"gouraud-mesh", RenderMethod::kTwoPass, MeshKind::kGouraudMesh, ShadingMode::kRadiosity},
-     {"interpolant", RenderMethod::kTwoPass, MeshKind::kInterpolant, ShadingMode::kRadiosity},
-     {"exact", RenderMethod::kRayShade, std::nullopt, ShadingMode::kRadiosity},
-     {"lerp", RenderMethod::kLerpShade, MeshKind::kInterpolant, ShadingMode::kRadiosity},
-     {"rho", RenderMethod::kTwoPass, MeshKind::kFlat, ShadingMode::kReflectance}}};
+    {{"flat", RenderMethod::kTwoPass, MeshKind::kFlat, ShadingMode::kRadiosity, "one value an element"},
+     {"gouraud", RenderMethod::kTwoPass, MeshKind::kGouraud, ShadingMode::kRadiosity,
+      "exact irradiance at the elements' corners, linear between"},
+     {"gouraud-mesh", RenderMethod::kTwoPass, MeshKind::kGouraudMesh, ShadingMode::kRadiosity,
+      "the same on the discontinuity mesh"},
+     {"interpolant", RenderMethod::kTwoPass, MeshKind::kInterpolant, ShadingMode::kRadiosity,
+      "quadratic on that mesh, the two-pass display"},
+     {"exact", RenderMethod::kRayShade, std::nullopt, ShadingMode::kRadiosity,
+      "exact irradiance at every pixel, by rays (RayShade)"},
+     {"lerp", RenderMethod::kLerpShade, MeshKind::kInterpolant, ShadingMode::kRadiosity,
+      "the interpolant, found by rays (LerpShade)"},
+     {"rho", RenderMethod::kTwoPass, MeshKind::kFlat, ShadingMode::kReflectance, "reflectance alone"}}};
 
 // The back ends that draw the two passes.
 enum class Backend { kSoftware, kOpenGl };

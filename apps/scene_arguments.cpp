@@ -1,5 +1,8 @@
 #include "apps/scene_arguments.h"
 
+#include <fmt/format.h>
+
+#include "apps/commands.h"
 #include "apps/option_values.h"
 #include "mesh/pipeline/option_table.h"
 
@@ -24,13 +27,14 @@ void AddRunningOptions(CLI::App& app, int* threads, std::uint64_t* seed, bool* v
       ->group(group);
 }
 
-void AddSceneArguments(CLI::App& app, SceneArguments* arguments) {
+namespace {
+
+constexpr const char* kSceneHelp =
+    "An OBJ file, the name of a built-in scene (a file wins), or a solution that `solve -o` wrote";
+
+// All but the scenes.
+void AddReadingOptions(CLI::App& app, SceneArguments* arguments) {
   arguments->app = &app;
-  app.add_option(
-         "SCENE", arguments->scene,
-         "An OBJ file, the name of a built-in scene (a file wins), or a solution that `solve -o` wrote")
-      ->required()
-      ->type_name("");
   app.add_flag("--emission-is-radiance", arguments->reading.emission_is_radiance,
                "Ke is radiance in W/(m^2 sr) instead of emittance in W/m^2: multiply it by pi")
       ->group(kSceneGroup);
@@ -55,6 +59,29 @@ void AddSceneArguments(CLI::App& app, SceneArguments* arguments) {
                     "Another reflectance for a material, in [0, 1); may be repeated")
       ->group(kSceneGroup);
   AddRunningOptions(app, &arguments->threads, &arguments->solving.seed, &arguments->verbose);
+}
+
+}  // namespace
+
+void AddSceneArguments(CLI::App& app, SceneArguments* arguments) {
+  app.add_option("SCENE", arguments->scene, kSceneHelp)->required()->type_name("");
+  AddReadingOptions(app, arguments);
+}
+
+void AddSeveralScenesArguments(CLI::App& app, SceneArguments* arguments) {
+  app.add_option("SCENE", arguments->scenes,
+                 std::string(kSceneHelp) + "; of several, one result each, in order")
+      ->required()
+      ->type_name("");
+  AddReadingOptions(app, arguments);
+}
+
+void RefuseForSeveralScenes(const SceneArguments& arguments, const std::string& name,
+                            const std::optional<std::string>& file) {
+  if (file && arguments.scenes.size() > 1)
+    throw UsageError(
+        fmt::format("{} '{}' is one file, and {} scenes are given; leave it out, or give one scene", name,
+                    *file, arguments.scenes.size()));
 }
 
 CLI::Option* AddReportOption(CLI::App& app, SceneArguments* arguments) {

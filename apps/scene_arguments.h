@@ -20,8 +20,9 @@
 namespace penumbra {
 
 struct SceneArguments {
-  const CLI::App* app = nullptr;  // knows which options were given; null: none
-  std::string scene;              // a path, or the name of a built-in scene
+  const CLI::App* app = nullptr;    // knows which options were given; null: none
+  std::string scene;                // a path, or the name of a built-in scene
+  std::vector<std::string> scenes;  // of commands that take several, which work on one after the other
   SceneOptions reading;
   std::vector<MaterialChange> emittance, reflectance;
   PipelineOptions solving;
@@ -40,6 +41,11 @@ inline constexpr const char* kSceneGroup = "Scene";
 void AddRunningOptions(CLI::App& app, int* threads, std::uint64_t* seed, bool* verbose);
 // Adds the positional argument, SCENE or SOLUTION, and the options for reading, threads, seed and verbosity.
 void AddSceneArguments(CLI::App& app, SceneArguments* arguments);
+// The same for commands that take several scenes: they stand in SceneArguments::scenes, and `scene` is empty.
+void AddSeveralScenesArguments(CLI::App& app, SceneArguments* arguments);
+// Throws UsageError if a file, which the option `name` would write, is given beside several scenes.
+void RefuseForSeveralScenes(const SceneArguments& arguments, const std::string& name,
+                            const std::optional<std::string>& file);
 CLI::Option* AddReportOption(CLI::App& app, SceneArguments* arguments);
 CLI::Option* AddRestartOption(CLI::App& app, SceneArguments* arguments);
 

@@ -75,7 +75,7 @@ TEST(Help, ListsEveryOption) {
 TEST(Help, PrintsTheVersion) {
   const Outcome version = Sandbox().Run({"--version"});
   EXPECT_EQ(version.status, 0);
-  EXPECT_THAT(version.out, MatchesRegex("penumbra [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  EXPECT_THAT(version.out, MatchesRegex("penumbra [0-9]+\\.[0-9]+\\.[0-9]+( \\([0-9a-f]+\\+?\\))?\n"));
 }
 
 // The built-in scenes are listed, a line each, the name first.

@@ -1,0 +1,14 @@
+// apps/photometric_option.h
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "display/photometry.h"
+
+namespace penumbra {
+
+// Adds the flag --photometric, which sets the unit to LightUnit::kLux.
+CLI::Option* AddPhotometricOption(CLI::App& app, LightUnit* unit);
+
+}  // namespace penumbra

@@ -1,0 +1,101 @@
+#include "apps/surroundings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <tuple>
+
+#include "solver/geometry/polygon.h"
+#include "solver/geometry/polygon_distance.h"
+#include "solver/scene/text_reader.h"
+
+namespace penumbra {
+namespace {
+
+constexpr double kOneDegree = std::numbers::pi / 180;
+
+// Directions that look around on the side of the normal: along it, and two rings of six.
+std::vector<Vec3> LookAround(const Vec3& normal) {
+  const Frame frame = MakeFrame(Vec3::Zero(), normal);
+  std::vector<Vec3> directions = {normal};
+  for (const double from_normal : {45 * kOneDegree, 75 * kOneDegree})
+    for (int i = 0; i < 6; ++i) {
+      const double around = (60 * i + 17) * kOneDegree;  // off the axes, along which scenes have their edges
+      directions.push_back(std::sin(from_normal) * (std::cos(around) * frame.u + std::sin(around) * frame.v) +
+                           std::cos(from_normal) * normal);
+    }
+  return directions;
+}
+
+// The lowest of the faces that the patch covers within `reach` of the point.
+std::int32_t LowestFace(const Scene& scene, PatchId id, const Vec3& position, double reach) {
+  const Patch& patch = scene.patches[static_cast<std::size_t>(id)];
+  if (patch.faces.size() > 1)
+    for (const std::int32_t face : patch.faces)
+      if (ConvexContains(scene.faces[static_cast<std::size_t>(face)].vertices, patch.normal, position, reach))
+        return face;
+  return scene.FaceAt(id, position);
+}
+
+}  // namespace
+
+double PatchReach(const Scene& scene) { return kOnPatchDistance * scene.Diagonal(); }
+
+PointFace FindFace(const Scene& scene, const Vec3& position, const std::optional<Vec3>& normal) {
+  PointFace lowest;
+  const double least_cosine = std::cos(kOnPatchDegrees * kOneDegree), reach = PatchReach(scene);
+  for (std::size_t i = 0; i < scene.patches.size(); ++i) {
+    const Patch& patch = scene.patches[i];
+    if (normal && patch.normal.dot(*normal) < least_cosine) continue;
+    if (std::abs(patch.normal.dot(position - patch.vertex[0])) > reach) continue;
+    if (!ConvexContains(patch.Vertices(), patch.normal, position, reach)) continue;
+    const auto id = static_cast<PatchId>(i);
+    const std::int32_t face = LowestFace(scene, id, position, reach);
+    if (lowest.patch == kNoPatch || face < lowest.face) lowest = {face, id};
+  }
+  return lowest;
+}
+
+void TakeNormalsOfFaces(const Scene& scene, const std::string& name, std::vector<ProbePoint>* points) {
+  for (ProbePoint& point : *points) {
+    if (point.has_normal) continue;
+    const PointFace at = FindFace(scene, point.position, std::nullopt);
+    if (at.patch == kNoPatch)
+      throw ErrorAt(name, point.line,
+                    "the point has no normal and lies on no face, whose normal it could have; give nx,ny,nz");
+    point.normal = scene.patches[static_cast<std::size_t>(at.patch)].normal;
+    point.has_normal = true;
+  }
+}
+
+Surroundings::Surroundings(const Scene& scene) : scene_(scene), rays_(scene), reach_(PatchReach(scene)) {
+  std::tie(low_, high_) = scene.Bounds();
+}
+
+bool Surroundings::IsFar(const Vec3& position) const {
+  const Vec3 nearest = position.cwiseMax(low_).cwiseMin(high_);
+  return !scene_.patches.empty() &&
+         (position - nearest).stableNorm() > kFarDiagonals * (high_ - low_).stableNorm();
+}
+
+bool Surroundings::SeesOnlyBacks(const Vec3& position, const Vec3& normal) const {
+  // A point on a surface stands on the side that its normal points to, in the floats of rays, too, which
+  // count from the middle of the scene; where the scene lies plays no part.
+  constexpr double kFloatRounding = 8 * std::numeric_limits<float>::epsilon();
+  const double from_middle = MaxAbs(position - 0.5 * (low_ + high_));
+  const Vec3 eye = position + (reach_ + kFloatRounding * from_middle) * normal;
+  // Furniture without a bottom stands on an uncut floor: a look down from inside it meets a front.
+  for (const Vec3& up : {normal, Vec3(-normal)}) {
+    bool any_back = false, any_front = false;
+    for (const Vec3& direction : LookAround(up)) {
+      const RayCaster::Hit hit = rays_.Cast(eye, direction);
+      if (hit.patch != kNoPatch) (hit.front ? any_front : any_back) = true;
+    }
+    if (any_front) return false;
+    if (any_back) return true;
+  }
+  return false;
+}
+
+}  // namespace penumbra
