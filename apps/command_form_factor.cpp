@@ -3,21 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/form_factor_matrix_run.h"
 #include "apps/interruptible.h"
 #include "apps/load_scene.h"
+#include "apps/named_faces.h"
 #include "apps/option_values.h"
 #include "apps/options_used.h"
 #include "apps/output.h"
 #include "apps/scene_arguments.h"
 #include "solver/base/check.h"
-#include "solver/base/similar_names.h"
 #include "solver/transport/links/approximate_form_factor.h"
 #include "solver/visibility/area/area_form_factor.h"
 #include "solver/visibility/exact/occlusion_methods.h"
@@ -38,6 +38,7 @@ constexpr NumberRule kTolerance{[](double x) { return x >= 1e-13 && x <= 1; }, "
 struct FormFactorArguments {
   SceneArguments scene;
   std::string from, to;
+  MatrixArguments matrix;
   std::string method = kExact;
   std::optional<double> tolerance;
   std::uint64_t rays = 1'000'000;
@@ -66,12 +67,6 @@ bool Integrates(const std::string& method) {
   return method == kAuto || method == kExact || IsAtPoints(method);
 }
 
-std::vector<std::string> NamesOf(const std::vector<Object>& objects) {
-  std::vector<std::string> names;
-  for (const Object& object : objects) names.push_back(object.name);
-  return names;
-}
-
 // What only some methods take.
 void CheckMethod(const FormFactorArguments& arguments) {
   const auto given = [&](const char* name) { return arguments.scene.app->get_option(name)->count() > 0; };
@@ -83,44 +78,10 @@ void CheckMethod(const FormFactorArguments& arguments) {
         fmt::format("--rays is of monte-carlo, and --method {} casts none; leave one out", arguments.method));
 }
 
-// The faces of the objects and groups of that name; without one, the face with that number.
-std::vector<std::int32_t> FindFaces(const FormFactorArguments& arguments, const Scene& scene,
-                                    const std::string& name) {
-  const auto fail = [&](const std::string& what) {
-    throw InputError(fmt::format("{}: error: {}", arguments.scene.scene, what));
-  };
-  std::vector<std::int32_t> faces;
-  bool named = false;
-  for (const Object& object : scene.objects) {
-    if (object.name != name) continue;
-    named = true;
-    faces.insert(faces.end(), object.faces.begin(), object.faces.end());
-  }
-  if (!named) {
-    std::size_t index = 0;
-    const char *begin = name.data(), *end = begin + name.size();
-    const auto [stop, error] = std::from_chars(begin, end, index);
-    if (stop != end || name.empty() || error == std::errc::invalid_argument)
-      fail(
-          fmt::format("there is no object or group `{}`; there are {}, and faces by the number of their f "
-                      "line, from 0{}",
-                      name, scene.objects.empty() ? "none" : NameList(NamesOf(scene.objects)),
-                      DidYouMean(name, NamesOf(scene.objects))));
-    if (error != std::errc() || index >= scene.faces.size())
-      fail(scene.faces.empty() ? fmt::format("there is no face {}; the scene has none", name)
-                               : fmt::format("there is no face {}; faces have the numbers 0 to {}", name,
-                                             scene.faces.size() - 1));
-    faces.push_back(static_cast<std::int32_t>(index));
-  }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  return faces;
-}
-
 std::vector<AreaPart> FindParts(const FormFactorArguments& arguments, const Scene& scene,
                                 const std::string& name) {
   std::vector<AreaPart> parts;
-  for (const std::int32_t face : FindFaces(arguments, scene, name))
+  for (const std::int32_t face : FacesNamed(scene, arguments.scene.scene, name))
     for (AreaPart& part : PartsOfFace(scene, face)) parts.push_back(std::move(part));
   if (parts.empty())
     throw InputError(fmt::format("{}: error: nothing is left of `{}`: it has no faces, or they were dropped",
@@ -128,8 +89,41 @@ std::vector<AreaPart> FindParts(const FormFactorArguments& arguments, const Scen
   return parts;
 }
 
+// The whole matrix.
+void RunMatrix(FormFactorArguments arguments) {
+  if (!Integrates(arguments.method))
+    throw UsageError(fmt::format("--all computes exact factors, and --method {} is none; leave one out",
+                                 arguments.method));
+  arguments.scene.outputs.Add("-o", arguments.matrix.output);
+  const LoadedScene loaded = LoadScene(arguments.scene);
+  if (arguments.scene.verbose) {
+    nlohmann::ordered_json options = OptionsUsed(arguments.scene, nullptr);
+    options["all"] = true;
+    options["by"] = MatrixRowsName(arguments.matrix.by);
+    options["method"] = arguments.method;
+    if (arguments.tolerance) options["tolerance"] = *arguments.tolerance;
+    PrintOptionsUsed(options);
+  }
+  const std::unique_ptr<const OcclusionMethod> method =
+      IsAtPoints(arguments.method) ? OcclusionMethods().Make(arguments.method, {}) : nullptr;
+  WriteFormFactorMatrix(loaded.scene, arguments.matrix, method.get(), arguments.tolerance);
+}
+
+// What says which factors are asked for.
+void CheckEnds(const FormFactorArguments& arguments) {
+  const auto given = [&](const char* name) { return arguments.scene.app->get_option(name)->count() > 0; };
+  if (arguments.matrix.all && (given("--from") || given("--to")))
+    throw UsageError("--all is every pair, and --from and --to are one; leave --all out, or both others");
+  if (!arguments.matrix.all && !(given("--from") && given("--to")))
+    throw UsageError("form-factor needs --from OBJECT and --to OBJECT, or --all");
+  if (!arguments.matrix.all && (given("--by") || given("-o")))
+    throw UsageError(fmt::format("{} is of --all; give it, too", given("--by") ? "--by" : "-o"));
+}
+
 void PrintFormFactor(const FormFactorArguments& arguments) {
+  CheckEnds(arguments);
   CheckMethod(arguments);
+  if (arguments.matrix.all) return RunMatrix(arguments);
   const LoadedScene loaded = LoadScene(arguments.scene);
   const Scene& scene = loaded.scene;
   const std::vector<AreaPart> from = FindParts(arguments, scene, arguments.from),
@@ -170,16 +164,16 @@ void PrintFormFactor(const FormFactorArguments& arguments) {
 }  // namespace
 
 Command AddFormFactorCommand(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("form-factor", "Print the form factor from some faces to others");
+  CLI::App* app = program.add_subcommand(
+      "form-factor", "Print the form factor from some faces to others, or the matrix of all");
   const auto arguments = std::make_shared<FormFactorArguments>();
   AddSceneArguments(*app, &arguments->scene);
   arguments->scene.lit = false;
   app->add_option("--from", arguments->from, "Where the flux leaves: an object, a group or a face's number")
-      ->required()
       ->type_name("OBJECT");
   app->add_option("--to", arguments->to, "Where it arrives: an object, a group or a face's number")
-      ->required()
       ->type_name("OBJECT");
+  AddMatrixOptions(*app, &arguments->matrix);
   std::vector<std::string> methods = PointMethods();
   methods.insert(methods.begin(), {kAuto, kExact});
   methods.insert(methods.end(), {kCubature, kDisk, kMonteCarlo});
@@ -196,7 +190,8 @@ Command AddFormFactorCommand(CLI::App& program) {
   AddNumber(*app, "--tolerance", &arguments->tolerance, kTolerance,
             "auto, exact and their like: the error that is asked for, relative to the factor; of factors "
             "that are less than it, relative to itself. Left out: 1e-7 where something stands in between, "
-            "and what roundings allow where nothing does");
+            "and what roundings allow where nothing does. With --all: what the errors of a row may add up to "
+            "(default: 1e-7)");
   AddInteger(*app, "--rays", &arguments->rays, std::uint64_t{1}, std::uint64_t{1} << 40,
              "monte-carlo: the number of rays");
   app->footer(
@@ -204,7 +199,12 @@ Command AddFormFactorCommand(CLI::App& program) {
       "front of the other past the whole scene, and how far off that may be. Of several faces the flux is\n"
       "summed: sum A_i F(i -> to) / sum A_i. The error of exact bounds it by an estimate; that of\n"
       "monte-carlo is the standard error; those of disk and cubature are differences from a coarser or\n"
-      "finer division, which indicate and do not bound. A name goes before a number.");
+      "finer division, which indicate and do not bound. A name goes before a number.\n"
+      "With --all the matrix goes to -o or standard output, and its errors, closure (what rows add up to) "
+      "and\n"
+      "reciprocity to standard output, or to standard error. A_i F_ij = A_j F_ji holds to rounding: each "
+      "pair\n"
+      "is computed once.");
   return {app, [arguments] { PrintFormFactor(*arguments); }};
 }
 

@@ -16,6 +16,7 @@
 #include "display/viewer/overlays.h"
 #include "display/viewer/settings.h"
 #include "mesh/discontinuities/discontinuity_choices.h"
+#include "mesh/pipeline/matrix_writers.h"
 #include "mesh/pipeline/option_table.h"
 #include "solver/base/check.h"
 #include "solver/scene/scene_readers.h"
@@ -89,6 +90,7 @@ MethodJson AllMethods() {
   AddMethods(SceneWriters(), &kinds["writer"]);
   AddMethods(MeshWriters(), &kinds["writer"]);
   AddMethods(ImageWriters(), &kinds["image-writer"]);
+  AddMethods(MatrixWriters(), &kinds["matrix-writer"]);
   AddOverlays(&kinds["overlay"]);
   return kinds;
 }

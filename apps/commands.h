@@ -40,5 +40,6 @@ Command AddDiffCommand(CLI::App& program);
 Command AddInfoCommand(CLI::App& program);
 Command AddScenesCommand(CLI::App& program);
 Command AddMethodsCommand(CLI::App& program);
+Command AddGridCommand(CLI::App& program);
 
 }  // namespace penumbra

@@ -44,11 +44,11 @@ int Main(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(kFooter);
   program.get_formatter()->column_width(34);
-  const std::vector<Command> commands = {AddSolveCommand(program),  AddRenderCommand(program),
-                                         AddProbeCommand(program),  AddFormFactorCommand(program),
-                                         AddViewCommand(program),   AddExportCommand(program),
-                                         AddDiffCommand(program),   AddInfoCommand(program),
-                                         AddScenesCommand(program), AddMethodsCommand(program)};
+  const std::vector<Command> commands = {
+      AddSolveCommand(program),      AddRenderCommand(program), AddProbeCommand(program),
+      AddFormFactorCommand(program), AddViewCommand(program),   AddExportCommand(program),
+      AddDiffCommand(program),       AddInfoCommand(program),   AddScenesCommand(program),
+      AddMethodsCommand(program),    AddGridCommand(program)};
   try {
     try {
       program.parse(argc, argv);

@@ -135,6 +135,14 @@ Handle WithoutTimes(hid_t kind) {
   return creation;
 }
 
+// The type of UTF-8 texts of any length. REQUIRES: the caller holds the lock of the library.
+Handle TextOfAnyLength(const std::string& what) {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose, what);
+  Succeed(H5Tset_size(type, H5T_VARIABLE), what);
+  Succeed(H5Tset_cset(type, H5T_CSET_UTF8), what);
+  return type;
+}
+
 }  // namespace
 
 struct Hdf5Writer::Impl {
@@ -200,6 +208,28 @@ void Hdf5Writer::WriteText(const std::string& path, const std::string& text) {
   Succeed(H5Tset_cset(type, H5T_CSET_UTF8), path);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, path);
   impl_->Write(path, type, type, space, WithoutTimes(H5P_DATASET_CREATE), text.c_str());
+}
+
+void Hdf5Writer::WriteStrings(const std::string& path, const std::vector<std::string>& texts) {
+  const auto held = HoldLibrary();
+  const Handle type = TextOfAnyLength(path);
+  const hsize_t count = texts.size();
+  const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, path);
+  std::vector<const char*> pointers;
+  for (const std::string& text : texts) pointers.push_back(text.c_str());
+  impl_->Write(path, type, type, space, WithoutTimes(H5P_DATASET_CREATE),
+               texts.empty() ? nullptr : pointers.data());
+}
+
+void Hdf5Writer::WriteAttribute(const std::string& path, const std::string& name, const std::string& text) {
+  const auto held = HoldLibrary();
+  const Handle type = TextOfAnyLength(name);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+  const Handle attribute(H5Acreate_by_name(impl_->file, path.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+                                           H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose, name);
+  const char* pointer = text.c_str();
+  Succeed(H5Awrite(attribute, type, &pointer), name);
 }
 
 std::string Hdf5Writer::Finish() {

@@ -65,6 +65,11 @@ class Hdf5Writer {
   void Write(const std::string& path, ScalarType type, const ArrayShape& shape, const void* data);
   // Writes a UTF-8 text, which must not end with zero bytes.
   void WriteText(const std::string& path, const std::string& text);
+  // Writes a list of UTF-8 texts of any length, as h5py writes a list of str: bytes that end with a zero
+  // byte. Invalid UTF-8 is kept as it is.
+  void WriteStrings(const std::string& path, const std::vector<std::string>& texts);
+  // Writes a text of this kind as an attribute of an array or a group. "/" is the file itself.
+  void WriteAttribute(const std::string& path, const std::string& name, const std::string& text);
   // Returns the complete file. Nothing may be written after this call.
   std::string Finish();
 

@@ -1,12 +1,12 @@
 #include "solver/visibility/area/area_form_factor.h"
 
 #include <algorithm>
-#include <mutex>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "solver/base/parallel.h"
+#include "solver/visibility/area/pair_counter.h"
 #include "solver/visibility/area/pair_integral.h"
 #include "solver/visibility/pair/tube_blockers.h"
 
@@ -29,25 +29,6 @@ constexpr double kGoodAlready = 0.5;
 // Points that lie outside an edge of a triangle by less than this times the extent of the triangle's patch
 // count as on the edge. About a hundred times the rounding of a height above a plane.
 constexpr double kOnEdge = 1e-13;
-
-// Counts finished pairs from several threads, and reports progress to the context.
-class PairCounter {
- public:
-  PairCounter(const ExecutionContext* context, const char* phase, std::size_t pairs)
-      : context_(context), phase_(phase), pairs_(pairs) {}
-
-  void Add() {
-    if (!context_) return;
-    const std::lock_guard lock(mutex_);
-    context_->Report(phase_, static_cast<double>(++done_) / static_cast<double>(pairs_));
-  }
-
- private:
-  const ExecutionContext* context_;
-  const char* phase_;
-  std::size_t pairs_, done_ = 0;
-  std::mutex mutex_;
-};
 
 double Area(const AreaPart& part) { return VectorArea(part.polygon).norm(); }
 
