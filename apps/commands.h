@@ -41,5 +41,7 @@ Command AddInfoCommand(CLI::App& program);
 Command AddScenesCommand(CLI::App& program);
 Command AddMethodsCommand(CLI::App& program);
 Command AddGridCommand(CLI::App& program);
+Command AddCompletionCommand(CLI::App& program);
+Command AddManualPageCommand(CLI::App& program);
 
 }  // namespace penumbra

@@ -48,7 +48,8 @@ int Main(int argc, char** argv) {
       AddSolveCommand(program),      AddRenderCommand(program), AddProbeCommand(program),
       AddFormFactorCommand(program), AddViewCommand(program),   AddExportCommand(program),
       AddDiffCommand(program),       AddInfoCommand(program),   AddScenesCommand(program),
-      AddMethodsCommand(program),    AddGridCommand(program)};
+      AddMethodsCommand(program),    AddGridCommand(program),   AddCompletionCommand(program),
+      AddManualPageCommand(program)};
   try {
     try {
       program.parse(argc, argv);

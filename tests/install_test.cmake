@@ -21,4 +21,26 @@ run("${CMAKE_COMMAND}" -S "${SCRATCH}/project" -B "${SCRATCH}/build" -G Ninja -D
 run("${CMAKE_COMMAND}" --build "${SCRATCH}/build" --target example_4_own_method)
 run("${SCRATCH}/build/example_4_own_method")
 run("${SCRATCH}/installed/bin/penumbra" scenes)
+
+# What the program makes of its own options, and what desktops and shells look for.
+foreach(installed share/man/man1/penumbra.1 share/man/man1/penumbra-solve.1 share/bash-completion/completions/penumbra
+                  share/zsh/vendor-completions/_penumbra share/applications/penumbra.desktop
+                  share/icons/hicolor/scalable/apps/penumbra.svg share/doc/penumbra/report.schema.json)
+  if(NOT EXISTS "${SCRATCH}/installed/${installed}")
+    message(FATAL_ERROR "${installed} is not installed")
+  endif()
+endforeach()
+
+# Without CMake, by pkg-config.
+find_program(PKG_CONFIG pkg-config)
+if(PKG_CONFIG)
+  file(GLOB_RECURSE package "${SCRATCH}/installed/penumbra.pc")
+  cmake_path(GET package PARENT_PATH folder)
+  set(ENV{PKG_CONFIG_PATH} "${folder}")
+  execute_process(COMMAND "${PKG_CONFIG}" --cflags --libs penumbra OUTPUT_VARIABLE flags
+                  OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(flags UNIX_COMMAND "${flags}")
+  run("${COMPILER}" "${SCRATCH}/project/4_own_method.cpp" -o "${SCRATCH}/by_pkg_config" ${flags})
+  run("${SCRATCH}/by_pkg_config")
+endif()
 file(REMOVE_RECURSE "${SCRATCH}")  # some hundred megabytes
