@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@
 #include "apps/output.h"
 #include "apps/scene_arguments.h"
 #include "solver/base/check.h"
-#include "solver/transport/links/approximate_form_factor.h"
+#include "solver/transport/form_factors/link_form_factor_methods.h"
 #include "solver/visibility/area/area_form_factor.h"
 #include "solver/visibility/exact/occlusion_methods.h"
 #include "solver/visibility/point/occlusion_method.h"
@@ -27,9 +28,6 @@ namespace penumbra {
 namespace {
 
 constexpr const char *kAuto = "auto", *kExact = "exact";
-constexpr const char* kDisk = "disk";
-constexpr const char* kCubature = "cubature";
-constexpr const char* kMonteCarlo = "monte-carlo";
 constexpr const char* kSampled = "sampled";  // of the methods at points, not here
 
 // Doubles do not keep more digits of a form factor.
@@ -41,6 +39,7 @@ struct FormFactorArguments {
   MatrixArguments matrix;
   std::string method = kExact;
   std::optional<double> tolerance;
+  std::uint64_t resolution = 0;  // 0: the method's
   std::uint64_t rays = 1'000'000;
 };
 
@@ -67,15 +66,31 @@ bool Integrates(const std::string& method) {
   return method == kAuto || method == kExact || IsAtPoints(method);
 }
 
+bool Takes(const std::string& method, const char* parameter) {
+  for (const LinkFormFactorRegistry::Method& of : LinkFormFactorMethods().methods())
+    if (of.name == method)
+      return std::find(of.parameters.begin(), of.parameters.end(), parameter) != of.parameters.end();
+  return false;
+}
+
+// The methods that take this parameter.
+std::string Takers(const char* parameter) {
+  std::vector<std::string> names;
+  for (const std::string& name : LinkFormFactorMethods().Names())
+    if (Takes(name, parameter)) names.push_back(name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 // What only some methods take.
 void CheckMethod(const FormFactorArguments& arguments) {
   const auto given = [&](const char* name) { return arguments.scene.app->get_option(name)->count() > 0; };
   if (given("--tolerance") && !Integrates(arguments.method))
     throw UsageError(fmt::format(
         "--tolerance is of exact point factors, and --method {} has none; leave one out", arguments.method));
-  if (given("--rays") && arguments.method != kMonteCarlo)
-    throw UsageError(
-        fmt::format("--rays is of monte-carlo, and --method {} casts none; leave one out", arguments.method));
+  for (const char* parameter : {"resolution", "rays"})
+    if (given(fmt::format("--{}", parameter).c_str()) && !Takes(arguments.method, parameter))
+      throw UsageError(fmt::format("--{0} is of {1}, and --method {2} takes none; leave one out", parameter,
+                                   Takers(parameter), arguments.method));
 }
 
 std::vector<AreaPart> FindParts(const FormFactorArguments& arguments, const Scene& scene,
@@ -120,6 +135,38 @@ void CheckEnds(const FormFactorArguments& arguments) {
     throw UsageError(fmt::format("{} is of --all; give it, too", given("--by") ? "--by" : "-o"));
 }
 
+// By exact point factors, with occlusion found as the method says.
+FormFactorEstimate Integrate(const FormFactorArguments& arguments, const Scene& scene,
+                             std::span<const AreaPart> from, std::span<const AreaPart> to,
+                             const ExecutionContext& context) {
+  const std::unique_ptr<const OcclusionMethod> method =
+      IsAtPoints(arguments.method) ? OcclusionMethods().Make(arguments.method, {}) : nullptr;
+  AreaFormFactorOptions options;
+  options.method = method.get();
+  options.tolerance = arguments.tolerance.value_or(options.tolerance);
+  // What was asked for is given; without a word, what is cheap.
+  if (arguments.tolerance) options.clear_tolerance = options.small_error = options.tolerance;
+  options.context = &context;
+  return AreaFormFactor(scene, from, to, options);
+}
+
+FormFactorEstimate Find(const FormFactorArguments& arguments, const Scene& scene,
+                        std::span<const AreaPart> from, std::span<const AreaPart> to,
+                        const ExecutionContext& context) {
+  context.Report(arguments.method, 0);  // the approximate methods tell no more
+  if (Integrates(arguments.method)) return Integrate(arguments, scene, from, to, context);
+  LinkFormFactorOptions options;
+  options.resolution = static_cast<std::size_t>(arguments.resolution);
+  options.rays = static_cast<std::size_t>(arguments.rays);
+  options.seed = arguments.scene.solving.seed;
+  const std::optional<FormFactorEstimate> found =
+      LinkFormFactorMethods().Make(arguments.method, options)->Between(scene, from, to, context);
+  if (!found)
+    throw InputError(
+        fmt::format("--method {} finds form factors of links only; give another method", arguments.method));
+  return *found;
+}
+
 void PrintFormFactor(const FormFactorArguments& arguments) {
   CheckEnds(arguments);
   CheckMethod(arguments);
@@ -134,30 +181,13 @@ void PrintFormFactor(const FormFactorArguments& arguments) {
     options["to"] = arguments.to;
     options["method"] = arguments.method;
     if (Integrates(arguments.method) && arguments.tolerance) options["tolerance"] = *arguments.tolerance;
-    if (arguments.method == kMonteCarlo) options["rays"] = arguments.rays;
+    if (arguments.resolution > 0) options["resolution"] = arguments.resolution;
+    if (Takes(arguments.method, "rays")) options["rays"] = arguments.rays;
     PrintOptionsUsed(options);
   }
   FormFactorEstimate estimate;
-  RunInterruptible([&](const ExecutionContext& context) {
-    context.Report(arguments.method, 0);  // the approximate methods tell no more
-    if (arguments.method == kDisk) {
-      estimate = DiskFormFactor(scene, from, to, context);
-    } else if (arguments.method == kCubature) {
-      estimate = CubatureFormFactor(scene, from, to, context);
-    } else if (arguments.method == kMonteCarlo) {
-      estimate = MonteCarloFormFactor(scene, from, to, arguments.rays, arguments.scene.solving.seed, context);
-    } else {
-      const std::unique_ptr<const OcclusionMethod> method =
-          IsAtPoints(arguments.method) ? OcclusionMethods().Make(arguments.method, {}) : nullptr;
-      AreaFormFactorOptions options;
-      options.method = method.get();
-      options.tolerance = arguments.tolerance.value_or(options.tolerance);
-      // What was asked for is given; without a word, what is cheap.
-      if (arguments.tolerance) options.clear_tolerance = options.small_error = options.tolerance;
-      options.context = &context;
-      estimate = AreaFormFactor(scene, from, to, options);
-    }
-  });
+  RunInterruptible(
+      [&](const ExecutionContext& context) { estimate = Find(arguments, scene, from, to, context); });
   WriteResult(std::nullopt, fmt::format("{:.17g} {:.17g}\n", estimate.factor, estimate.error));
 }
 
@@ -176,13 +206,15 @@ Command AddFormFactorCommand(CLI::App& program) {
   AddMatrixOptions(*app, &arguments->matrix);
   std::vector<std::string> methods = PointMethods();
   methods.insert(methods.begin(), {kAuto, kExact});
-  methods.insert(methods.end(), {kCubature, kDisk, kMonteCarlo});
-  app->add_option(
-         "--method", arguments->method,
-         "auto, exact: exact point factors past all blockers, integrated to the tolerance; clipping, "
-         "backprojection and vertex-tracing: the same, occlusion found so (see probe); cubature: the mean "
-         "over a fixed set of points (thesis 4.2); disk: a disk seen from a point, whole or not at "
-         "all (Wallace et al. 1989, Hanrahan et al. 1991); monte-carlo: random rays")
+  std::string help =
+      "auto, exact: exact point factors past all blockers, integrated to the tolerance; clipping, "
+      "backprojection and vertex-tracing: the same, occlusion found so (see probe)";
+  for (const LinkFormFactorRegistry::Method& method : LinkFormFactorMethods().methods()) {
+    if (method.name == kExact) continue;
+    methods.push_back(method.name);
+    help += fmt::format("; {}: {}", method.name, method.help);
+  }
+  app->add_option("--method,--form-factors", arguments->method, help)
       ->check(&WhyNotSampled)
       ->check(CLI::IsMember(methods))
       ->type_name("METHOD")
@@ -192,14 +224,17 @@ Command AddFormFactorCommand(CLI::App& program) {
             "that are less than it, relative to itself. Left out: 1e-7 where something stands in between, "
             "and what roundings allow where nothing does. With --all: what the errors of a row may add up to "
             "(default: 1e-7)");
+  AddInteger(
+      *app, "--resolution", &arguments->resolution, std::uint64_t{0}, kMostResolution,
+      Takers("resolution") + ": cells along a side of their planes; 0: as many as each was printed with");
   AddInteger(*app, "--rays", &arguments->rays, std::uint64_t{1}, std::uint64_t{1} << 40,
-             "monte-carlo: the number of rays");
+             Takers("rays") + ": the number of rays, or of pairs of points");
   app->footer(
       "Prints `F error`: the fraction of the diffuse flux that leaves the front of the one and reaches the\n"
       "front of the other past the whole scene, and how far off that may be. Of several faces the flux is\n"
       "summed: sum A_i F(i -> to) / sum A_i. The error of exact bounds it by an estimate; that of\n"
-      "monte-carlo is the standard error; those of disk and cubature are differences from a coarser or\n"
-      "finer division, which indicate and do not bound. A name goes before a number.\n"
+      "monte-carlo and malley is the standard error; the others' are differences from a coarser or finer\n"
+      "division, which indicate and do not bound. A name goes before a number.\n"
       "With --all the matrix goes to -o or standard output, and its errors, closure (what rows add up to) "
       "and\n"
       "reciprocity to standard output, or to standard error. A_i F_ij = A_j F_ji holds to rounding: each "

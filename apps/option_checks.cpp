@@ -18,12 +18,13 @@ constexpr double kMostOfDiagonal = 1e-3;
 }  // namespace
 
 void CheckOptions(const SceneArguments& arguments) {
+  // Commands that solve nothing may have options of the same names.
+  if (!arguments.app || !arguments.app->get_option_no_throw("--solver")) return;
   const PipelineOptions& solving = arguments.solving;
   for (const SolveOption& option : OptionTable())
     if (!IsObeyed(option, solving) && IsGiven(arguments, CommandLineName(option)))
-      throw UsageError(
-          fmt::format("{} is of the {} solver and means nothing to --solver {}; leave one of them out",
-                      CommandLineName(option), option.solver, solving.SolverName()));
+      throw UsageError(fmt::format("{} is of {} and means nothing to --solver {}; leave one of them out",
+                                   CommandLineName(option), OwnersOf(option), solving.SolverName()));
   if (IsGiven(arguments, "--source-error") && solving.max_corrections == 0)
     throw UsageError(
         "--source-error cuts sources for corrections, and --corrections 0 makes none; leave one out");

@@ -50,7 +50,8 @@ void SetOption(const SolveOption& option, const OptionValue& value, PipelineOpti
   if (!IsObeyed(option, *solving) && !IsObeyed(option, PipelineOptions()))
     throw CLI::ValidationError(
         CommandLineName(option),
-        fmt::format("it is of the {0} solver; give --solver {0}, or leave it out", option.solver));
+        fmt::format("it is of {0}; give {1}, or leave it out", OwnersOf(option),
+                    option.solver.empty() ? "one of these" : "--solver " + option.solver));
   option.field.set(value, solving);
 }
 

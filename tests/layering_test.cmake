@@ -8,7 +8,7 @@ cmake_minimum_required(VERSION 3.25)
 
 set(LAYERS solver/base solver/geometry solver/scene
   solver/visibility/point solver/visibility/exact solver/visibility/pair solver/visibility/area
-  solver/transport/links solver/transport/sources solver/transport/points solver/transport/solvers
+  solver/transport/links solver/transport/form_factors solver/transport/sources solver/transport/points solver/transport/solvers
   mesh/discontinuities mesh/triangulation mesh/interpolants mesh/refinement mesh/pipeline
   display apps)
 set(OUTSIDE tests experiments examples)  # may include every layer; no layer may include them

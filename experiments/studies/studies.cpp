@@ -17,6 +17,7 @@ extern const Study kDisplayStudy;
 extern const Study kWholeSystemStudy;
 extern const Study kStabilityStudy;
 extern const Study kGrowthStudy;
+extern const Study kMethodsStudy;
 
 const std::vector<const Study*>& Studies() {
   static const std::vector<const Study*> studies = {
@@ -35,6 +36,7 @@ const std::vector<const Study*>& Studies() {
       &kWholeSystemStudy,          // 7
       &kStabilityStudy,            // what can go wrong
       &kGrowthStudy,               // what bounds large scenes
+      &kMethodsStudy,              // the methods of the field, side by side
   };
   return studies;
 }

@@ -7,7 +7,7 @@
 
 #include "mesh/discontinuities/discontinuity_choices.h"
 #include "solver/base/check.h"
-#include "solver/transport/links/link_form_factor_methods.h"
+#include "solver/transport/form_factors/link_form_factor_methods.h"
 #include "solver/transport/links/refinement_oracles.h"
 #include "solver/transport/solvers/light_solvers.h"
 
@@ -28,7 +28,7 @@ constexpr NumberRange kPolyline{1e-9, 1e9, true};
 constexpr NumberRange kSeconds{1e-9, 1e9}, kBytes{1, 1e18};
 constexpr std::uint64_t kMostErrorSamples = 100, kMostErrorPoints = 100'000'000, kMostLines = 1'000'000,
                         kMostDivisions = 64, kMostIterations = 1'000'000, kMostCorrections = 100,
-                        kMostBounces = 1000, kMostRays = kMostRaysPerPoint;
+                        kMostBounces = 1000, kMostRays = kMostRaysPerPoint, kMostShots = 1'000'000;
 
 NamedValues<DiscontinuityWeight> WeightsOfDiscontinuities() {
   return {{"thesis", DiscontinuityWeight::kThesis}, {"irradiance", DiscontinuityWeight::kIrradiance}};
@@ -60,6 +60,18 @@ OptionField AccelerationField() {
       });
   field.choices = [] { return std::vector<std::string>{"none", "anderson"}; };
   return field;
+}
+
+// The registries begin with so many methods that are meant for use.
+constexpr std::size_t kUsualFormFactors = 2, kUsualSolvers = 3;
+
+// The methods of a registry behind the first `usual` ones serve only to compare.
+template <class Methods>
+std::vector<StudyChoice> StudyChoicesOf(const Methods& registry, std::size_t usual) {
+  std::vector<StudyChoice> choices;
+  for (std::size_t i = usual; i < registry.methods().size(); ++i)
+    choices.push_back({registry.methods()[i].name, registry.methods()[i].help});
+  return choices;
 }
 
 void AddErrors(Entries& table) {
@@ -318,6 +330,30 @@ void AddDistances(Entries& table) {
        .label = "Shortest segment of backprojections, 0: clip"});
 }
 
+void AddClassicSolvers(Entries& table) {
+  table.push_back({.name = "shots",
+                   .field = IntegerField(&PipelineOptions::shots, {0, kMostShots}),
+                   .group = OptionGroup::kStudies,
+                   .help =
+                       "Most steps of a classic solver: shots, sweeps or bundles of rays; 0: until little "
+                       "light is left, or 16 bundles",
+                   .in_older_files = [](const PipelineOptions&) { return OptionValue(std::uint64_t{0}); },
+                   .label = "Most shots, sweeps or bundles"});
+  table.push_back({.name = "overshoot",
+                   .field = FlagField(&PipelineOptions::overshoot),
+                   .group = OptionGroup::kStudies,
+                   .help = "Shots anticipate what the shooter will reflect (Shao and Badler 1993)",
+                   .in_older_files = [](const PipelineOptions&) { return OptionValue(false); },
+                   .label = "Overshooting"});
+  table.push_back({.name = "ambient",
+                   .field = FlagField(&PipelineOptions::ambient),
+                   .group = OptionGroup::kStudies,
+                   .help = "Show an estimate of the light that is still to come, spread evenly; the solver "
+                           "goes on without it",
+                   .in_older_files = [](const PipelineOptions&) { return OptionValue(false); },
+                   .label = "Ambient light of what is to come"});
+}
+
 void AddSolvers(Entries& table) {
   table.push_back(
       {.name = "form-factors",
@@ -326,9 +362,7 @@ void AddSolvers(Entries& table) {
        .links_depend = true,
        .help = "Of links: the mean of exact point factors over a few points of the receiver (cubature); or "
                "between areas to 1e-7, slower, and closed rooms then close (exact)",
-       .study_choices = {{"disk",
-                          "Form factors of links take the source for a disk seen from the "
-                          "receiver's centre (Hanrahan et al. 1991)"}},
+       .study_choices = StudyChoicesOf(LinkFormFactorMethods(), kUsualFormFactors),
        .label = "Form factors of links"});
   table.push_back(
       {.name = "solver",
@@ -339,17 +373,28 @@ void AddSolvers(Entries& table) {
        .help = "How to solve: `hierarchical`; `sampled`, by rays, for scenes of many polygons; or `dense`, "
                "which solves the linear system of a uniform mesh directly with exact form factors: a "
                "reference for small scenes",
+       .study_choices = StudyChoicesOf(LightSolvers(), kUsualSolvers),
        .resolved = [](const ResolvedOptions& r) { return OptionValue(r.solver_name); },
        .label = "Solver"});
   table.push_back(
       {.name = "rays",
        .field = IntegerField(&PipelineOptions::rays, {0, kMostRays}),
        .group = OptionGroup::kSampled,
+       .solver = "sampled",
        .help =
            "Rays that gather reflected light at a node of the mesh; a probe takes four times as many; 0: as "
-           "--error asks",
+           "--error asks. Of form factors by rays: rays for each of them; 0: as many as each method takes",
        .in_older_files = [](const PipelineOptions&) { return OptionValue(std::uint64_t{0}); },
        .label = "Sampled: rays at a point"});
+  table.push_back(
+      {.name = "resolution",
+       .field = IntegerField(&PipelineOptions::resolution, {0, kMostResolution}),
+       .group = OptionGroup::kStudies,
+       .links_depend = true,
+       .help = "Of form factors that are drawn: cells along a side of a plane; 0: as many as each method was "
+               "printed with",
+       .in_older_files = [](const PipelineOptions&) { return OptionValue(std::uint64_t{0}); },
+       .label = "Form factors: cells along a side"});
   table.push_back({.name = "basis",
                    .field = ChoiceField(
                        [](auto& options) -> auto& { return options.dense.degree; }, Bases()),
@@ -358,13 +403,17 @@ void AddSolvers(Entries& table) {
                    .help = "Of the dense solver's elements: `constant` (Galerkin), `linear` or `quadratic` "
                            "(collocation; their means are shown)",
                    .label = "Dense: basis"});
-  table.push_back({.name = "divisions",
-                   .field = IntegerField([](auto& options) -> auto& { return options.dense.divisions; },
-                                         {1, kMostDivisions, true}),
-                   .group = OptionGroup::kDense,
-                   .links_depend = true,
-                   .help = "The dense solver cuts every patch into N x N elements",
-                   .label = "Dense: divisions of a patch's side"});
+  table.push_back(
+      {.name = "divisions",
+       .field = IntegerField([](auto& options) -> auto& { return options.dense.divisions; },
+                             {1, kMostDivisions, true}),
+       .group = OptionGroup::kDense,
+       .links_depend = true,
+       .help = "The dense solver, and others on uniform meshes, cut every patch into N x N elements",
+       .label = "Dense: divisions of a patch's side"});
+}
+
+void AddErrorPoints(Entries& table) {
   table.push_back(
       {.name = "error-points",
        .field = IntegerField(&PipelineOptions::error_points, {0, kMostErrorPoints}),
@@ -373,15 +422,26 @@ void AddSolvers(Entries& table) {
        .label = "Points that measure the error"});
 }
 
-// Sets the solver that alone uses an option: the solver that has the option among its parameters.
+// Sets the solvers and the form-factor methods that use an option: those that have the option among their
+// parameters.
 void TellOwners(Entries& table) {
+  const auto entry_of = [&](const std::string& parameter) -> SolveOption& {
+    const auto option = std::find_if(table.begin(), table.end(),
+                                     [&](const SolveOption& entry) { return entry.name == parameter; });
+    PENUMBRA_CHECK(option != table.end());
+    return *option;
+  };
   for (const LightSolverRegistry::Method& solver : LightSolvers().methods())
     for (const std::string& parameter : solver.parameters) {
-      const auto option = std::find_if(table.begin(), table.end(),
-                                       [&](const SolveOption& entry) { return entry.name == parameter; });
-      PENUMBRA_CHECK(option != table.end() && option->solver.empty());
-      option->solver = solver.name;
+      SolveOption& option = entry_of(parameter);
+      if (option.solver.empty())
+        option.solver = solver.name;
+      else if (option.solver != solver.name)
+        option.other_solvers.push_back(solver.name);
     }
+  for (const LinkFormFactorRegistry::Method& method : LinkFormFactorMethods().methods())
+    for (const std::string& parameter : method.parameters)
+      entry_of(parameter).form_factors.push_back(method.name);
 }
 
 }  // namespace
@@ -399,6 +459,8 @@ std::vector<SolveOption> OptionEntries() {
   AddLimits(table);
   AddDistances(table);
   AddSolvers(table);
+  AddClassicSolvers(table);
+  AddErrorPoints(table);
   TellOwners(table);
   return table;
 }

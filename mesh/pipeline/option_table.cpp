@@ -20,6 +20,10 @@ void SetFromFile(const SolveOption& option, const std::optional<OptionValue>& to
     throw InputError(fmt::format("'{}' is missing", OptionKey(option)));
 }
 
+bool Contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 }  // namespace
 
 const std::vector<SolveOption>& OptionTable() {
@@ -69,8 +73,24 @@ std::optional<OptionValue> DefaultValue(const SolveOption& option) {
   return option.field.get(options);
 }
 
+std::string OwnersOf(const SolveOption& option) {
+  std::string owners;
+  if (!option.other_solvers.empty())
+    owners = fmt::format("the solvers {}, {}", option.solver, fmt::join(option.other_solvers, ", "));
+  else if (!option.solver.empty())
+    owners = fmt::format("the {} solver", option.solver);
+  if (!option.form_factors.empty())
+    owners += fmt::format("{}--form-factors {}", owners.empty() ? "" : " and of ",
+                          fmt::join(option.form_factors, ", "));
+  return owners;
+}
+
 bool IsObeyed(const SolveOption& option, const PipelineOptions& options) {
-  return option.solver.empty() || option.solver == options.SolverName();
+  if (option.solver.empty() && option.form_factors.empty()) return true;
+  if (option.solver == options.SolverName() || Contains(option.other_solvers, options.SolverName()))
+    return true;
+  return Contains(option.form_factors, options.form_factors) &&
+         IsObeyed(*FindOption("form-factors"), options);
 }
 
 std::vector<std::pair<const SolveOption*, OptionValue>> UsedOptions(const PipelineOptions& options,

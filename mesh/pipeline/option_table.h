@@ -63,7 +63,12 @@ struct SolveOption {
   OptionField field = {};
   const char* unit = "";  // of a number; empty: none
   OptionGroup group = OptionGroup::kSolving;
-  std::string solver = {};  // the only solver that uses it, by its name in LightSolvers(); empty: all use it
+  // The solver that uses it, by its name in LightSolvers(), or the first of several. All use it if this and
+  // `form_factors` are empty.
+  std::string solver = {};
+  std::vector<std::string> other_solvers = {};  // that use it, too
+  // Methods in LinkFormFactorMethods() that use it, with every solver that uses the option form-factors.
+  std::vector<std::string> form_factors = {};
   bool links_depend =
       false;  // links depend on it: a solve over another solve's links keeps that solve's value
   bool measures_only = false;  // determines only which measurements are made of light and mesh
@@ -103,7 +108,11 @@ std::string OptionHelp(const SolveOption& option);
 // The default value; nullopt if the default depends on other options.
 std::optional<OptionValue> DefaultValue(const SolveOption& option);
 
-// True if the chosen solver uses the option.
+// "the x solver", "the solvers x, y", or "--form-factors a, b": what uses the option. REQUIRES: the option
+// is not of all solvers.
+std::string OwnersOf(const SolveOption& option);
+
+// True if the chosen solver, or its form factors, use the option.
 bool IsObeyed(const SolveOption& option, const PipelineOptions& options);
 
 // The options that a solve uses, with their values, in the order of the table: the contents of reports and

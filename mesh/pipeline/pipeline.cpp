@@ -178,8 +178,9 @@ struct Pipeline::Impl {
       made.pairs = seconds.Seconds();
       return visibility;
     };
-    made.solver = LightSolvers().Make(resolved.solver_name, {scene, pairs, from},
-                                      {resolved.solver, options.dense, resolved.sampled}, context);
+    made.solver =
+        LightSolvers().Make(resolved.solver_name, {scene, pairs, from},
+                            {resolved.solver, options.dense, resolved.sampled, resolved.uniform}, context);
     made.making = stopwatch.Seconds() - made.pairs;
     if (has_pairs || !made.solver) return made;
     const Stopwatch seconds;

@@ -90,8 +90,14 @@ struct PipelineOptions {
   std::optional<std::string> solver;
   std::string SolverName() const { return solver.value_or("hierarchical"); }
   DenseOptions dense;  // for the solver `dense`
-  // For the solver `sampled`: SampledOptions::point_rays; 0: depends on `error`.
+  // For the solver `sampled`: SampledOptions::point_rays; 0: depends on `error`. For form factors by rays:
+  // LinkFormFactorOptions::rays.
   std::size_t rays = 0;
+  std::size_t resolution = 0;  // LinkFormFactorOptions::resolution
+  // UniformOptions::shots, overshoot and ambient, of the solvers on uniform meshes. Their meshes have
+  // dense.divisions.
+  std::size_t shots = 0;
+  bool overshoot = false, ambient = false;
 };
 
 // The values of all options that a solve uses, including those that the user has omitted.
@@ -99,6 +105,7 @@ struct ResolvedOptions {
   std::string solver_name;  // in LightSolvers()
   SolverOptions solver;
   SampledOptions sampled;
+  UniformOptions uniform;
   DiscontinuityOptions discontinuities;
   // True if the interpolants of a mesh may refine the light of the solution (Pipeline::RefineLight). False
   // with --refine transport, where the light is determined by links alone, and with --source-error, where the

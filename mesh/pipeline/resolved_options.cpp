@@ -6,7 +6,7 @@
 #include "mesh/discontinuities/discontinuity_choices.h"
 #include "mesh/pipeline/option_table.h"
 #include "mesh/pipeline/pipeline.h"
-#include "solver/transport/links/link_form_factor_methods.h"
+#include "solver/transport/form_factors/link_form_factor_methods.h"
 #include "solver/transport/links/refinement_oracles.h"
 #include "solver/transport/solvers/light_solvers.h"
 #include "solver/transport/solvers/mean_free_path.h"
@@ -91,6 +91,21 @@ SampledOptions SamplingFor(const SceneTotals& totals, const PipelineOptions& opt
   return sampled;
 }
 
+// The options of solvers on uniform meshes: those of links as for the hierarchical solver.
+UniformOptions UniformFor(const SolverOptions& links, const PipelineOptions& options) {
+  UniformOptions uniform;
+  uniform.divisions = options.dense.divisions;
+  uniform.form_factors = links.form_factors;
+  uniform.form_factor_options = links.form_factor_options;
+  uniform.form_factor_options.factors_only = true;
+  uniform.scheme = options.scheme;
+  uniform.relative_cutoff = links.relative_cutoff;
+  uniform.shots = options.shots;
+  uniform.overshoot = options.overshoot;
+  uniform.ambient = options.ambient;
+  return uniform;
+}
+
 }  // namespace
 
 std::string SolverFor(const Scene& scene, const PipelineOptions& options) {
@@ -130,10 +145,14 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   resolved.solver.correction_tolerance = kCorrectionOfError * options.error;
   resolved.solver.source_error = options.source_error.value_or(0);
   resolved.solver.form_factors = LinkFormFactorMethods().Find(options.form_factors).name;
+  resolved.solver.form_factor_options.resolution = options.resolution;
+  resolved.solver.form_factor_options.rays = options.rays;
+  resolved.solver.form_factor_options.seed = options.seed;
   resolved.solver.scheme = options.scheme;
   resolved.solver.acceleration = options.acceleration;
   resolved.solver.oracle = RefinementOracles().Find(options.oracle).name;
   resolved.solver.multigrid = options.multigrid;
+  resolved.uniform = UniformFor(resolved.solver, options);
   resolved.refine_light = options.refine != RefineBy::kTransport && !options.source_error;
   resolved.solver.last_correction_elsewhere = resolved.refine_light;
   DiscontinuityOptions& mesh = resolved.discontinuities;

@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "mesh/pipeline/link_options.h"
+#include "solver/transport/form_factors/link_form_factor_methods.h"
+#include "solver/transport/solvers/light_solvers.h"
 #include "tests/mesh/mesh_test_scenes.h"
 
 namespace penumbra {
@@ -33,7 +35,10 @@ Scene LitRoom() {
 // Options that choose the solver of an entry.
 PipelineOptions OptionsFor(const SolveOption& option) {
   PipelineOptions options;
-  if (!option.solver.empty()) options.solver = option.solver;
+  if (!option.solver.empty())
+    options.solver = option.solver;
+  else if (!option.form_factors.empty())
+    options.form_factors = option.form_factors.front();
   return options;
 }
 
@@ -129,13 +134,14 @@ TEST(OptionTable, OptionalEntriesAreLeftOut) {
 TEST(OptionTable, KeysAndTheirOrderStay) {
   std::vector<std::string> keys;
   for (const SolveOption& option : OptionTable()) keys.push_back(OptionKey(option));
-  EXPECT_THAT(keys, ElementsAre("seed", "error", "eps", "min_area", "discontinuities", "weight",
-                                "min_discontinuity_weight", "min_wanted_weight", "corner_divisions",
-                                "max_leaf_dsets", "keep_hidden_discontinuities", "eee", "error_samples",
-                                "refine", "corrections", "source_error", "acceleration", "scheme", "oracle",
-                                "multigrid", "relative_cutoff", "iterations", "time_limit", "memory_limit",
-                                "bounces", "nudge", "source_push_off", "min_backprojection_segment",
-                                "form_factors", "solver", "rays", "basis", "divisions", "error_points"));
+  EXPECT_THAT(
+      keys, ElementsAre("seed", "error", "eps", "min_area", "discontinuities", "weight",
+                        "min_discontinuity_weight", "min_wanted_weight", "corner_divisions", "max_leaf_dsets",
+                        "keep_hidden_discontinuities", "eee", "error_samples", "refine", "corrections",
+                        "source_error", "acceleration", "scheme", "oracle", "multigrid", "relative_cutoff",
+                        "iterations", "time_limit", "memory_limit", "bounces", "nudge", "source_push_off",
+                        "min_backprojection_segment", "form_factors", "solver", "rays", "resolution", "basis",
+                        "divisions", "shots", "overshoot", "ambient", "error_points"));
 }
 
 std::vector<std::string> NamesWhere(bool (*holds)(const SolveOption&)) {
@@ -149,7 +155,7 @@ std::vector<std::string> NamesWhere(bool (*holds)(const SolveOption&)) {
 TEST(OptionTable, LinkOptionsAndSolversStay) {
   EXPECT_THAT(NamesWhere([](const SolveOption& option) { return IsLinkOption(option.name); }),
               UnorderedElementsAre("eps", "iterations", "oracle", "multigrid", "form-factors", "solver",
-                                   "basis", "divisions"));
+                                   "resolution", "basis", "divisions"));
   EXPECT_FALSE(IsLinkOption("mode"));
   EXPECT_THAT(
       NamesWhere([](const SolveOption& option) { return option.solver == "hierarchical"; }),
@@ -190,44 +196,58 @@ TEST(OptionTable, LinkOptionsAreTaken) {
   EXPECT_EQ(to.SolverName(), "hierarchical");
 }
 
-// What is out of range is refused in the words that users know.
-TEST(OptionTable, RangesStay) {
+std::string OneOf(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "one of " : "|") + name;
+  return all;
+}
+
+// What each option may be, in the words that users know.
+std::map<std::string, std::string> WordsOfRanges() {
   const std::string from_zero = "a number from 0 to 1e100", relative = "a number from 1e-6 to 10";
-  const std::map<std::string, std::string> words = {
-      {"seed", "an integer from 0 to 18446744073709551615"},
-      {"error", relative},
-      {"eps", "a number from 1e-100 to 1e100"},
-      {"min-area", from_zero},
-      {"discontinuities", "one of ranked|adaptive|none|random|all"},
-      {"weight", "one of thesis|irradiance"},
-      {"min-discontinuity-weight", from_zero},
-      {"min-wanted-weight", from_zero},
-      {"corner-divisions", "an integer from 0 to 20"},
-      {"max-leaf-dsets", "an integer from 0 to 1000000"},
-      {"keep-hidden-discontinuities", "one of off|on"},
-      {"eee", "0, or a number from 1e-9 to 1e9"},
-      {"error-samples", "an integer from 1 to 100"},
-      {"refine", "one of transport|representation|both"},
-      {"corrections", "an integer from 0 to 100"},
-      {"source-error", relative},
-      {"acceleration", "one of none|anderson"},
-      {"scheme", "one of jacobi|gauss-seidel"},
-      {"oracle", "one of transport|visibility|gradient|thesis"},
-      {"multigrid", "one of off|on"},
-      {"relative-cutoff", "a number from 1e-15 to 1"},
-      {"iterations", "an integer from 1 to 1000000"},
-      {"time-limit", "a number from 1e-9 to 1e9"},
-      {"memory-limit", "a number from 1 to 1e18"},
-      {"bounces", "an integer from 0 to 1000"},
-      {"nudge", from_zero},
-      {"source-push-off", from_zero},
-      {"min-backprojection-segment", "a number from 0 to 1"},
-      {"form-factors", "one of cubature|exact|disk"},
-      {"solver", "one of hierarchical|dense|sampled"},
-      {"rays", "an integer from 0 to 10000000"},
-      {"basis", "one of constant|linear|quadratic"},
-      {"divisions", "a power of two from 1 to 64"},
-      {"error-points", "an integer from 0 to 100000000"}};
+  return {{"seed", "an integer from 0 to 18446744073709551615"},
+          {"error", relative},
+          {"eps", "a number from 1e-100 to 1e100"},
+          {"min-area", from_zero},
+          {"discontinuities", "one of ranked|adaptive|none|random|all"},
+          {"weight", "one of thesis|irradiance"},
+          {"min-discontinuity-weight", from_zero},
+          {"min-wanted-weight", from_zero},
+          {"corner-divisions", "an integer from 0 to 20"},
+          {"max-leaf-dsets", "an integer from 0 to 1000000"},
+          {"keep-hidden-discontinuities", "one of off|on"},
+          {"eee", "0, or a number from 1e-9 to 1e9"},
+          {"error-samples", "an integer from 1 to 100"},
+          {"refine", "one of transport|representation|both"},
+          {"corrections", "an integer from 0 to 100"},
+          {"source-error", relative},
+          {"acceleration", "one of none|anderson"},
+          {"scheme", "one of jacobi|gauss-seidel"},
+          {"oracle", "one of transport|visibility|gradient|thesis"},
+          {"multigrid", "one of off|on"},
+          {"relative-cutoff", "a number from 1e-15 to 1"},
+          {"iterations", "an integer from 1 to 1000000"},
+          {"time-limit", "a number from 1e-9 to 1e9"},
+          {"memory-limit", "a number from 1 to 1e18"},
+          {"bounces", "an integer from 0 to 1000"},
+          {"nudge", from_zero},
+          {"source-push-off", from_zero},
+          {"min-backprojection-segment", "a number from 0 to 1"},
+          {"form-factors", OneOf(LinkFormFactorMethods().Names())},
+          {"solver", OneOf(LightSolvers().Names())},
+          {"rays", "an integer from 0 to 10000000"},
+          {"resolution", "an integer from 0 to 4096"},
+          {"basis", "one of constant|linear|quadratic"},
+          {"divisions", "a power of two from 1 to 64"},
+          {"shots", "an integer from 0 to 1000000"},
+          {"overshoot", "one of off|on"},
+          {"ambient", "one of off|on"},
+          {"error-points", "an integer from 0 to 100000000"}};
+}
+
+// What is out of range is refused in these words.
+TEST(OptionTable, RangesStay) {
+  const std::map<std::string, std::string> words = WordsOfRanges();
   EXPECT_EQ(words.size(), OptionTable().size());
   for (const SolveOption& option : OptionTable()) {
     SCOPED_TRACE(option.name);

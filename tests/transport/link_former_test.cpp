@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "solver/transport/links/link_form_factor_methods.h"
+#include "solver/transport/form_factors/link_form_factor_methods.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra::scene_test {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/transport/links/link_form_factor_methods.h"
+#include "solver/transport/form_factors/link_form_factor_methods.h"
 #include "solver/transport/links/refinement_oracles.h"
 #include "tests/transport/transport_test_tools.h"
 

@@ -40,6 +40,7 @@ TEST(SolveSettings, EveryOptionHasOne) {
     ASSERT_NE(setting, nullptr);
     EXPECT_EQ(setting->group, option.group == OptionGroup::kStudies ? "For studies" : "Solving");
     if (!option.solver.empty()) viewer.Set("solver", option.solver);
+    if (!option.form_factors.empty()) viewer.Set("form-factors", option.form_factors.front());
     for (const std::string& text : Texts(option.field)) {
       viewer.Set(name, text);
       EXPECT_EQ(setting->get(), text);

@@ -1,5 +1,6 @@
 #include "solver/transport/links/cubature_link_form_factor.h"
 
+#include "solver/transport/links/approximate_form_factor.h"
 #include "solver/transport/links/link_cubature.h"
 
 namespace penumbra {
@@ -9,6 +10,11 @@ class CubatureLinkFormFactor final : public LinkFormFactorMethod {
  public:
   void Find(ReceiverLinks* links, const ExecutionContext& context) const override {
     FindByCubature(links, context);
+  }
+  std::optional<FormFactorEstimate> Between(const Scene& scene, std::span<const AreaPart> from,
+                                            std::span<const AreaPart> to,
+                                            const ExecutionContext& context) const override {
+    return CubatureFormFactor(scene, from, to, context);
   }
 };
 

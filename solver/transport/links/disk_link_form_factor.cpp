@@ -28,14 +28,24 @@ double DiskFactorOf(const ReceiverLinks& links, const Link& link, const LinkView
 
 class DiskLinkFormFactor final : public LinkFormFactorMethod {
  public:
+  explicit DiskLinkFormFactor(bool factors_only) : factors_only_(factors_only) {}
+
   void Find(ReceiverLinks* links, const ExecutionContext& context) const override {
-    FindByCubature(links, context);
+    if (!factors_only_) FindByCubature(links, context);
     for (std::size_t i = 0; i < links->views.size(); ++i) {
       if (context.Cancelled()) return;
       Link& link = links->set.links[i];
       link.form_factor = DiskFactorOf(*links, link, links->views[i]);
     }
   }
+  std::optional<FormFactorEstimate> Between(const Scene& scene, std::span<const AreaPart> from,
+                                            std::span<const AreaPart> to,
+                                            const ExecutionContext& context) const override {
+    return DiskFormFactor(scene, from, to, context);
+  }
+
+ private:
+  bool factors_only_;
 };
 
 }  // namespace
@@ -44,7 +54,9 @@ LinkFormFactorRegistry::Method DiskLinkFormFactorMethod() {
   return {"disk",
           "the source as a disk seen from the receiver's centre (Hanrahan, Salzman and Aupperle 1991)",
           {},
-          [](const LinkFormFactorOptions&) { return std::make_unique<const DiskLinkFormFactor>(); }};
+          [](const LinkFormFactorOptions& options) {
+            return std::make_unique<const DiskLinkFormFactor>(options.factors_only);
+          }};
 }
 
 }  // namespace penumbra

@@ -15,7 +15,7 @@ class ExactLinkFormFactor final : public LinkFormFactorMethod {
   explicit ExactLinkFormFactor(const LinkFormFactorOptions& options) : options_(options) {}
 
   void Find(ReceiverLinks* links, const ExecutionContext& context) const override {
-    FindByCubature(links, context);
+    if (!options_.factors_only) FindByCubature(links, context);
     AreaFormFactorOptions options;
     options.tolerance = options_.tolerance;
     options.max_points = options_.max_points;
@@ -29,6 +29,14 @@ class ExactLinkFormFactor final : public LinkFormFactorMethod {
                                         PartOf(forest[link.source]), options)
                              .factor;
     }
+  }
+  std::optional<FormFactorEstimate> Between(const Scene& scene, std::span<const AreaPart> from,
+                                            std::span<const AreaPart> to,
+                                            const ExecutionContext& context) const override {
+    AreaFormFactorOptions options;
+    options.tolerance = options_.tolerance;
+    options.context = &context;
+    return AreaFormFactor(scene, from, to, options);
   }
 
  private:

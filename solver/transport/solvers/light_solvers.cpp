@@ -3,14 +3,20 @@
 #include <algorithm>
 
 #include "solver/transport/solvers/dense_solver.h"
+#include "solver/transport/solvers/full_matrix_solver.h"
 #include "solver/transport/solvers/hierarchical_solver.h"
+#include "solver/transport/solvers/progressive_solver.h"
+#include "solver/transport/solvers/rayrad_solver.h"
 #include "solver/transport/solvers/sampled_solver.h"
+#include "solver/transport/solvers/stochastic_solver.h"
 
 namespace penumbra {
 
 LightSolverRegistry& LightSolvers() {
   static LightSolverRegistry registry(
-      "solver", {HierarchicalSolverMethod(), DenseSolverMethod(), SampledSolverMethod()});
+      "solver",
+      {HierarchicalSolverMethod(), DenseSolverMethod(), SampledSolverMethod(), ProgressiveSolverMethod(),
+       FullMatrixSolverMethod(), StochasticSolverMethod(), RayradSolverMethod()});
   return registry;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "solver/transport/links/link_form_factor_methods.h"
+#include "solver/transport/form_factors/link_form_factor_methods.h"
 #include "solver/transport/links/link_former.h"
 #include "solver/transport/links/refinement_oracles.h"
 #include "solver/transport/solvers/closure.h"
@@ -33,7 +33,7 @@ const SolverOptions& Checked(const SolverOptions& options) {
 
 // Links between the roots; nothing if cancelled.
 std::optional<LinkSet> LinkRoots(const ElementForest& forest, const PatchVisibility& visibility,
-                                 const std::string& form_factors, const ExecutionContext& context) {
+                                 const SolverOptions& options, const ExecutionContext& context) {
   std::vector<LinkGroup> groups(forest.size());
   for (std::size_t p = 0; p < groups.size(); ++p) {
     if (context.Cancelled()) return std::nullopt;
@@ -41,7 +41,7 @@ std::optional<LinkSet> LinkRoots(const ElementForest& forest, const PatchVisibil
     for (const PatchPair& pair : visibility.SourcesOf(static_cast<PatchId>(p)))
       groups[p].candidates.push_back({ElementForest::Root(pair.source), visibility.Blockers(pair)});
   }
-  const auto method = LinkFormFactorMethods().Make(form_factors, {});
+  const auto method = LinkFormFactorMethods().Make(options.form_factors, options.form_factor_options);
   const std::vector<LinkSet> formed = FormLinkGroups(forest, groups, *method, context);
   if (context.Cancelled()) return std::nullopt;
   LinkSet links = ReplaceLinks({}, {}, formed, context);
@@ -73,7 +73,7 @@ LinkSolver::LinkSolver(const Scene& scene, const PatchVisibility& visibility, co
       options_(Checked(options)),
       eps_(options.multigrid ? kCoarsestEps * options.eps : options.eps) {
   solution_.forest = ElementForest(scene);
-  std::optional<LinkSet> links = LinkRoots(solution_.forest, visibility, options.form_factors, context);
+  std::optional<LinkSet> links = LinkRoots(solution_.forest, visibility, options, context);
   linked_ = links.has_value();
   if (links) solution_.links = std::move(*links);
   root_links_ = solution_.links.links.size();
@@ -157,7 +157,7 @@ double LinkSolver::Cutoff() const {
 
 // Forms the links of the plan and replaces the dropped links. False if cancelled before the replacement.
 bool LinkSolver::Apply(const RefinementPlan& plan, Snapshot& before, const ExecutionContext& context) {
-  const auto method = LinkFormFactorMethods().Make(options_.form_factors, {});
+  const auto method = LinkFormFactorMethods().Make(options_.form_factors, options_.form_factor_options);
   const std::vector<LinkSet> formed = FormLinkGroups(solution_.forest, plan.groups, *method, context);
   if (context.Cancelled()) return false;
   LinkSet links = ReplaceLinks(solution_.links, plan.dropped, formed, context);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <string>
 
+#include "solver/transport/links/link_form_factor_method.h"
 #include "solver/transport/links/push_pull.h"
 #include "solver/transport/solvers/dense_system.h"
 #include "solver/transport/solvers/settling.h"
@@ -31,6 +32,7 @@ struct SolverOptions {
   // Aupperle 1991).
   bool multigrid = false;
   std::string form_factors = "cubature";  // a name in LinkFormFactorMethods()
+  LinkFormFactorOptions form_factor_options;
   int max_corrections = 2;  // passes of exact irradiance over the leaves; 0: links only, as in the thesis
   // If true, another stage makes the last pass of correction, through LightSolver::SetLight().
   bool last_correction_elsewhere = false;
@@ -55,11 +57,28 @@ struct SampledOptions {
   double relative_cutoff = 1e-4;  // as SolverOptions::relative_cutoff
 };
 
-// The options of all solvers; each solver uses only the member that is named after it.
+// Options of the classic solvers on uniform meshes (UniformSolver).
+struct UniformOptions {
+  int divisions = 4;                      // elements along each side of a patch (UniformForest)
+  std::string form_factors = "cubature";  // a name in LinkFormFactorMethods()
+  // Form factors need no variations here. `rays` and `seed` also hold for solvers that cast rays themselves.
+  LinkFormFactorOptions form_factor_options;
+  IterationScheme scheme = IterationScheme::kJacobi;
+  // The light has converged if the residual, as each solver defines it, is at most relative_cutoff.
+  double relative_cutoff = 1e-4;
+  std::size_t shots = 0;   // the largest number of steps; 0: the solver's
+  bool overshoot = false;  // shots anticipate what the shooter will reflect (Shao and Badler 1993)
+  // If true, solution() contains an estimate of the light that is still to come. The method works without it.
+  bool ambient = false;
+};
+
+// The options of all solvers; each solver uses only the member that is named after it, and those on uniform
+// meshes use `uniform`.
 struct LightSolverOptions {
   SolverOptions hierarchical;
   DenseOptions dense;
   SampledOptions sampled;
+  UniformOptions uniform;
 };
 
 }  // namespace penumbra

@@ -1,4 +1,4 @@
-// solver/transport/links/link_form_factor_methods.h
+// solver/transport/form_factors/link_form_factor_methods.h
 
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// All methods to compute form factors of links; the first is the default.
+// All methods to compute form factors, of links and between areas; the first is the default.
 LinkFormFactorRegistry& LinkFormFactorMethods();
 
 }  // namespace penumbra

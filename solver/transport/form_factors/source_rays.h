@@ -1,0 +1,29 @@
+// solver/transport/form_factors/source_rays.h
+//
+// Form factors by rays from points of one area to random points of the other (Wallace, Elmquist and Haines
+// 1989; Ashdown 1994, 5.23 and 5.24).
+
+#pragma once
+
+#include "solver/transport/form_factors/pair_form_factor.h"
+
+namespace penumbra {
+
+inline constexpr std::size_t kSourceRays = 16;  // Ashdown's, "excellent"
+
+// The two formulas for the form factor of a point to an area A by n rays to random points of the area.
+enum class RayFormula {
+  kUnbiased,  // (A / n) sum V cos cos / (pi r^2)
+  kDisks,  // (A / n) sum V cos cos / (pi r^2 + A / n), as printed: each ray stands for a disk of area A / n
+};
+
+// The form factor of a point of the sender to the target by n rays.
+FormFactorEstimate PointFactorByRays(const SightedPair& pair, const Vec3& at, std::size_t rays,
+                                     RayFormula formula, Random* random);
+
+// The mean over the points of Cubature() on the sender, each with pair.rays / (number of points) rays, at
+// least 1; with more than 1000 rays, on 4 pieces of the sender. The error is the standard error, together
+// with the difference from a coarser rule, which tells how far the points suffice.
+FormFactorEstimate FactorBySourceRays(const SightedPair& pair, RayFormula formula);
+
+}  // namespace penumbra
