@@ -40,6 +40,7 @@ constexpr const char* kTwoSided = "two-sided";
 constexpr const char* kFlip = "flip";
 constexpr const char* kRadiance = "emission-is-radiance";
 constexpr const char* kMaxReflectance = "max-reflectance";
+constexpr const char* kMaxOffPlane = "max-off-plane";
 constexpr const char* kEmittanceOption = "emittance";
 constexpr const char* kReflectanceOption = "reflectance";
 constexpr const char* kRestart = "restart";
@@ -149,6 +150,8 @@ class ViewedScene {
          [&reading] {
            return reading.max_reflectance ? fmt::format("{}", *reading.max_reflectance) : kNone;
          }},
+        {kMaxOffPlane, "Cut faces that are off their plane by up to", false,
+         [&reading] { return reading.max_off_plane ? fmt::format("{}", *reading.max_off_plane) : kNone; }},
         {kEmittanceOption, "Another emittance, MATERIAL=r,g,b", false, changes(arguments_.emittance)},
         {kReflectanceOption, "Another reflectance, MATERIAL=r,g,b", false, changes(arguments_.reflectance)},
         {kRestart, "Over the links of a solution, its file", false,
@@ -204,6 +207,7 @@ class ViewedScene {
     if (option == kTwoSided) arguments.reading.two_sided = false;
     if (option == kRadiance) arguments.reading.emission_is_radiance = false;
     if (option == kMaxReflectance) arguments.reading.max_reflectance.reset();
+    if (option == kMaxOffPlane) arguments.reading.max_off_plane.reset();
     if (option == kEmittanceOption) arguments.emittance.clear();
     if (option == kReflectanceOption) arguments.reflectance.clear();
     if (option == kRestart) arguments.restart.reset();

@@ -77,6 +77,7 @@ Json OptionsUsed(const SceneArguments& arguments, const ResolvedOptions* resolve
   options["two_sided"] = arguments.reading.two_sided;
   if (arguments.reading.strict) options["strict"] = true;
   if (arguments.reading.max_reflectance) options["max_reflectance"] = *arguments.reading.max_reflectance;
+  if (arguments.reading.max_off_plane) options["max_off_plane"] = *arguments.reading.max_off_plane;
   for (const auto& [name, changes] :
        {std::pair("emittance", &arguments.emittance), std::pair("reflectance", &arguments.reflectance)})
     for (const MaterialChange& change : *changes)

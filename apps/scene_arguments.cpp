@@ -10,6 +10,8 @@ namespace penumbra {
 namespace {
 
 constexpr int kMaxThreads = 1024;
+// A vertex of a face is never farther off its plane than its diameter.
+constexpr NumberRule kShareOfDiameter{[](double x) { return x >= 0 && x <= 1; }, "a number in [0, 1]"};
 constexpr NumberRule kBelowOne{[](double x) { return x >= 0 && x < 1; }, "a number in [0, 1)"};
 
 }  // namespace
@@ -51,6 +53,9 @@ void AddReadingOptions(CLI::App& app, SceneArguments* arguments) {
       ->group(kSceneGroup);
   AddNumber(app, "--max-reflectance", &arguments->reading.max_reflectance, kBelowOne,
             "Clamp larger reflectances to X, in [0, 1), instead of refusing those of 1 or more")
+      ->group(kSceneGroup);
+  AddNumber(app, "--max-off-plane", &arguments->reading.max_off_plane, kShareOfDiameter,
+            "Cut faces that are off their plane by up to X of their diameter into triangles, instead of 0.05")
       ->group(kSceneGroup);
   AddMaterialChange(app, "--emittance", &arguments->emittance, kEmittance,
                     "Another emittance for a material [W/m^2]; may be repeated")

@@ -105,7 +105,7 @@ bool IsConvexQuadrilateral(const std::vector<Vec2>& p) {
 // Whether two edges of a large outline cross where none of their ends is near the other: then it winds around
 // some point otherwise than once, whatever else it does. To find all crossings of a disordered outline would
 // take time by the square of its size.
-bool SurelyCrosses(const std::vector<Vec2>& outline) {
+bool SurelyCrosses(const std::vector<Vec2>& outline, double rounding) {
   constexpr std::size_t kLarge = 512;
   if (outline.size() < kLarge) return false;
   const auto size = static_cast<std::int32_t>(outline.size());
@@ -117,7 +117,7 @@ bool SurelyCrosses(const std::vector<Vec2>& outline) {
     all.low = all.low.cwiseMin(a);
     all.high = all.high.cwiseMax(a);
   }
-  const double near = kSnapDistance * (all.high - all.low).maxCoeff();
+  const double near = std::max(rounding, kSnapDistance * (all.high - all.low).maxCoeff());
   const auto apart = [&](const Vec2& a, const Vec2& b, const Vec2& p) {
     return std::abs(Cross2(b - a, p - a)) > near * (b - a).norm();
   };
@@ -139,10 +139,17 @@ bool SurelyCrosses(const std::vector<Vec2>& outline) {
   return false;
 }
 
+// The height of a triangle over its longest side.
+double WidthOf(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const double longest = std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()});
+  return longest > 0 ? std::abs(Cross2(b - a, c - a)) / longest : 0;
+}
+
 // In the plane: whether the outline winds around every point once or not at all, and around some point once.
-FaceCondition CheckOutline(const std::vector<Vec2>& outline) {
+// Triangles no wider than `rounding` [m] do not count.
+FaceCondition CheckOutline(const std::vector<Vec2>& outline, double rounding) {
   if (outline.size() == 4 && IsConvexQuadrilateral(outline)) return FaceCondition::kFine;
-  if (SurelyCrosses(outline)) return FaceCondition::kSelfCrossing;
+  if (SurelyCrosses(outline, rounding)) return FaceCondition::kSelfCrossing;
   std::vector<ConstraintSegment> border;
   const auto size = static_cast<std::int32_t>(outline.size());
   for (std::int32_t i = 0; i < size; ++i) border.push_back({i, (i + 1) % size, kBorder});
@@ -151,7 +158,9 @@ FaceCondition CheckOutline(const std::vector<Vec2>& outline) {
   const ConstrainedTriangulation* mesh = triangulator.TryTriangulate(outline, border);
   if (!mesh) return FaceCondition::kSelfCrossing;  // an outline that is simple beside rounding has a mesh
   for (const ConstrainedTriangulation::Triangle& triangle : mesh->triangles) {
-    if (triangle.winding < 0 || triangle.winding > 1) return FaceCondition::kSelfCrossing;
+    const auto vertex = [&](int k) { return mesh->vertices[triangle.vertex[k]]; };
+    if ((triangle.winding < 0 || triangle.winding > 1) && WidthOf(vertex(0), vertex(1), vertex(2)) > rounding)
+      return FaceCondition::kSelfCrossing;
     inside = inside || triangle.winding == 1;
   }
   return inside ? FaceCondition::kFine : FaceCondition::kZeroArea;
@@ -210,10 +219,10 @@ std::vector<Polygon3> CutPolygon(const Polygon3& face, const FittedPlane& plane)
   return pieces;
 }
 
-FaceCondition CheckUneven(const Polygon3& face, const FittedPlane& plane) {
+FaceCondition CheckUneven(const Polygon3& face, const FittedPlane& plane, double rounding) {
   if (face.size() == 4)
     return CutQuadrilateral(face, plane).empty() ? FaceCondition::kSelfCrossing : FaceCondition::kUneven;
-  const FaceCondition condition = CheckOutline(OnPlane(face, plane));
+  const FaceCondition condition = CheckOutline(OnPlane(face, plane), rounding);
   return condition == FaceCondition::kFine ? FaceCondition::kUneven : condition;
 }
 
@@ -246,30 +255,35 @@ int RemoveRepeatedVertices(Polygon3& face) {
   return static_cast<int>(before - face.size());
 }
 
-FaceCheck CheckFace(const Polygon3& given) {
+FaceCheck CheckFace(const Polygon3& given, const FaceTolerances& tolerances) {
   if (given.size() < 3) return {FaceCondition::kZeroArea};
   const Polygon3 face = Canonicalise(given).face;
   const Extent extent = FindExtent(face);
   double largest = 0;
   for (const Vec3& p : face) largest = std::max(largest, MaxAbs(p));
-  const double rounding = 4 * std::numeric_limits<double>::epsilon() * largest;
-  if (extent.width <= std::max(kZeroWidth * extent.diameter, rounding)) return {FaceCondition::kZeroArea};
+  const double binary = 4 * std::numeric_limits<double>::epsilon() * largest;
+  if (extent.width <= std::max(kZeroWidth * extent.diameter, binary)) return {FaceCondition::kZeroArea};
+  const double rounding = std::min(tolerances.rounding, kMostRounding * extent.diameter);
+  const bool is_narrow = extent.width <= rounding;
+  const double ignored = is_narrow ? 0 : rounding;
   // The area of a face too small for its square to be a double counts as none.
   const bool has_area = VectorArea(face).norm() > 0;
   if (face.size() == 3) return {has_area ? FaceCondition::kFine : FaceCondition::kZeroArea};
 
   const FittedPlane plane = FitPlane(face, extent);
   FaceCheck check{FaceCondition::kFine, plane.off, extent.diameter};
-  if (plane.off > kCutTolerance * extent.diameter)
+  if (plane.off > tolerances.cut * extent.diameter)
     check.condition = FaceCondition::kFolded;
   else if (plane.off > kPlanarTolerance * extent.diameter)
-    check.condition = CheckUneven(face, plane);
+    check.condition = CheckUneven(face, plane, ignored);
   else {
     const PlaneProjection projection(plane.point, plane.normal);
     std::vector<Vec2> outline;
     for (const Vec3& p : face) outline.push_back(projection.ToPlane(p));
-    check.condition = CheckOutline(outline);
+    check.condition = CheckOutline(outline, ignored);
   }
+  if (check.condition == FaceCondition::kSelfCrossing && is_narrow)
+    check.condition = FaceCondition::kZeroArea;
   if (check.condition == FaceCondition::kFine && !has_area) check.condition = FaceCondition::kZeroArea;
   return check;
 }

@@ -41,6 +41,9 @@ class MtlParser {
       warnings.push_back(WarningAt(
           reader_.File(), first_clamped_,
           std::to_string(clamped_) + " reflectance(s) clamped to the greatest allowed, first here"));
+    if (first_nameless_ > 0)
+      warnings.push_back(WarningAt(reader_.File(), first_nameless_,
+                                   "newmtl without a name; usemtl without a name uses this material"));
     if (reader_.LineEndedByCr() > 0)
       warnings.push_back(WarningAt(reader_.File(), reader_.LineEndedByCr(), kLinesEndInCr));
     return std::move(materials_);
@@ -50,7 +53,7 @@ class MtlParser {
   void ReadStatement() {
     const std::string_view keyword = reader_.Keyword();
     if (keyword == "newmtl") {
-      if (reader_.Arguments().empty()) throw reader_.Error("newmtl without a name; write newmtl NAME");
+      if (reader_.Arguments().empty()) MissName();
       materials_.emplace_back().line = reader_.Line();
       materials_.back().material.name = reader_.Arguments();
       return;
@@ -60,6 +63,12 @@ class MtlParser {
       throw reader_.Error(std::string(keyword) + " stands before any newmtl; begin with newmtl NAME");
     const Rgb colour = ReadColour(reader_);
     keyword == "Ke" ? SetEmittance(colour) : SetReflectance(colour);
+  }
+
+  // Some modellers write materials without names; `usemtl` without a name uses such a one.
+  void MissName() {
+    if (options_.strict) throw reader_.Error("newmtl without a name; write newmtl NAME");
+    if (first_nameless_ == 0) first_nameless_ = reader_.Line();
   }
 
   void SetEmittance(const Rgb& colour) {
@@ -85,7 +94,7 @@ class MtlParser {
   StatementReader reader_;
   const SceneOptions& options_;
   std::vector<DefinedMaterial> materials_;
-  int clamped_ = 0, first_clamped_ = 0;
+  int clamped_ = 0, first_clamped_ = 0, first_nameless_ = 0;
 };
 
 }  // namespace

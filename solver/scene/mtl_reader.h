@@ -20,6 +20,7 @@ struct DefinedMaterial {
 };
 
 // The materials of the text, in their order. A material without Kd has the reflectance 0.5 in each channel.
+// A `newmtl` without a name defines a material with an empty name, with a warning.
 // `file` is the name of the text in messages. Values that were clamped or read in an unusual way add a line
 // to `warnings`. Throws InputError.
 std::vector<DefinedMaterial> ReadMtlText(std::string_view text, std::string_view file,

@@ -34,7 +34,9 @@ constexpr double kSmallestScene = 1e-36;
 constexpr auto kPassedOver = std::to_array<std::string_view>(
     {"vp",     "s",      "l",          "p",         "mg",     "bevel", "c_interp", "d_interp", "lod",
      "usemap", "maplib", "shadow_obj", "trace_obj", "cstype", "deg",   "bmat",     "step",     "parm",
-     "trim",   "hole",   "scrv",       "sp",        "end",    "con",   "ctech",    "stech"});
+     "trim",   "hole",   "scrv",       "sp",        "end",    "con",   "ctech",    "stech",
+     "t",     // creases of subdivision surfaces
+     "vw"});  // weights of joints
 // Statements that add surfaces in ways that we do not read.
 constexpr auto kNotRead = std::to_array<std::string_view>(
     {"curv", "curv2", "surf", "call", "csh", "bsp", "bzp", "cdc", "cdp", "res", "fo"});
@@ -218,7 +220,8 @@ void ObjParser::ReadFace() {
   face.line = reader_.Line();
   face.first = corners_.size();
   for (const std::string_view word : reader_.Values()) ReadCorner(word);
-  if (corners_.size() - face.first < 3)
+  // Two vertices are an edge, as some modellers write it; a face without area to us.
+  if (corners_.size() - face.first < (options_.strict ? 3 : 2))
     throw reader_.Error("a face with fewer than three vertices; give three or more");
   face.material = material_;
   std::vector<std::int32_t> owners = groups_;
@@ -267,13 +270,16 @@ void ObjParser::ReadLibraries() {
   }
 }
 
-// The names under which a library may lie beside the scene: as written, with the separators of this system,
-// and, where a path leads to another machine, by its last part.
+// The names under which a library may lie beside the scene: as written, with blanks that are not escaped,
+// with the separators of this system, and, where a path leads to another machine, by its last part.
 std::vector<std::string> PlacesOf(std::string_view name) {
   if (name.size() > 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-  std::string here(name);
+  std::string plain;
+  for (std::size_t i = 0; i < name.size(); ++i)
+    if (!name.substr(i).starts_with("\\ ")) plain += name[i];
+  std::string here = plain;
   std::replace(here.begin(), here.end(), '\\', '/');
-  std::vector<std::string> places = {std::string(name), here, here.substr(here.rfind('/') + 1)};
+  std::vector<std::string> places = {std::string(name), plain, here, here.substr(here.rfind('/') + 1)};
   places.erase(std::unique(places.begin(), places.end()), places.end());
   return places;
 }
@@ -321,7 +327,6 @@ void ObjParser::Define(DefinedMaterial&& defined, const std::string& file) {
 
 void ObjParser::UseMaterial() {
   const std::string_view name = reader_.Arguments();
-  if (name.empty()) return void(material_ = -1);
   auto found = used_index_.find(name);
   if (found == used_index_.end()) {
     found = used_index_.emplace(std::string(name), Size(used_)).first;
@@ -339,6 +344,10 @@ std::vector<std::int32_t> ObjParser::ResolveMaterials() {
     const auto found = material_index_.find(used.name);
     if (found != material_index_.end()) {
       materials.push_back(found->second);
+      continue;
+    }
+    if (used.name.empty()) {  // without a name: no material, unless a library defines one without a name
+      materials.push_back(-1);
       continue;
     }
     Refuse(used.first_line, "the material " + Quoted(used.name) +
@@ -395,7 +404,10 @@ void ObjParser::CheckPolygon(Polygon3& polygon, int line) {
     Refuse(line, "the face repeats a vertex; leave it out");
     repeated_.Add(line);
   }
-  const FaceCheck check = CheckFace(polygon);
+  FaceTolerances tolerances;
+  tolerances.cut = options_.max_off_plane.value_or(kCutTolerance);
+  tolerances.rounding = digits_.Step().norm();
+  const FaceCheck check = CheckFace(polygon, tolerances);
   const auto off = [&] {
     return Number(check.off_plane) + " m, " + Number(100 * check.off_plane / check.diameter) +
            " % of its diameter";
@@ -418,7 +430,8 @@ void ObjParser::CheckPolygon(Polygon3& polygon, int line) {
     }
     case FaceCondition::kFolded:
       throw ErrorAt(reader_.File(), line,
-                    "the face is not planar: it is off by " + off() + "; split it into triangles");
+                    "the face is not planar: it is off by " + off() +
+                        "; split it into triangles, or let it be cut with --max-off-plane");
     case FaceCondition::kSelfCrossing:
       throw ErrorAt(reader_.File(), line, "the face crosses itself; put its vertices in order, or split it");
   }
@@ -434,11 +447,12 @@ void ObjParser::MakeFaces() {
     face.vertices = MakePolygon(i);
     CheckPolygon(face.vertices, line.line);
     face.object = line.object;
-    if (line.material < 0 && without < 0) {
+    const std::int32_t material = line.material < 0 ? -1 : materials[line.material];
+    if (material < 0 && without < 0) {
       without = Size(scene_.materials);
       scene_.materials.emplace_back().name = "default";
     }
-    face.material = line.material < 0 ? without : materials[line.material];
+    face.material = material < 0 ? without : material;
     scene_.faces.push_back(std::move(face));
   }
 }

@@ -17,6 +17,9 @@ struct SceneOptions {
   bool two_sided = false;  // repeat every face, reversed, after the last: face n + i is the back of face i
   std::optional<double> max_reflectance =
       std::nullopt;  // in [0, 1): larger reflectances are clamped instead of refused
+  // Faces that are off their plane by up to this part of their diameter are cut into triangles; those that
+  // are farther off are refused. Nothing stands for kCutTolerance.
+  std::optional<double> max_off_plane = std::nullopt;
   // A function that may change the materials that were read. The reader calls the function before patches are
   // built, because emittance decides which of two overlapping faces is visible.
   std::function<void(std::vector<Material>&)> change_materials = nullptr;

@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"other_format", "\x89PNG\r\n\x1a\n", "dir/scene.obj", "this is a PNG image"},
         Bad{"library_as_scene", "# x\nnewmtl red\nKd 0 0 0\n", "dir/scene.obj:2", "mtllib"},
         Bad{"short_vertex", "v 0 0 0\n\n# x\nv 1 2\n", "dir/scene.obj:4", "v x y z"},
-        Bad{"short_face", kS + "f 1 2\n", "dir/scene.obj:5", "three"},
+        Bad{"short_face", kS + "f 1\n", "dir/scene.obj:5", "three"},
         Bad{"face_without_vertices", kS + "f\n", "dir/scene.obj:5", "three"},
         Bad{"face_syntax", kS + "f 1 2 3/\n f 1 2 x\n", "dir/scene.obj:6", "'x'"},
         Bad{"face_slashes", kS + "f 1/1/1/1 2 3\n", "dir/scene.obj:5", "v/vt/vn"},
@@ -236,8 +236,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"emittance_nan", kLib, "dir/a.mtl:2", "finite", "newmtl a\nKe 0 NaN 0\n"},
         Bad{"colour_no_number", kLib, "dir/a.mtl:2", "not a number", "newmtl a\nKd a b c\n"},
         Bad{"colour_of_two", kLib, "dir/a.mtl:2", "three", "newmtl a\nKd 0.5 0.5\n"},
-        Bad{"colour_before_material", kLib, "dir/a.mtl:1", "newmtl", "Kd 0.5 0.5 0.5\n"},
-        Bad{"material_without_name", kLib, "dir/a.mtl:1", "name", "newmtl\n"}),
+        Bad{"colour_before_material", kLib, "dir/a.mtl:1", "newmtl", "Kd 0.5 0.5 0.5\n"}),
     [](const auto& kind) { return std::string(kind.param.name); });
 
 TEST(ObjReader, MissingFile) {
@@ -375,6 +374,67 @@ TEST(ObjReader, UnevenPolygonsAreCutIntoTriangles) {
   }
   EXPECT_EQ(scene.patches.size(), 4u);
   EXPECT_NEAR(area, 12, 1e-5);
+}
+
+TEST(ObjReader, FacesMayBeFartherOffTheirPlane) {
+  // A quadrilateral whose corners rise and fall by h is cut into two triangles that fill it: by the default
+  // up to 5 % of the diameter, and as far as the user says.
+  const std::string text = "v 0 0 0.2\nv 1 0 -0.2\nv 1 1 0.2\nv 0 1 -0.2\nf 1 2 3 4\n";
+  EXPECT_THAT(ErrorOf(text), HasSubstr("--max-off-plane"));
+  EXPECT_THAT(ErrorOf(text, {.max_off_plane = 0.1}), HasSubstr("is not planar"));
+  const Scene scene = Read(text, {.max_off_plane = 0.2});
+  ASSERT_EQ(scene.patches.size(), 2u);
+  // Two sides of either triangle rise by 0.4 m over 1 m.
+  for (const Patch& patch : scene.patches)
+    EXPECT_NEAR(patch.area, 0.5 * Vec3(1, 0, -0.4).cross(Vec3(0, 1, -0.4)).norm(), 1e-15);
+  EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("cut into triangles, at most 0.2 m")));
+}
+
+TEST(ObjReader, FacesThatRoundingMadeCrossThemselves) {
+  // What is no wider than the digits written is no crossing: such a face keeps its area, or has none.
+  const std::string lines =
+      "v 0.000000 0.000000 0.000000\nv 2.000000 0.000000 0.000000\nv 2.000000 1.000000 0.000000\n"
+      "v 1.000000 -0.000001 0.000000\nv 0.000000 1.000000 0.000000\n";
+  const Scene scene = Read(lines + "f 1 2 3 4 5\n");  // the notch's tip lies a unit beyond the base
+  double area = 0;
+  for (const Patch& patch : scene.patches) area += patch.area;
+  EXPECT_NEAR(area, 1, 1e-5);
+  EXPECT_THAT(scene.warnings, IsEmpty());
+  EXPECT_THAT(ErrorOf(lines + "v 1 -0.01 0\nf 1 2 3 6 5\n"), HasSubstr("crosses itself"));
+  const Scene sliver = Read(
+      "v 0.000001 0.000000 1.000000\nv 1.000000 0.000000 1.000000\nv 3.000000 0.000001 1.000000\n"
+      "v 2.000000 0.000000 1.000001\nv 0.500000 0.000001 1.000000\nf 1 3 2 4 5\n");
+  EXPECT_TRUE(sliver.patches.empty());
+  EXPECT_THAT(sliver.warnings, ElementsAre(HasSubstr("1 face without area dropped")));
+}
+
+TEST(ObjReader, EdgesAndMaterialsWithoutNames) {
+  // A face of two vertices is an edge: it has no area, and keeps its number. Materials need no name.
+  const std::string text =
+      "mtllib a.mtl\n" + std::string(kSquare) + "usemtl\nf 1 2\nf 1 2 3\nusemtl b\nf 1 3 4\n";
+  const std::string library = "newmtl \nKd 0.25\nnewmtl b\nKd 0.125\n";
+  const Scene scene = Read(text, {}, library);
+  ASSERT_EQ(scene.faces.size(), 3u);
+  EXPECT_TRUE(scene.faces[0].vertices.empty());
+  EXPECT_EQ(scene.MaterialOf(0).reflectance[0], 0.25);
+  EXPECT_EQ(scene.MaterialOf(1).reflectance[0], 0.125);
+  EXPECT_THAT(scene.warnings, ElementsAre(StartsWith("dir/a.mtl:1: warning: newmtl without a name"),
+                                          StartsWith("dir/scene.obj:7: warning: 1 face without area")));
+  EXPECT_THAT(ErrorOf(text, Strict(), library), StartsWith("dir/a.mtl:1: error: newmtl without a name"));
+  EXPECT_THAT(ErrorOf(std::string(kSquare) + "f 1 2\n", Strict()), HasSubstr("fewer than three"));
+  // Without such a material, a face has none.
+  EXPECT_EQ(Read("mtllib a.mtl\n" + std::string(kSquare) + "usemtl \nf 1 2 3 4\n").MaterialOf(0).name,
+            "default");
+}
+
+TEST(ObjReader, StatementsOfSubdividersAndAnimators) {
+  // Creases, weights of joints, curves and points add no face; blanks in a library's name may be escaped.
+  const Scene scene = Read("mtllib with\\ blank.mtl\n" + std::string(kSquare) +
+                           "vw 0 0 0.5 1 0.5\nt crease 2/1/0 1 2 3.5\np 1 2\nl 1 2 3\ncstype rat bspline\n"
+                           "usemtl red\nf 1 2 3 4\n");
+  ASSERT_EQ(scene.patches.size(), 1u);
+  EXPECT_EQ(scene.MaterialOf(0).name, "red");
+  EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
 TEST(ObjReader, AFaceIsCutAlikeHoweverItIsWritten) {
