@@ -72,7 +72,11 @@ Measurement Prober::MeasureAt(const ProbePoint& point) const {
   measurement.footing = FindFace(scene_, point.position, normal);
   const ReceiverPoint at = ReceiverPointAt(measurement.footing.patch, point.position, normal);
   IrradianceParts parts;
-  measurement.exact = irradiance_.Anywhere(at, parts_ ? &parts : nullptr).irradiance;
+  const bool is_in_space = pipeline_ && measurement.footing.patch == kNoPatch;
+  IrradianceParts* const wanted = parts_ ? &parts : nullptr;
+  measurement.exact =
+      (is_in_space ? pipeline_->IrradianceInSpace(irradiance_, at, wanted) : irradiance_.Anywhere(at, wanted))
+          .irradiance;
   measurement.direct = parts.direct;
   measurement.gradient = parts.gradient;
   if (pipeline_ && measurement.footing.patch != kNoPatch)

@@ -281,7 +281,9 @@ ArrayShape Hdf5Reader::Shape(const std::string& path) const {
   // Prevents the allocation of rows that the file cannot contain.
   constexpr double kMostDeflated = 1100;  // upper bound of bytes per compressed byte; deflate reaches 1032
   double bytes = static_cast<double>(H5Tget_size(Handle(H5Dget_type(set), H5Tclose, path)));
-  for (const hsize_t n : extent) bytes *= static_cast<double>(n);
+  // Rows without values would take no place in the file, but they do in memory.
+  const bool has_rows = !extent.empty() && extent[0] > 0;
+  for (const hsize_t n : extent) bytes *= static_cast<double>(has_rows ? std::max<hsize_t>(n, 1) : n);
   const double stored = static_cast<double>(std::min<hsize_t>(H5Dget_storage_size(set), impl_->size));
   if (bytes > kMostDeflated * stored) throw Hdf5Error(path + " is larger than the file can hold");
   return {extent.begin(), extent.end()};

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "mesh/interpolants/closer_sources.h"
 #include "mesh/interpolants/current_irradiance.h"
 #include "mesh/interpolants/mesh_locator.h"
 #include "mesh/pipeline/run_limits.h"
@@ -676,6 +677,19 @@ std::optional<Rgb> Pipeline::Interpolated(PatchId patch, const Vec3& point, doub
   const auto location = impl_->locator->Find(patch, point, reach);
   if (!location) return std::nullopt;
   return Rgb(IrradianceAt(impl_->shown.mesh(), *location).max(0.0));
+}
+
+PointIrradianceResult Pipeline::IrradianceInSpace(const PointIrradiance& irradiance, const ReceiverPoint& at,
+                                                  IrradianceParts* parts) const {
+  const bool is_light_of_mesh = impl_->mesh_kind == MeshKind::kInterpolant && impl_->resolved.refine_light &&
+                                impl_->resolved.solver_name == PipelineOptions().SolverName() &&
+                                !irradiance.IsSampled();
+  if (!is_light_of_mesh) return irradiance.Anywhere(at, parts);
+  const CloserSources closer(
+      impl_->Solution(), irradiance.sources(),
+      [this](PatchId patch, const Vec3& point) { return Interpolated(patch, point); }, impl_->options.error);
+  const std::optional<DividedSources> divided = closer.At(at);
+  return irradiance.Anywhere(at, parts, divided ? &*divided : nullptr);
 }
 
 }  // namespace penumbra

@@ -265,6 +265,14 @@ class Pipeline {
   // result is nullopt. REQUIRES: BuildMesh().
   std::optional<Rgb> Interpolated(PatchId patch, const Vec3& point, double reach = 0) const;
 
+  // The irradiance at a point in free space: irradiance.Anywhere(), but sources close to the point are
+  // divided by the light that the interpolants show on them (CloserSources). The solution's leaves are as
+  // fine as the surfaces of the scene need them, and a point in space may be closer. Sources are not divided
+  // if the light of the solution is not that of the interpolants (ResolvedOptions::refine_light, other
+  // solvers). REQUIRES: `irradiance` was made from solution(), and BuildMesh().
+  PointIrradianceResult IrradianceInSpace(const PointIrradiance& irradiance, const ReceiverPoint& at,
+                                          IrradianceParts* parts = nullptr) const;
+
   // The list of discontinuities that is written to files (ListDiscontinuities); empty if the time limit ends
   // before they are found.
   DiscontinuityList Discontinuities() const;

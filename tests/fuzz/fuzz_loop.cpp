@@ -18,6 +18,10 @@ extern "C" void __sanitizer_set_death_callback(void (*callback)()) __attribute__
 // NOLINTNEXTLINE: the name is the address sanitizer's.
 extern "C" const char* __asan_default_options() { return "allocator_may_return_null=1"; }
 
+// The HDF5 library itself loses a few bytes where it fails to open a damaged file.
+// NOLINTNEXTLINE: the name is the leak sanitizer's.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5\n"; }
+
 namespace penumbra::fuzz {
 namespace {
 

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <cstring>
 
 #include "solver/scene/builtin_scenes.h"
@@ -295,6 +297,32 @@ TEST(Resolve, WantsEdgesByErrorsAlone) {
   EXPECT_TRUE(both.can_want());
   EXPECT_EQ(both.min_weight, 0.5);
   EXPECT_EQ(both.min_wanted_weight, 0.2);
+}
+
+// A light meter that approaches a wall measures, in the limit, the wall's radiosity at its foot. At 1 and 3
+// mm the foot fills all but 1e-5 and 1e-4 of what it sees.
+TEST(Pipeline, PointsInSpaceBesideWalls) {
+  const Scene scene = FurnishedRoom();
+  PipelineOptions options;
+  options.error = 0.05;
+  Pipeline pipeline(scene, options);
+  pipeline.Solve({});
+  pipeline.RefineLight({});
+  pipeline.BuildMesh(MeshKind::kInterpolant, {});
+  double largest = 0, largest_of_leaves = 0;
+  for (const Vec3& foot : {Vec3(0, 1.1, 1.3), Vec3(0, 2.03, 2.37), Vec3(4, 1.57, 2.1), Vec3(4, 0.3, 0.04)})
+    for (const double height : {0.001, 0.003}) {
+      const Vec3 out = foot.x() == 0 ? Vec3(1, 0, 0) : Vec3(-1, 0, 0);
+      const double wall = 0.5 * pipeline.irradiance().Anywhere({foot, out, Vec3::Zero(), 0}).irradiance[0];
+      const ReceiverPoint at{foot + height * out, -out, Vec3::Zero(), 0};
+      const double measured = pipeline.IrradianceInSpace(pipeline.irradiance(), at).irradiance[0];
+      largest = std::max(largest, std::abs(measured / wall - 1));
+      largest_of_leaves =
+          std::max(largest_of_leaves, std::abs(pipeline.irradiance().Anywhere(at).irradiance[0] / wall - 1));
+    }
+  std::printf("largest error %.4f of 0.05; of whole leaves %.4f\n", largest, largest_of_leaves);
+  EXPECT_LE(largest, options.error);
+  EXPECT_GT(largest_of_leaves, options.error);
 }
 
 }  // namespace

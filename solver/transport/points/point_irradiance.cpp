@@ -336,7 +336,8 @@ Rgb PointIrradiance::OnPatch(PatchId patch, const ReceiverPoint& given, std::spa
   return gathering.irradiance();
 }
 
-PointIrradianceResult PointIrradiance::Anywhere(const ReceiverPoint& given, IrradianceParts* parts) const {
+PointIrradianceResult PointIrradiance::Anywhere(const ReceiverPoint& given, IrradianceParts* parts,
+                                                const DividedSources* divided) const {
   const ReceiverPoint at = Nudged(given);
   if (closer_gather_) return Sampled(*closer_gather_, at, parts);
   Gathering gathering(scene_, sources_, at, options_, parts);
@@ -344,8 +345,19 @@ PointIrradianceResult PointIrradiance::Anywhere(const ReceiverPoint& given, Irra
   const Scratch<std::vector<Screen>> screens;
   if (source_patches_.size() > kManySources) screens_.Find({&at, 1}, kLeastScreen, kMostScreens, *screens);
   source_patches_.Find({{at.normal, at.normal.dot(at.position)}}, *screens, *found);
-  for (const PatchId source : *found) gathering.AddSource(source, patches_, *screens);
-  return {gathering.irradiance(), gathering.one_sided(), nullptr};
+  const auto is_divided = [&](PatchId source) {
+    return divided && std::binary_search(divided->patches.begin(), divided->patches.end(), source);
+  };
+  for (const PatchId source : *found)
+    if (!is_divided(source)) gathering.AddSource(source, patches_, *screens);
+  PointIrradianceResult result{gathering.irradiance(), gathering.one_sided(), nullptr};
+  if (!divided) return result;
+  Gathering closer(scene_, divided->sources, at, options_, parts);
+  for (const PatchId source : *found)
+    if (is_divided(source)) closer.AddSource(source, patches_, *screens);
+  result.irradiance += closer.irradiance();
+  result.one_sided = result.one_sided || closer.one_sided();
+  return result;
 }
 
 }  // namespace penumbra

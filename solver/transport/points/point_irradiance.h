@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "solver/geometry/vec.h"
 #include "solver/scene/scene.h"
@@ -39,6 +40,12 @@ struct PointIrradianceResult {
   std::shared_ptr<FactorRow> row = nullptr;
   // The standard error of the irradiance, as far as it is known from independent samples [W/m^2].
   Rgb deviation = Rgb::Zero();
+};
+
+// Sources that stand for those of some patches, at points that need them finer.
+struct DividedSources {
+  std::vector<PatchId> patches;  // in ascending order
+  SourceSet sources;             // of these patches only
 };
 
 // A point on the front of a patch.
@@ -103,8 +110,10 @@ class PointIrradiance {
   std::span<const PatchPair> SeenFrom(ElementId leaf) const { return leaves_->SourcesOf(leaf); }
 
   // The irradiance at any point, also in free space. Any patch may light the point or block light; a bounding
-  // volume hierarchy finds the patches that matter. May be called from any thread.
-  PointIrradianceResult Anywhere(const ReceiverPoint& at, IrradianceParts* parts = nullptr) const;
+  // volume hierarchy finds the patches that matter. If `divided` is not null, it gives the light of the
+  // patches that it names. May be called from any thread.
+  PointIrradianceResult Anywhere(const ReceiverPoint& at, IrradianceParts* parts = nullptr,
+                                 const DividedSources* divided = nullptr) const;
 
  private:
   void BuildHierarchies();

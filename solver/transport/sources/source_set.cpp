@@ -116,7 +116,36 @@ void Append(const RadiositySolution& solution, std::span<const Fragment> fragmen
   }
 }
 
+// Appends a copy of the subtree at node i of the patch's tree, with its leaves divided.
+void AppendDivided(PatchId patch, std::span<const Node> tree, std::size_t i,
+                   const SourceSet::DivideLeaf& divide, std::vector<SourceSet::Node>& nodes) {
+  const Node& node = tree[i];
+  const std::size_t at = nodes.size(), end = i + static_cast<std::size_t>(node.skip);
+  nodes.push_back(MakeNode({node.vertex.data(), static_cast<std::size_t>(node.size)}, node.radiosity));
+  if (node.skip == 1)
+    for (const SourcePart& part : divide(patch, node))
+      nodes.push_back(MakeNode(part.polygon.Vertices(), part.radiosity));
+  for (std::size_t child = i + 1; child < end; child += static_cast<std::size_t>(tree[child].skip))
+    AppendDivided(patch, tree, child, divide, nodes);
+  nodes[at].skip = static_cast<std::int32_t>(nodes.size() - at);
+}
+
 }  // namespace
+
+SourceSet SourceSet::Divided(std::span<const PatchId> patches, const DivideLeaf& divide) const {
+  SourceSet set;
+  set.emittance_ = emittance_;
+  std::vector<char> is_given(PatchCount(), 0);
+  for (const PatchId patch : patches) is_given[static_cast<std::size_t>(patch)] = 1;
+  for (std::size_t p = 0; p < PatchCount(); ++p) {
+    set.first_.push_back(set.nodes_.size());
+    const auto patch = static_cast<PatchId>(p);
+    if (is_given[p] != 0 && !Tree(patch).empty()) AppendDivided(patch, Tree(patch), 0, divide, set.nodes_);
+  }
+  set.first_.push_back(set.nodes_.size());
+  set.Measure();
+  return set;
+}
 
 SourceSet SourceSet::FromSolution(const RadiositySolution& solution) {
   return FromSolution(solution, solution.fragments);

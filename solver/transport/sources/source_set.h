@@ -8,17 +8,25 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "solver/geometry/vec.h"
 #include "solver/scene/scene.h"
+#include "solver/transport/sources/source_polygon.h"
 #include "solver/visibility/point/form_factor_batch.h"
 
 namespace penumbra {
 
 struct Fragment;
 struct RadiositySolution;
+
+// A part of a leaf of a SourceSet, with a radiosity of its own.
+struct SourcePart {
+  SourcePolygon polygon;
+  Rgb radiosity = Rgb::Zero();  // [W/m^2]
+};
 
 class SourceSet {
  public:
@@ -56,6 +64,11 @@ class SourceSet {
   static SourceSet FromSolution(const RadiositySolution& solution, std::span<const Fragment> fragments);
   // The emitters with their emittances, for direct light.
   static SourceSet Emitters(const Scene& scene);
+
+  // Returns the parts that tile a leaf; nothing for a leaf that stays as it is.
+  using DivideLeaf = std::function<std::vector<SourcePart>(PatchId patch, const Node& leaf)>;
+  // The given patches with their leaves divided. In the result, no other patch sends light.
+  SourceSet Divided(std::span<const PatchId> patches, const DivideLeaf& divide) const;
 
   // The light of a node in a compact form, for sums over many nodes. The members have the meaning of those of
   // Node with the same names.
