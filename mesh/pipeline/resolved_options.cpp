@@ -6,6 +6,7 @@
 #include "mesh/discontinuities/discontinuity_choices.h"
 #include "mesh/pipeline/option_table.h"
 #include "mesh/pipeline/pipeline.h"
+#include "solver/scene/scene_parts.h"
 #include "solver/transport/form_factors/link_form_factor_methods.h"
 #include "solver/transport/links/refinement_oracles.h"
 #include "solver/transport/solvers/light_solvers.h"
@@ -26,8 +27,11 @@ constexpr double kWeightOfMeanIrradiance = 0.15;
 // The weight of the lightest discontinuity that representation-based refinement may request, as the same
 // fraction.
 constexpr double kWantedWeight = 0.05;
-constexpr int kCrowdedSplits = 3;         // DiscontinuityOptions::crowded_splits
-constexpr double kMinAreaOfScene = 1e-7;  // of the fronts' total area
+constexpr int kCrowdedSplits = 3;  // DiscontinuityOptions::crowded_splits
+// The area of the smallest leaf, as a fraction of the fronts' total area. Under a sky or on a plain it would
+// be larger than a table: parts of the scene (PartsOf) whose error is measured may need smaller leaves, down
+// to a fraction of the part. The last fraction, of the total area, holds for parts that are tiny.
+constexpr double kMinAreaOfScene = 1e-7, kMinAreaOfPart = 1e-3, kMinAreaOfTinyPart = 1e-10;
 constexpr double kCutoffOfError = 0.005;
 constexpr double kCorrectionOfError = 0.04;  // SolverOptions::correction_tolerance
 // With representation-based refinement alone, links are refined to this times the eps of transport-based
@@ -69,6 +73,17 @@ SceneTotals Total(const Scene& scene) {
   totals.flux = flux.maxCoeff(&channel);
   if (totals.area > 0) totals.reflectance = reflectance[channel] / totals.area;
   return totals;
+}
+
+double LeastArea(const Scene& scene, double total) {
+  const std::vector<double> seen = ReflectingAreas(scene);
+  double least = kMinAreaOfScene * total;
+  for (const ScenePart& part : PartsOf(scene)) {
+    double area = 0;
+    for (const PatchId patch : part.patches) area += seen[static_cast<std::size_t>(patch)];
+    if (area > 0) least = std::min(least, kMinAreaOfPart * area);
+  }
+  return std::max(least, kMinAreaOfTinyPart * total);
 }
 
 // The options of the sampled solver for the requested error.
@@ -132,7 +147,7 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   resolved.solver.eps = options.eps.value_or(coarse * kEpsOfMeanIrradiance * options.error * mean);
   const double side = kLeastSideOfSampled * totals.free_path;
   const double least =
-      is_sampled ? side * side * std::min(1.0, options.error / kSampledError) : kMinAreaOfScene * totals.area;
+      is_sampled ? side * side * std::min(1.0, options.error / kSampledError) : LeastArea(scene, totals.area);
   resolved.solver.min_area = options.min_area.value_or(least);
   if (totals.free_path > 0) {
     const double distance = kLookoutDistance * totals.free_path;
