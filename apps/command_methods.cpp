@@ -21,7 +21,7 @@
 #include "solver/base/check.h"
 #include "solver/scene/scene_readers.h"
 #include "solver/scene/scene_writers.h"
-#include "solver/transport/links/link_form_factor_methods.h"
+#include "solver/transport/form_factors/link_form_factor_methods.h"
 #include "solver/transport/links/refinement_oracles.h"
 #include "solver/transport/solvers/light_solvers.h"
 #include "solver/visibility/exact/occlusion_methods.h"
