@@ -223,7 +223,7 @@ Command AddFormFactorCommand(CLI::App& program) {
             "auto, exact and their like: the error that is asked for, relative to the factor; of factors "
             "that are less than it, relative to itself. Left out: 1e-7 where something stands in between, "
             "and what roundings allow where nothing does. With --all: what the errors of a row may add up to "
-            "(default: 1e-7)");
+            "(default: 1e-6)");
   AddInteger(
       *app, "--resolution", &arguments->resolution, std::uint64_t{0}, kMostResolution,
       Takers("resolution") + ": cells along a side of their planes; 0: as many as each was printed with");

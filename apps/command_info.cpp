@@ -17,6 +17,7 @@
 #include "apps/scene_arguments.h"
 #include "apps/solve_options.h"
 #include "apps/solve_run.h"
+#include "display/photometry.h"
 #include "mesh/pipeline/solution_file.h"
 #include "solver/geometry/polygon.h"
 #include "solver/scene/plane_overlaps.h"
@@ -127,6 +128,7 @@ std::string InfoJson(const LoadedScene& loaded, const SceneSummary& summary) {
                {"bounds", {{"min", ToJson(low)}, {"max", ToJson(high)}}},
                {"area", summary.area},
                {"emitted_power", ToJson(summary.emitted_power.matrix())},
+               {"emitted_lumens", Lux(summary.emitted_power)},
                {"cameras", cameras},
                {"warnings", scene.warnings},
                {"face_list", FacesJson(scene)}};
@@ -168,6 +170,7 @@ std::string InfoText(const LoadedScene& loaded, const SceneSummary& summary) {
                                      LargestPlaneDistance(scene)));
   add("emitted [W]", fmt::format("red {:g}, green {:g}, blue {:g}", summary.emitted_power[0],
                                  summary.emitted_power[1], summary.emitted_power[2]));
+  add("emitted [lm]", fmt::format("{:g}", Lux(summary.emitted_power)));
   for (std::size_t i = 0; i < scene.cameras.size(); ++i)
     add(i == 0 ? "cameras" : "", fmt::format("{} {}", i, scene.cameras[i].name));
   add("warnings", fmt::format("{}", scene.warnings.size()));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <vector>
 
 #include "apps/interruptible.h"
@@ -15,6 +16,7 @@
 #include "solver/base/check.h"
 #include "solver/base/file_endings.h"
 #include "solver/base/stopwatch.h"
+#include "solver/transport/points/free_area.h"
 
 namespace penumbra {
 namespace {
@@ -102,6 +104,9 @@ std::string MatrixSummary(const NamedMatrix& named, const char* what, double sec
     text += fmt::format("{:<14} {}\n", name, value);
   };
   add("rows", fmt::format("{} {}, {} of them with an area", matrix.Rows(), what, with_area));
+  const double whole = std::accumulate(named.whole_area.begin(), named.whole_area.end(), 0.0);
+  const double area = std::accumulate(matrix.area.begin(), matrix.area.end(), 0.0);
+  add("area", fmt::format("{:.6g} m^2, without {:.3g} m^2 that other faces cover", area, whole - area));
   add("factors", fmt::format("{} that are not 0, from {} pairs", matrix.factor.size(), matrix.pairs));
   add("error",
       fmt::format("at most {:.2g} of a factor, {:.2g} of a row's sum, by estimate", error, row_error));
@@ -159,6 +164,9 @@ void WriteFormFactorMatrix(const Scene& scene, const MatrixArguments& arguments,
     options.method = method;
     options.context = &context;
     named.matrix = ComputeFormFactorMatrix(scene, groups, options);
+    if (context.Cancelled()) return;
+    named.whole_area = named.matrix.area;
+    named.matrix.ReferTo(UncoveredAreas(scene, ContactParts(scene, context), groups));
   });
   const double seconds = watch.Seconds();
   named.names = std::move(rows.names);

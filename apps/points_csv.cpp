@@ -77,7 +77,7 @@ std::vector<ProbePoint> ReadPointsCsv(const std::string& path) {
   const std::string name = NameOfPoints(path);
   std::string text;
   try {
-    text = ReadFileBytes(path == kPointsFromInput ? "/dev/stdin" : path);
+    text = path == kPointsFromInput ? ReadStandardInput() : ReadFileBytes(path);
   } catch (const ReadFailure& failure) {
     throw ErrorAt(name, 0, fmt::format("{}; name a CSV file with the header '{}'", failure.what(), kHeader));
   }

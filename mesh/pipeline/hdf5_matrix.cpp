@@ -20,7 +20,8 @@ class Hdf5Matrix : public MatrixWriter {
     add("F", Dense(matrix, matrix.factor), {n, n}, "1",
         "F[i, j]: the fraction of the diffuse flux that leaves the front of i and reaches the front of j");
     add("error", Dense(matrix, matrix.error), {n, n}, "1", "an upper estimate of the error of F");
-    add("area", matrix.area, {n}, "m^2", "the area of each front");
+    add("area", matrix.area, {n}, "m^2", "the area of each front that nothing covers");
+    add("whole_area", named.whole_area, {n}, "m^2", "the area of each front with what is covered");
     std::vector<double> sums;
     for (std::size_t row = 0; row < n; ++row) sums.push_back(matrix.RowSum(row));
     add("closure", sums, {n}, "1", "the sum of each row of F: 1 in a closed scene");

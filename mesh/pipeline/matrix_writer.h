@@ -17,6 +17,7 @@ struct NamedMatrix {
   FormFactorMatrix matrix;
   std::vector<std::string> names;    // of each row
   std::vector<std::string> objects;  // the object of each row's face; empty if rows are objects
+  std::vector<double> whole_area;    // of each row, with what is covered [m^2]
   std::vector<double> absorptance;   // of each row: 1 - reflectance, the mean of channels and area
 };
 

@@ -29,7 +29,9 @@ namespace {
 // A file that is open as long as this object.
 class OpenFile {
  public:
-  explicit OpenFile(const std::string& path) : file_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+  explicit OpenFile(const std::string& path) : OpenFile(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  // Takes the descriptor; a negative one is an error that `errno` tells.
+  explicit OpenFile(int descriptor) : file_(descriptor) {
     if (file_ < 0) Fail(errno, false);
   }
   ~OpenFile() { close(file_); }
@@ -62,9 +64,8 @@ class OpenFile {
   int file_;
 };
 
-std::string ReadUpTo(const std::string& path, std::size_t most) {
+std::string ReadUpTo(const OpenFile& file, std::size_t most) {
   constexpr std::size_t kBlock = std::size_t{1} << 16;  // of what tells no length [bytes]
-  const OpenFile file(path);
   std::string bytes;
   // One byte more than the length says shows whether that is the end.
   std::size_t step = std::max(file.Length() + 1, kBlock);
@@ -82,9 +83,15 @@ std::string ReadUpTo(const std::string& path, std::size_t most) {
 }  // namespace
 
 std::string ReadFileBytes(const std::string& path) {
-  return ReadUpTo(path, std::numeric_limits<std::size_t>::max());
+  return ReadUpTo(OpenFile(path), std::numeric_limits<std::size_t>::max());
 }
 
-std::string ReadFileStart(const std::string& path, std::size_t count) { return ReadUpTo(path, count); }
+std::string ReadStandardInput() {
+  return ReadUpTo(OpenFile(dup(STDIN_FILENO)), std::numeric_limits<std::size_t>::max());
+}
+
+std::string ReadFileStart(const std::string& path, std::size_t count) {
+  return ReadUpTo(OpenFile(path), count);
+}
 
 }  // namespace penumbra

@@ -27,6 +27,9 @@ class ReadFailure : public std::runtime_error {
 // memory is exhausted.
 std::string ReadFileBytes(const std::string& path);
 
+// All that standard input delivers. Throws the same exceptions as ReadFileBytes().
+std::string ReadStandardInput();
+
 // The first `count` bytes of a file, or all bytes of a shorter file. Throws the same exceptions as
 // ReadFileBytes().
 std::string ReadFileStart(const std::string& path, std::size_t count);

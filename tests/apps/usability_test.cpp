@@ -101,6 +101,9 @@ TEST(Points, ComeThroughAPipeWithoutNormals) {
   EXPECT_EQ(nowhere.status, 1);
   EXPECT_EQ(nowhere.out, "");
   EXPECT_THAT(nowhere.err, HasSubstr("standard input:4: error: "));
+  const Outcome closed = sandbox.RunScript("penumbra probe squares.obj --points - --direct <&-");
+  EXPECT_EQ(closed.status, 1);
+  EXPECT_THAT(closed.err, HasSubstr("standard input"));
   const Outcome one_file =
       sandbox.Run({"probe", "squares.obj", "squares.obj", "--points", "/dev/null", "-o", "x.csv"});
   EXPECT_EQ(one_file.status, 2);
@@ -141,6 +144,7 @@ TEST(Info, NamesWhatIsThere) {
   ASSERT_EQ(info["materials"].size(), 2u);
   EXPECT_EQ(info["materials"][1]["name"], "glow");
   EXPECT_EQ(info["materials"][1]["emittance"], json({1.0, 2.0, 3.0}));
+  EXPECT_DOUBLE_EQ(info["emitted_lumens"], 179 * (0.265 * 1 + 0.670 * 2 + 0.065 * 3));
   ASSERT_EQ(info["face_list"].size(), 2u);
   EXPECT_EQ(info["face_list"][1]["object"], "lamp");
   EXPECT_EQ(info["face_list"][1]["material"], "glow");

@@ -98,9 +98,21 @@ TEST(FormFactorMatrix, AddsUpTheFacesOfObjects) {
   ASSERT_EQ(whole.Rows(), 2u);
   EXPECT_EQ(EntryAt(whole, 1, 1), 0);
   // The convex body within sees only the room.
-  EXPECT_NEAR(EntryAt(whole, 1, 0), 1, 1e-7);
-  EXPECT_NEAR(EntryAt(whole, 0, 1), whole.area[1] / whole.area[0], 1e-7);
-  EXPECT_NEAR(EntryAt(whole, 0, 0), 1 - whole.area[1] / whole.area[0], 1e-7);
+  EXPECT_NEAR(EntryAt(whole, 1, 0), 1, 1e-6);
+  EXPECT_NEAR(EntryAt(whole, 0, 1), whole.area[1] / whole.area[0], 1e-6);
+  EXPECT_NEAR(EntryAt(whole, 0, 0), 1 - whole.area[1] / whole.area[0], 1e-6);
+}
+
+// Referred to other areas, exchanges stay, and so does reciprocity; a row with factors never loses its area.
+TEST(FormFactorMatrix, RefersToOtherAreas) {
+  const Scene scene = UnitCube();
+  FormFactorMatrix matrix = ComputeFormFactorMatrix(scene, RowOfEachPatch(scene));
+  const double before = EntryAt(matrix, 2, 3);
+  matrix.ReferTo({1, 1, 0.5, 1, 1, 0});
+  EXPECT_DOUBLE_EQ(EntryAt(matrix, 2, 3), 2 * before);
+  EXPECT_EQ(matrix.area[2], 0.5);
+  EXPECT_EQ(matrix.area[5], 1);
+  EXPECT_LE(matrix.ReciprocityError(), 4e-16);
 }
 
 // A single factor and the matrix's entry are the same number within their errors; the matrix does not depend

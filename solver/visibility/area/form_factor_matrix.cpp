@@ -202,6 +202,19 @@ double FormFactorMatrix::RowError(std::size_t row) const {
                          error.begin() + static_cast<std::ptrdiff_t>(first[row + 1]), 0.0);
 }
 
+void FormFactorMatrix::ReferTo(const std::vector<double>& areas) {
+  for (std::size_t row = 0; row < Rows(); ++row) {
+    const bool is_empty = first[row] == first[row + 1];
+    if (areas[row] == 0 && !is_empty) continue;
+    const double scale = is_empty ? 0 : area[row] / areas[row];
+    for (std::size_t k = first[row]; k < first[row + 1]; ++k) {
+      factor[k] *= scale;
+      error[k] *= scale;
+    }
+    area[row] = areas[row];
+  }
+}
+
 double FormFactorMatrix::ReciprocityError() const {
   double largest = 0;
   for (std::size_t i = 0; i < Rows(); ++i)

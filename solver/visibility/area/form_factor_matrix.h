@@ -30,13 +30,17 @@ struct FormFactorMatrix {
   double RowSum(std::size_t row) const;
   // An upper estimate of the error of RowSum().
   double RowError(std::size_t row) const;
+  // Refers the rows to other areas [m^2]: F_ij becomes A_i F_ij / (new A_i), so that exchanges stay. A row
+  // without factors takes any area; a row with factors keeps its area where the new one is 0. REQUIRES: one
+  // area per row.
+  void ReferTo(const std::vector<double>& areas);
   // The largest |A_i F_ij - A_j F_ji| / (A_i F_ij) over all entries; 0 for an empty matrix.
   double ReciprocityError() const;
 };
 
 struct FormFactorMatrixOptions {
   // The errors of a row's factors shall add up to at most this.
-  double tolerance = 1e-7;
+  double tolerance = 1e-6;
   // The method that computes occlusion at each point; null selects the fastest exact method.
   const OcclusionMethod* method = nullptr;
   // If not null, receives progress and may cancel the computation; the result is then useless.
