@@ -25,9 +25,37 @@ Camera FindCamera(const Scene& scene, const std::string& name) {
                                names.empty() ? "none: place one with --eye and --look-at" : NameList(names)));
 }
 
+// --up, which says two things, told apart by what is given, and may be given for each: an axis of the file,
+// as for all scenes, and the direction that is up in the picture.
+void AddUp(CLI::App& app, CameraArguments* arguments, std::optional<UpAxis>* scene_up,
+           const std::string& group) {
+  if (CLI::Option* const of_scene = app.get_option_no_throw("--up")) app.remove_option(of_scene);
+  const auto read = [=](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      if (const std::optional<UpAxis> axis = UpAxisNamed(text)) {
+        *scene_up = axis;
+        continue;
+      }
+      const std::optional<Vec3> direction = ParseVector(text);
+      if (!direction || !kDirection.holds(*direction))
+        throw CLI::ValidationError("--up",
+                                   fmt::format("'{}' is neither x, y or z nor {}", text, kDirection.words));
+      arguments->up = *direction;
+    }
+  };
+  app.add_option_function<std::vector<std::string>>(
+         "--up", read,
+         "x,y,z: the direction that is up in the picture (default: the camera's, else z). Or x, y or z: the "
+         "axis of the scene file that points up (default: what the file or its format says, else z)")
+      ->type_name("x,y,z|AXIS")
+      ->expected(1)
+      ->take_all()
+      ->group(group);
+}
+
 }  // namespace
 
-void AddCameraOptions(CLI::App& app, CameraArguments* arguments) {
+void AddCameraOptions(CLI::App& app, CameraArguments* arguments, std::optional<UpAxis>* scene_up) {
   const std::string group = "Camera";
   app.add_option("--camera", arguments->camera,
                  "One of the scene's cameras (default: the first; a scene without one is framed, z up)")
@@ -38,9 +66,7 @@ void AddCameraOptions(CLI::App& app, CameraArguments* arguments) {
   AddVector(app, "--look-at", &arguments->look_at, kPoint,
             "A point in the middle of the picture [m] (default: the camera's)")
       ->group(group);
-  AddVector(app, "--up", &arguments->up, kDirection,
-            "The direction that is up in the picture (default: the camera's, else z)")
-      ->group(group);
+  AddUp(app, arguments, scene_up, group);
   AddNumber(app, "--fov", &arguments->vertical_fov, kFieldOfView,
             "Vertical field of view [degrees] (default: the camera's, else 45)")
       ->group(group);

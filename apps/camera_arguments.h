@@ -8,6 +8,7 @@
 #include <string>
 
 #include "solver/scene/scene.h"
+#include "solver/scene/scene_frame.h"
 
 namespace penumbra {
 
@@ -18,7 +19,9 @@ struct CameraArguments {
   std::optional<double> vertical_fov;  // degrees
 };
 
-void AddCameraOptions(CLI::App& app, CameraArguments* arguments);
+// Adds the options of the camera. --up replaces the option of the scene (AddSceneArguments), whose values it
+// takes, too: `scene_up` is set to the axis that is given.
+void AddCameraOptions(CLI::App& app, CameraArguments* arguments, std::optional<UpAxis>* scene_up);
 
 // Chooses a camera: the camera of the scene that the user requests; by default, the first camera of the
 // scene, or FrameScene() if the scene has no cameras. Values from the command line replace the corresponding

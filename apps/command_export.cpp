@@ -90,7 +90,7 @@ Command AddExportCommand(CLI::App& program) {
   AddNumber(*app, "--exposure", &arguments->exposure, kPositive,
             fmt::format("Brightness of the colours in {}, 0 to 1, per W/m^2 (default: metered from the mesh)",
                         EndingsWithColours()));
-  AddCameraOptions(*app, &arguments->camera);
+  AddCameraOptions(*app, &arguments->camera, &arguments->scene.reading.up);
   AddSolveOptions(*app, &arguments->scene);
   AddRestartOption(*app, &arguments->scene);
   AddReportOption(*app, &arguments->scene);

@@ -194,7 +194,7 @@ Command AddRenderCommand(CLI::App& program) {
   const auto arguments = std::make_shared<RenderArguments>();
   AddSceneArguments(*app, &arguments->scene);
   AddPictureOptions(*app, arguments.get());
-  AddCameraOptions(*app, &arguments->camera);
+  AddCameraOptions(*app, &arguments->camera, &arguments->scene.reading.up);
   AddSolveOptions(*app, &arguments->scene);
   AddPictureStudies(*app, arguments.get());
   AddRestartOption(*app, &arguments->scene);

@@ -340,7 +340,7 @@ Command AddViewCommand(CLI::App& program) {
          },
          "Print the actions, options and menus that scripts know, and exit")
       ->group("Window");
-  AddCameraOptions(*app, &arguments->camera);
+  AddCameraOptions(*app, &arguments->camera, &arguments->scene.reading.up);
   AddSolveOptions(*app, &arguments->scene);
   AddRestartOption(*app, &arguments->scene);
   app->footer(std::string(viewer::kScriptHelp) +

@@ -58,7 +58,8 @@ bool SaysHowToSolve(const CLI::Option& option) {
 void RefuseSceneOptions(const SceneArguments& arguments) {
   if (!arguments.app) return;
   for (const CLI::Option* option : arguments.app->get_options()) {
-    const bool reads = option->get_group() == kSceneGroup;
+    const bool reads =
+        option->get_group() == kSceneGroup || (arguments.reading.up && option->get_name() == "--up");
     if (option->count() > 0 && (reads || SaysHowToSolve(*option)))
       throw UsageError(
           fmt::format("{} says how a scene is {}, but '{}' is a solution; give the scene, or leave it out",

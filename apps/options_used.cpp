@@ -76,6 +76,8 @@ Json OptionsUsed(const SceneArguments& arguments, const ResolvedOptions* resolve
   options["flip"] = arguments.reading.flip;
   options["two_sided"] = arguments.reading.two_sided;
   if (arguments.reading.strict) options["strict"] = true;
+  if (arguments.reading.unit) options["unit"] = arguments.reading.unit->name;
+  if (arguments.reading.up) options["up"] = NameOf(*arguments.reading.up);
   if (arguments.reading.max_reflectance) options["max_reflectance"] = *arguments.reading.max_reflectance;
   if (arguments.reading.max_off_plane) options["max_off_plane"] = *arguments.reading.max_off_plane;
   for (const auto& [name, changes] :

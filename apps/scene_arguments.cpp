@@ -14,6 +14,31 @@ constexpr int kMaxThreads = 1024;
 constexpr NumberRule kShareOfDiameter{[](double x) { return x >= 0 && x <= 1; }, "a number in [0, 1]"};
 constexpr NumberRule kBelowOne{[](double x) { return x >= 0 && x < 1; }, "a number in [0, 1)"};
 
+// The frame in which the scene is read.
+void AddFrameOptions(CLI::App& app, SceneOptions* reading) {
+  const auto read_unit = [reading](const std::string& text) {
+    reading->unit = UnitNamed(text);
+    if (!reading->unit)
+      throw CLI::ValidationError("--unit", "'" + text + "' is no unit of length; give one of " + UnitNames() +
+                                               ", or a number of metres");
+  };
+  app.add_option_function<std::string>(
+         "--unit", read_unit,
+         "The unit of the file's lengths: " + UnitNames() +
+             ", or a number of metres. The default is what the file says, else m")
+      ->type_name("UNIT")
+      ->group(kSceneGroup);
+  const auto read_up = [reading](const std::string& text) {
+    reading->up = UpAxisNamed(text);
+    if (!reading->up) throw CLI::ValidationError("--up", "'" + text + "' is not one of x|y|z");
+  };
+  app.add_option_function<std::string>(
+         "--up", read_up,
+         "The axis of the file that points up. The default is what the file or its format says, else z")
+      ->type_name("x|y|z")
+      ->group(kSceneGroup);
+}
+
 }  // namespace
 
 void AddRunningOptions(CLI::App& app, int* threads, std::uint64_t* seed, bool* verbose) {
@@ -32,7 +57,8 @@ void AddRunningOptions(CLI::App& app, int* threads, std::uint64_t* seed, bool* v
 namespace {
 
 constexpr const char* kSceneHelp =
-    "An OBJ file, the name of a built-in scene (a file wins), or a solution that `solve -o` wrote";
+    "A scene file (OBJ, glTF, ...), the name of a built-in scene (a file wins), or a solution that `solve "
+    "-o` wrote";
 
 // All but the scenes.
 void AddReadingOptions(CLI::App& app, SceneArguments* arguments) {
@@ -51,6 +77,7 @@ void AddReadingOptions(CLI::App& app, SceneArguments* arguments) {
   app.add_flag("--flip", arguments->reading.flip,
                "Turn every face: what its vertices make the front becomes the back")
       ->group(kSceneGroup);
+  AddFrameOptions(app, &arguments->reading);
   AddNumber(app, "--max-reflectance", &arguments->reading.max_reflectance, kBelowOne,
             "Clamp larger reflectances to X, in [0, 1), instead of refusing those of 1 or more")
       ->group(kSceneGroup);

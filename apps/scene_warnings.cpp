@@ -43,7 +43,7 @@ void AddUnits(const Scene& scene, std::vector<std::string>* warnings) {
   if (thickness > kThickest || (diagonal > kLargeScene && least > kLeastDetail))
     warnings->push_back(fmt::format(
         "the scene is {:.3g} m across and its smallest face {:.3g} m: lengths are in metres; if these are "
-        "millimetres, divide them by 1000",
+        "millimetres, give --unit mm",
         diagonal, least));
   double brightest = 0;
   for (const Patch& patch : scene.patches)

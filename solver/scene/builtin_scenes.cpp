@@ -27,6 +27,17 @@ const BuiltinScene* FindBuiltinScene(std::string_view name) {
   return nullptr;
 }
 
+// The cameras of a scene that is read in another frame than its own.
+std::vector<Camera> InFrame(std::vector<Camera> cameras, const SceneOptions& options) {
+  const SceneFrame frame = {options.unit.value_or(LengthUnit{"m"}), options.up.value_or(UpAxis::kZ)};
+  for (Camera& camera : cameras) {
+    camera.eye = frame.Position(camera.eye);
+    camera.look_at = frame.Position(camera.look_at);
+    camera.up = frame.Direction(camera.up);
+  }
+  return cameras;
+}
+
 class BuiltinSceneReader final : public SceneReader {
  public:
   bool Recognises(const SceneSource& source) const override {
@@ -81,7 +92,7 @@ std::optional<Scene> LoadBuiltinScene(std::string_view name, const SceneOptions&
         options);
     scene.name = name;
     scene.warnings.clear();  // as below
-    scene.cameras = BuildingCameras(*size);
+    scene.cameras = InFrame(BuildingCameras(*size), options);
     return scene;
   }
   const BuiltinScene* found = FindBuiltinScene(name);
@@ -94,7 +105,7 @@ std::optional<Scene> LoadBuiltinScene(std::string_view name, const SceneOptions&
   scene.name = found->name;
   // What their files leave to be repaired is meant: a light in an uncut ceiling, a block on an uncut floor.
   scene.warnings.clear();
-  scene.cameras = found->cameras;
+  scene.cameras = InFrame(found->cameras, options);
   return scene;
 }
 

@@ -1,7 +1,5 @@
 #include "solver/scene/obj_reader.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -11,24 +9,17 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <span>
 
 #include "solver/base/read_file.h"
 #include "solver/base/size.h"
-#include "solver/scene/face_check.h"
 #include "solver/scene/mtl_reader.h"
-#include "solver/scene/patch_builder.h"
-#include "solver/scene/plane_overlaps.h"
+#include "solver/scene/scene_assembler.h"
+#include "solver/scene/scene_frame.h"
 #include "solver/scene/text_reader.h"
 #include "solver/scene/written_digits.h"
 
 namespace penumbra {
 namespace {
-
-// Products of three coordinates and their squares stay finite [m],
-constexpr double kLargestCoordinate = 1e36;
-// and areas and their products above the smallest doubles that have all digits.
-constexpr double kSmallestScene = 1e-36;
 
 // Statements of the format that add no polygon, or only say how one is shown.
 constexpr auto kPassedOver = std::to_array<std::string_view>(
@@ -45,23 +36,7 @@ bool Contains(const auto& list, std::string_view word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-std::string Plural(int count, std::string_view noun, std::string_view one = "", std::string_view many = "s") {
-  return std::to_string(count) + " " + std::string(noun) + std::string(count == 1 ? one : many);
-}
-
-// Three digits of a length or a share, for messages.
-std::string Number(double value) { return fmt::format("{:.3g}", value); }
-
 std::int64_t Size64(const auto& list) { return static_cast<std::int64_t>(list.size()); }
-
-// How often something happened, and where first.
-struct Tally {
-  int count = 0, first_line = 0;
-
-  void Add(int line) {
-    if (count++ == 0) first_line = line;
-  }
-};
 
 // A face as it was read; its vertices may stand further down.
 struct FaceLine {
@@ -81,7 +56,7 @@ class ObjParser {
  public:
   ObjParser(std::string_view text, std::string_view file, const MtlSource& mtl_source,
             const SceneOptions& options)
-      : reader_(text, file), mtl_source_(mtl_source), options_(options) {}
+      : reader_(text, file), mtl_source_(mtl_source), options_(options), assembler_(file, options, scene_) {}
 
   Scene Parse();
 
@@ -102,21 +77,16 @@ class ObjParser {
   void CheckSize() const;
   void MakeFaces();
   Polygon3 MakePolygon(std::size_t face) const;
-  void CheckPolygon(Polygon3& polygon, int line);
-  void AddBacks();
-  void BuildScenePatches();
-  void WarnOfRepairs();
-  void Warn(const Tally& tally, std::string_view what, std::string_view outcome);
+  void WarnOfStatements();
   // What strict reading refuses.
-  void Refuse(int line, std::string_view message) const {
-    if (options_.strict) throw ErrorAt(reader_.File(), line, message);
-  }
+  void Refuse(int line, std::string_view message) const { assembler_.Refuse(line, message); }
 
   StatementReader reader_;
   const MtlSource& mtl_source_;
   const SceneOptions& options_;
   Scene scene_;
-  std::vector<Vec3> vertices_;
+  SceneAssembler assembler_;
+  std::vector<Vec3> vertices_;  // [m], z up
   std::vector<FaceLine> face_lines_;
   std::vector<std::int64_t> corners_;  // of all faces: 0-based vertices
   std::vector<UsedMaterial> used_;
@@ -126,11 +96,11 @@ class ObjParser {
   std::int32_t material_ = -1;                                  // of the last `usemtl`
   std::int32_t object_ = -1;                                    // of the last `o`
   std::vector<std::int32_t> groups_;                            // of the last `g`
-  Tally repeated_, flat_, not_read_, uneven_, missing_libraries_;
+  Tally not_read_, missing_libraries_;
   std::vector<std::string> missing_library_names_;
-  int redefined_ = 0;                                     // materials
-  std::string redefinition_;                              // the warning of the first one
-  double largest_off_plane_ = 0, largest_off_share_ = 0;  // of uneven faces [m]; of their diameters
+  int redefined_ = 0;         // materials
+  std::string redefinition_;  // the warning of the first one
+  SceneFrame frame_ = {options_.unit.value_or(LengthUnit{"m"}), options_.up.value_or(UpAxis::kZ)};
   WrittenDigits digits_;
 };
 
@@ -139,11 +109,8 @@ Scene ObjParser::Parse() {
   while (reader_.Next()) ReadStatement();
   CheckSize();
   MakeFaces();
-  if (options_.flip)
-    for (Face& face : scene_.faces) std::reverse(face.vertices.begin(), face.vertices.end());
-  if (options_.two_sided) AddBacks();
-  WarnOfRepairs();
-  BuildScenePatches();
+  WarnOfStatements();
+  assembler_.Finish(frame_.Step(digits_.Step()));
   return std::move(scene_);
 }
 
@@ -180,7 +147,7 @@ void ObjParser::ReadVertex() {
                           " is too large for a coordinate, which may be up to 1e36; lengths are in metres");
     digits_.Add(axis, words[axis], vertex[axis]);
   }
-  vertices_.push_back(vertex);
+  vertices_.push_back(frame_.Position(vertex));
 }
 
 // True if the text is empty or an integer: numbers of texture vertices and normals, which are not used.
@@ -374,11 +341,7 @@ void ObjParser::CheckSize() const {
     low = low.cwiseMin(vertices_[corner]);
     high = high.cwiseMax(vertices_[corner]);
   }
-  const double across = corners_.empty() ? 0 : (high - low).maxCoeff();
-  if (across > 0 && across < kSmallestScene)
-    throw ErrorAt(reader_.File(), 0,
-                  "all faces lie within " + Number(across) +
-                      " m, but a scene has to be larger than 1e-36 m; lengths are in metres");
+  if (!corners_.empty()) assembler_.CheckSize(low, high);
 }
 
 // The vertices of a face, looked up. Throws InputError if one is not there.
@@ -398,46 +361,8 @@ Polygon3 ObjParser::MakePolygon(std::size_t face) const {
   return polygon;
 }
 
-// Mends the polygon, drops it (it is then empty), or throws InputError.
-void ObjParser::CheckPolygon(Polygon3& polygon, int line) {
-  if (RemoveRepeatedVertices(polygon) > 0) {
-    Refuse(line, "the face repeats a vertex; leave it out");
-    repeated_.Add(line);
-  }
-  FaceTolerances tolerances;
-  tolerances.cut = options_.max_off_plane.value_or(kCutTolerance);
-  tolerances.rounding = digits_.Step().norm();
-  const FaceCheck check = CheckFace(polygon, tolerances);
-  const auto off = [&] {
-    return Number(check.off_plane) + " m, " + Number(100 * check.off_plane / check.diameter) +
-           " % of its diameter";
-  };
-  switch (check.condition) {
-    case FaceCondition::kFine:
-      break;
-    case FaceCondition::kZeroArea:
-      Refuse(line, "the face has no area; remove it");
-      flat_.Add(line);
-      polygon.clear();
-      break;
-    case FaceCondition::kUneven: {
-      Refuse(line, "the face is not planar to 1e-6 of its diameter: it is off by " + off() +
-                       "; split it into triangles");
-      uneven_.Add(line);
-      largest_off_plane_ = std::max(largest_off_plane_, check.off_plane);
-      largest_off_share_ = std::max(largest_off_share_, check.off_plane / check.diameter);
-      break;
-    }
-    case FaceCondition::kFolded:
-      throw ErrorAt(reader_.File(), line,
-                    "the face is not planar: it is off by " + off() +
-                        "; split it into triangles, or let it be cut with --max-off-plane");
-    case FaceCondition::kSelfCrossing:
-      throw ErrorAt(reader_.File(), line, "the face crosses itself; put its vertices in order, or split it");
-  }
-}
-
 void ObjParser::MakeFaces() {
+  assembler_.SetRounding(frame_.Step(digits_.Step()).norm());
   const std::vector<std::int32_t> materials = ResolveMaterials();
   std::int32_t without = -1;  // the material of faces without one
   scene_.faces.reserve(face_lines_.size());
@@ -445,7 +370,6 @@ void ObjParser::MakeFaces() {
     const FaceLine& line = face_lines_[i];
     Face face;
     face.vertices = MakePolygon(i);
-    CheckPolygon(face.vertices, line.line);
     face.object = line.object;
     const std::int32_t material = line.material < 0 ? -1 : materials[line.material];
     if (material < 0 && without < 0) {
@@ -453,7 +377,7 @@ void ObjParser::MakeFaces() {
       scene_.materials.emplace_back().name = "default";
     }
     face.material = material < 0 ? without : material;
-    scene_.faces.push_back(std::move(face));
+    assembler_.Add(std::move(face), line.line);
   }
 }
 
@@ -476,39 +400,7 @@ void ObjParser::EnterGroups() {
   for (const std::string_view name : reader_.Words()) groups_.push_back(ObjectIndex(name));
 }
 
-void ObjParser::AddBacks() {
-  const auto count = static_cast<std::int32_t>(scene_.faces.size());
-  for (std::int32_t i = 0; i < count; ++i) {
-    Face back = scene_.faces[i];
-    std::reverse(back.vertices.begin(), back.vertices.end());
-    scene_.faces.push_back(std::move(back));
-  }
-  for (Object& object : scene_.objects) {
-    const std::vector<std::int32_t> fronts = object.faces;
-    for (const std::int32_t face : fronts) object.faces.push_back(count + face);
-  }
-}
-
-void ObjParser::BuildScenePatches() {
-  if (options_.change_materials) options_.change_materials(scene_.materials);
-  scene_.coordinate_step = digits_.Step();
-  const PatchReport report = BuildPatches(scene_);
-  const auto tally = [&](std::span<const std::int32_t> faces) {
-    std::set<std::int32_t> once;  // a face and its back count once
-    for (const std::int32_t face : faces) once.insert(face % Size(face_lines_));
-    Tally of_faces;
-    for (const std::int32_t face : once) of_faces.Add(face_lines_[face].line);
-    return of_faces;
-  };
-  std::string cut = "cut where others lie in the same plane and look the same way";
-  // Below a rounding there is nothing to tell.
-  if (report.largest_distance > kCoplanarTolerance * scene_.Diagonal())
-    cut += " (planes " + Number(report.largest_distance) + " m apart count as one)";
-  Warn(tally(report.cut_faces), "face", cut);
-  Warn(tally(report.narrow_faces), "face", "too narrow to hold a point left out");
-}
-
-void ObjParser::WarnOfRepairs() {
+void ObjParser::WarnOfStatements() {
   if (reader_.LineEndedByCr() > 0)
     scene_.warnings.push_back(WarningAt(reader_.File(), reader_.LineEndedByCr(), kLinesEndInCr));
   if (missing_libraries_.count > 0)
@@ -520,19 +412,7 @@ void ObjParser::WarnOfRepairs() {
     scene_.warnings.push_back(
         redefinition_ +
         (redefined_ > 1 ? "; " + std::to_string(redefined_ - 1) + " more are defined again below" : ""));
-  Warn(repeated_, "face", "with repeated vertices, which were left out");
-  Warn(flat_, "face", "without area dropped");
-  Warn(uneven_, "face",
-       "not planar to 1e-6 of the diameter and cut into triangles, at most " + Number(largest_off_plane_) +
-           " m and " + Number(100 * largest_off_share_) + " % of the diameter off");
-  Warn(not_read_, "statement", "that only free-form surfaces or included files use, passed over");
-}
-
-void ObjParser::Warn(const Tally& tally, std::string_view what, std::string_view outcome) {
-  if (tally.count == 0) return;
-  scene_.warnings.push_back(WarningAt(reader_.File(), tally.first_line,
-                                      Plural(tally.count, what) + " " + std::string(outcome) +
-                                          (tally.count == 1 ? "" : "; the first is here")));
+  assembler_.Warn(not_read_, "statement", "that only free-form surfaces or included files use, passed over");
 }
 
 class ObjReader final : public SceneReader {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "solver/scene/scene_frame.h"
+
 namespace penumbra {
 
 struct Material;
@@ -25,6 +27,10 @@ struct SceneOptions {
   std::function<void(std::vector<Material>&)> change_materials = nullptr;
   bool strict = false;  // refuse what is otherwise repaired with a warning
   bool flip = false;    // reverse the vertices of every face
+  // The unit of the file's lengths, and the axis of the file that points up. If they are not set, they are
+  // what the file or its format says, else metres and z.
+  std::optional<LengthUnit> unit = std::nullopt;
+  std::optional<UpAxis> up = std::nullopt;
   // A function that is called with the path of every material library before the library is opened; it may
   // throw.
   std::function<void(const std::string& path)> before_library = nullptr;
