@@ -42,6 +42,7 @@ constexpr auto kBeginnings = std::to_array<Beginning>({
     {"LWO2"sv, {kScene, "a LightWave file"}, 8},
     {"LWOB"sv, {kScene, "a LightWave file"}, 8},
     {"xof "sv, {kScene, "a DirectX file"}},
+    {"AC3D"sv, {kScene, "an AC3D file"}},
     {"OFF\n"sv, {kScene, "an OFF file"}},
     {"OFF\r"sv, {kScene, "an OFF file"}},
     {"C4DC4D6"sv, {kScene, "a Cinema 4D file"}, 8},

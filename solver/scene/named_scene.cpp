@@ -32,6 +32,17 @@ std::string BeginningOf(const std::string& path) {
   }
 }
 
+// Throws InputError if a file that no reader recognises is known to be no text of an OBJ file.
+void RefuseOtherFormats(const std::string& name, std::string_view beginning) {
+  const std::optional<ForeignFormat> format = FindForeignFormat(beginning);
+  if (!format) return;
+  std::string endings;
+  for (const SceneReaderRegistry::Method& method : SceneReaders().methods())
+    for (const std::string& ending : method.make()->Endings())
+      endings += (endings.empty() ? "." : ", .") + ending;
+  throw ErrorAt(name, 0, ForeignFormatMessage(*format, "a scene file (" + endings + ")"));
+}
+
 }  // namespace
 
 Scene ReadNamedScene(const std::string& name, const SceneOptions& options) {
@@ -42,8 +53,13 @@ Scene ReadNamedScene(const std::string& name, const SceneOptions& options) {
   const std::string beginning = std::filesystem::is_regular_file(status) ? BeginningOf(name) : "";
   for (const SceneReaderRegistry::Method& method : SceneReaders().methods()) {
     const std::unique_ptr<const SceneReader> reader = method.make();
+    if (is_file && reader->RecognisesContent({name, is_file, beginning})) return reader->Read(name, options);
+  }
+  for (const SceneReaderRegistry::Method& method : SceneReaders().methods()) {
+    const std::unique_ptr<const SceneReader> reader = method.make();
     if (reader->Recognises({name, is_file, beginning})) return reader->Read(name, options);
   }
+  if (is_file) RefuseOtherFormats(name, beginning);
   if (is_file) return SceneReaders().methods().front().make()->Read(name, options);
   if (is_directory) throw ErrorAt(name, 0, "it is a directory; name an OBJ file in it");
   if (error && error != std::errc::no_such_file_or_directory)

@@ -28,6 +28,10 @@ class SceneReader {
   // The endings of the names of the files that this reader reads, without the dot.
   virtual std::vector<std::string> Endings() const { return {}; }
 
+  // Whether the first bytes of the source show that it is of a format of this reader. Asked first, of all
+  // readers: a file is what it contains, whatever its name.
+  virtual bool RecognisesContent(const SceneSource& source) const;
+
   // Whether this reader can read the source. By default, true if the source is a file whose name has one of
   // Endings().
   virtual bool Recognises(const SceneSource& source) const;
