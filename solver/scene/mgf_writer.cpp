@@ -2,27 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
-#include <array>
+#include "solver/scene/mgf_colour.h"
 
 namespace penumbra {
 namespace {
 
-// Chromaticities of MGF's monitor: red, green, blue, and its white of equal energy.
-constexpr std::array<std::array<double, 2>, 3> kPrimaries = {
-    {{0.640, 0.330}, {0.290, 0.600}, {0.150, 0.060}}};
-constexpr double kWhite = 1.0 / 3;
-
-// The XYZ of a chromaticity with luminance 1.
-Vec3 XyzOf(double x, double y) { return {x / y, 1, (1 - x - y) / y}; }
-
-Eigen::Matrix3d RgbToXyz() {
-  Eigen::Matrix3d primaries;
-  for (int c = 0; c < 3; ++c) primaries.col(c) = XyzOf(kPrimaries[c][0], kPrimaries[c][1]);
-  // Scaled so that equal amounts of all three are white.
-  const Vec3 amounts = primaries.inverse() * XyzOf(kWhite, kWhite);
-  return primaries * amounts.asDiagonal();
-}
+constexpr double kWhite = 1.0 / 3;  // the chromaticity of equal energy
 
 // The lines that set a colour and how much of it there is.
 std::string Amount(const char* keyword, const Rgb& rgb) {
@@ -48,16 +33,11 @@ class MgfWriter final : public SceneWriter {
 
 }  // namespace
 
-Vec3 MgfXyz(const Rgb& rgb) {
-  static const Eigen::Matrix3d matrix = RgbToXyz();
-  return matrix * rgb.matrix();
-}
-
 std::string MgfText(const Scene& scene) {
   std::string text = fmt::format("# {}: lengths in metres, emittance in W/m^2\n", Word(scene.name));
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const Material& material = scene.materials[m];
-    text += fmt::format("m m{} =  # {}\n  sides 1\n", m, Word(material.name)) +
+    text += fmt::format("# {}\nm m{} =\n  sides 1\n", Word(material.name), m) +
             Amount("rd", material.reflectance);
     if ((material.emittance > 0).any()) text += Amount("ed", material.emittance);
   }

@@ -15,9 +15,6 @@ namespace penumbra {
 // primaries of MGF's own conversion, so that readers that convert back get the same three numbers.
 std::string MgfText(const Scene& scene);
 
-// CIE XYZ of a colour, computed with the primaries of MGF's conversion.
-Vec3 MgfXyz(const Rgb& rgb);
-
 SceneWriterRegistry::Method MgfWriterMethod();
 
 }  // namespace penumbra

@@ -5,14 +5,16 @@
 #include "solver/base/file_endings.h"
 #include "solver/scene/assimp_reader.h"
 #include "solver/scene/builtin_scenes.h"
+#include "solver/scene/mgf_reader.h"
 #include "solver/scene/obj_reader.h"
 #include "solver/scene/ply_reader.h"
 
 namespace penumbra {
 
 SceneReaderRegistry& SceneReaders() {
-  static SceneReaderRegistry registry("scene reader", {ObjReaderMethod(), AssimpReaderMethod(),
-                                                       PlyReaderMethod(), BuiltinSceneReaderMethod()});
+  static SceneReaderRegistry registry(
+      "scene reader", {ObjReaderMethod(), AssimpReaderMethod(), PlyReaderMethod(), MgfReaderMethod(),
+                       BuiltinSceneReaderMethod()});
   return registry;
 }
 

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "solver/scene/builtin_scenes.h"
+#include "solver/scene/mgf_colour.h"
 #include "solver/scene/mgf_writer.h"
 #include "solver/scene/obj_reader.h"
 #include "solver/scene/obj_writer.h"
