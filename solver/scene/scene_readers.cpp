@@ -8,13 +8,14 @@
 #include "solver/scene/mgf_reader.h"
 #include "solver/scene/obj_reader.h"
 #include "solver/scene/ply_reader.h"
+#include "solver/scene/rad_reader.h"
 
 namespace penumbra {
 
 SceneReaderRegistry& SceneReaders() {
   static SceneReaderRegistry registry(
       "scene reader", {ObjReaderMethod(), AssimpReaderMethod(), PlyReaderMethod(), MgfReaderMethod(),
-                       BuiltinSceneReaderMethod()});
+                       RadReaderMethod(), BuiltinSceneReaderMethod()});
   return registry;
 }
 
