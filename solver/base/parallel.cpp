@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <stdexcept>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "solver/base/check.h"
@@ -49,11 +52,56 @@ void RunChunks(std::size_t chunks, int threads, const std::function<void(std::si
   if (error) std::rethrow_exception(error);
 }
 #else
+// Arenas of oneTBB that no loop uses at present, by their number of threads. Each loop has an arena to itself
+// while it runs. Arenas are kept, because making and ending one takes longer than a short loop, and because
+// oneTBB 2021.8 gives some kilobytes for each arena back only when a worker happens to come by: in a process
+// that solves again and again memory grew.
+class IdleArenas {
+ public:
+  std::unique_ptr<tbb::task_arena> Take(int threads) {
+    const std::lock_guard lock(mutex_);
+    std::vector<std::unique_ptr<tbb::task_arena> >& idle = idle_[threads];
+    if (idle.empty()) return std::make_unique<tbb::task_arena>(threads);
+    std::unique_ptr<tbb::task_arena> arena = std::move(idle.back());
+    idle.pop_back();
+    return arena;
+  }
+  void GiveBack(int threads, std::unique_ptr<tbb::task_arena> arena) {
+    const std::lock_guard lock(mutex_);
+    idle_[threads].push_back(std::move(arena));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<int, std::vector<std::unique_ptr<tbb::task_arena> > > idle_;
+};
+
+// An arena for the time of a loop.
+class LeasedArena {
+ public:
+  explicit LeasedArena(int threads) : threads_(threads), arena_(Idle().Take(threads)) {}
+  ~LeasedArena() { Idle().GiveBack(threads_, std::move(arena_)); }
+  LeasedArena(const LeasedArena&) = delete;
+  LeasedArena& operator=(const LeasedArena&) = delete;
+
+  tbb::task_arena* operator->() const { return arena_.get(); }
+
+ private:
+  // Never destroyed: threads may still run loops when the process ends.
+  static IdleArenas& Idle() {
+    static IdleArenas& idle = *new IdleArenas;
+    return idle;
+  }
+
+  int threads_;
+  std::unique_ptr<tbb::task_arena> arena_;
+};
+
 void RunChunks(std::size_t chunks, int threads, const std::function<void(std::size_t)>& run) {
   // More threads than processors bring nothing, and oneTBB complains of them.
-  tbb::task_arena arena(std::min(threads, HardwareThreads()));
+  const LeasedArena arena(std::min(threads, HardwareThreads()));
   try {
-    arena.execute([&] {
+    arena->execute([&] {
       tbb::parallel_for(
           tbb::blocked_range<std::size_t>(0, chunks, 1),
           [&](const tbb::blocked_range<std::size_t>& range) {
