@@ -108,25 +108,30 @@ SolveRun::SolveRun(const SceneArguments& arguments, LoadedScene& loaded,
   if (!note.empty()) Say(note);
 }
 
+void RunStages(const RunPlan& plan, Pipeline* pipeline, const ExecutionContext& context) {
+  if (plan.restarts)
+    pipeline->SolveOverLinks(context);
+  else if (!plan.stored)
+    pipeline->Solve(context);
+  if (!plan.stored && !context.Cancelled()) pipeline->RefineLight(context);
+  // What the light errs by is seen from interpolants, whatever is shown.
+  const bool glances =
+      !plan.stored && !plan.measure && (pipeline->RefinesLight() || plan.kind == MeshKind::kInterpolant);
+  if (glances && !context.Cancelled()) pipeline->BuildMesh(MeshKind::kInterpolant, context);
+  if (glances && !context.Cancelled()) pipeline->CheckErrorRoughly(context);
+  // Where a limit has ended that, asking for the same once more would change nothing.
+  const bool is_made = glances && plan.kind == MeshKind::kInterpolant;
+  if (!context.Cancelled() && plan.kind && !is_made) pipeline->BuildMesh(*plan.kind, context);
+  if (context.Cancelled() || !plan.kind || !plan.measure) return;
+  if (plan.stored)
+    pipeline->Diagnose();  // its error was measured when it was solved
+  else
+    pipeline->Measure(context);
+}
+
 void SolveRun::Run(std::optional<MeshKind> kind, bool measure) {
   RunInterruptible([&](const ExecutionContext& context) {
-    if (restarts_)
-      pipeline_.SolveOverLinks(context);
-    else if (!stored_)
-      pipeline_.Solve(context);
-    if (!stored_ && !context.Cancelled()) pipeline_.RefineLight(context);
-    // What the light errs by is seen from interpolants, whatever is shown.
-    const bool glances = !stored_ && !measure && (pipeline_.RefinesLight() || kind == MeshKind::kInterpolant);
-    if (glances && !context.Cancelled()) pipeline_.BuildMesh(MeshKind::kInterpolant, context);
-    if (glances && !context.Cancelled()) pipeline_.CheckErrorRoughly(context);
-    // Where a limit has ended that, asking for the same once more would change nothing.
-    const bool is_made = glances && kind == MeshKind::kInterpolant;
-    if (!context.Cancelled() && kind && !is_made) pipeline_.BuildMesh(*kind, context);
-    if (context.Cancelled() || !kind || !measure) return;
-    if (stored_)
-      pipeline_.Diagnose();  // its error was measured when it was solved
-    else
-      pipeline_.Measure(context);
+    RunStages({kind, measure, stored_, restarts_}, &pipeline_, context);
   });
 }
 

@@ -10,6 +10,7 @@
 #include "apps/report.h"
 #include "apps/scene_arguments.h"
 #include "mesh/pipeline/pipeline.h"
+#include "solver/base/progress.h"
 
 namespace penumbra {
 
@@ -25,6 +26,18 @@ std::string SolutionFileOf(const Pipeline& pipeline, const nlohmann::ordered_jso
 // One sentence that says that the requested error is exceeded, and why; empty if no measurement shows that
 // the error is exceeded.
 std::string MissedErrorMessage(const PipelineReport& report);
+
+// What RunStages() makes.
+struct RunPlan {
+  std::optional<MeshKind> kind;  // of the mesh; none: no mesh
+  bool measure = false;          // the error and the energy balance, too
+  bool stored = false;           // the pipeline continues from a solution that is complete
+  bool restarts = false;         // the pipeline continues from a solution of other materials
+};
+
+// Solves the scene of the pipeline, refines its light, and makes the mesh, in the order that every command
+// and the Python module follow. Ends early if cancelled.
+void RunStages(const RunPlan& plan, Pipeline* pipeline, const ExecutionContext& context);
 
 // Runs the pipeline for a command: prints options, shows progress, handles interrupts, and writes the report.
 class SolveRun {
