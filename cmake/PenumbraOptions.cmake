@@ -3,6 +3,7 @@
 option(PENUMBRA_TESTS "Build the tests" ON)
 option(PENUMBRA_EXAMPLES "Build the examples" ON)
 option(PENUMBRA_EXPERIMENTS "Build the benchmarks and studies" ON)
+option(PENUMBRA_PYTHON "Build the Python module, where pybind11 and the headers of Python are" ON)
 option(PENUMBRA_WERROR "Let no warning pass" OFF)
 option(PENUMBRA_CHECKS "Keep the internal checks (PENUMBRA_DCHECK) alive" OFF)
 set(PENUMBRA_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,undefined or thread")

@@ -11,7 +11,7 @@ set(LAYERS solver/base solver/geometry solver/scene
   solver/transport/links solver/transport/form_factors solver/transport/sources solver/transport/points solver/transport/solvers
   mesh/discontinuities mesh/triangulation mesh/interpolants mesh/refinement mesh/pipeline
   display apps)
-set(OUTSIDE tests experiments examples)  # may include every layer; no layer may include them
+set(OUTSIDE tests experiments examples python)  # may include every layer; no layer may include them
 set(HEAVY "^(CGAL|assimp|embree[0-9]*|tbb|oneapi|EGL|GL|GLFW|OpenEXR|stb)/|^Imf|^imgui|^stb_|^hdf5|^H5")
 
 set(DISPLAY_ONLY "^glm/")  # solver and mesh have Eigen's vectors

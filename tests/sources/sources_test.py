@@ -12,7 +12,7 @@ import sys
 
 from cpp_outline import Outline, tokens_of
 
-FOLDERS = ["solver", "mesh", "display", "apps", "experiments", "tests", "examples"]
+FOLDERS = ["solver", "mesh", "display", "apps", "experiments", "tests", "examples", "python"]
 MOST_LINES, MOST_PARAMETERS = 60, 6
 
 # What is compiled together: a folder with those in it that have no target of their own. A program of tests/fuzz is one file.
