@@ -95,6 +95,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
                 path = os.path.join(where, one)
                 with open(path, "rb") as file:
                     files[os.path.relpath(path, folder)] = file.read()
+        if not any(path.endswith(".so") for path in files):
+            raise SystemExit("CMake installed no module of the Python package")
         _write_wheel(os.path.join(wheel_directory, name), files)
     return name
 
