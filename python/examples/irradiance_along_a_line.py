@@ -9,7 +9,7 @@ import penumbra
 # A floor of 4 m x 4 m, a lamp of 1 m x 1 m that shines down from 2 m, and a board that hides a part of it.
 vertices = [[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0], [-.5, -.5, 2], [-.5, .5, 2], [.5, .5, 2], [.5, -.5, 2],
             [0, -1, 1], [1, -1, 1], [1, 1, 1], [0, 1, 1]]
-faces = [[0, 1, 2, 3], [4, 5, 6, 7], [8, 9, 10, 11]]
+faces = [[0, 1, 2, 3], [4, 5, 6, 7], [11, 10, 9, 8]]  # the front of the board looks down, too
 scene = penumbra.Scene(vertices, faces, reflectance=0.5, emittance=[[0], [100], [0]])
 solution = penumbra.solve(scene, error=0.02)
 x = np.linspace(-2, 2, 401)
