@@ -66,6 +66,18 @@ const std::map<std::string, std::string>& GivenToSampled() {
   return given;
 }
 
+const std::map<std::string, std::string>& GivenToProgressive() {
+  static const std::map<std::string, std::string> given = {{"solver", "progressive"},
+                                                           {"form-factors", "hemicube"},
+                                                           {"resolution", "20"},
+                                                           {"divisions", "2"},
+                                                           {"shots", "9"},
+                                                           {"overshoot", ""},
+                                                           {"ambient", ""},
+                                                           {"error-points", "20"}};
+  return given;
+}
+
 // Solves with these options, and expects each in the report, in the file, and in the report of the file.
 void ExpectRoundTrip(const std::map<std::string, std::string>& given) {
   const Sandbox sandbox;
@@ -100,11 +112,12 @@ void ExpectRoundTrip(const std::map<std::string, std::string>& given) {
 TEST(Options, EveryOneIsReportedAndKept) {
   for (const SolveOption& option : OptionTable())
     EXPECT_TRUE(Given().contains(option.name) || GivenToDense().contains(option.name) ||
-                GivenToSampled().contains(option.name))
+                GivenToSampled().contains(option.name) || GivenToProgressive().contains(option.name))
         << option.name;
   ExpectRoundTrip(Given());
   ExpectRoundTrip(GivenToDense());
   ExpectRoundTrip(GivenToSampled());
+  ExpectRoundTrip(GivenToProgressive());
 }
 
 // The lines of help about an option, with what stands behind its name.
