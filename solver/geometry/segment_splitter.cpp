@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "solver/base/size.h"
+#include "solver/geometry/nearby_segments.h"
 #include "solver/geometry/orientation.h"
 
 namespace penumbra {
@@ -51,6 +52,21 @@ double Along(const Vec2& a, const Vec2& b, const Vec2& p) {
   const Vec2 ab = b - a;
   const int axis = std::abs(ab.x()) >= std::abs(ab.y()) ? 0 : 1;
   return ab[axis] >= 0 ? p[axis] : -p[axis];
+}
+
+// Whether boxes meet so many boxes of the tree that to look at all of them would take time by the square of
+// their number: those of long slanted segments do. `box_of` returns the boxes 0 to count - 1.
+template <class BoxOf>
+bool IsCrowded(const BoxTree& tree, std::int32_t count, const BoxOf& box_of) {
+  constexpr std::int32_t kAsked = 32;  // boxes, spread over all
+  constexpr std::size_t kCrowd = 256;  // boxes that each may meet
+  std::vector<std::int32_t> found;
+  std::size_t met = 0, asked = 0;
+  for (std::int32_t i = 0; i < count; i += std::max(1, count / kAsked), ++asked) {
+    tree.Find(box_of(i), found);
+    met += found.size();
+  }
+  return met > kCrowd * asked;
 }
 
 }  // namespace
@@ -129,6 +145,21 @@ void SegmentSplitter::CutAtVerticesOfMany() {
       boxes_.push_back({(*vertices_)[v], (*vertices_)[v]});
     }
   tree_.Build(boxes_);
+  if (IsCrowded(tree_, Size(*pieces_), [&](std::int32_t i) { return BoxOf((*pieces_)[i], snap_); })) {
+    const std::int32_t first_vertex = Size(*pieces_);
+    std::vector<PlaneSegment> segments;
+    for (const SegmentPiece& piece : *pieces_)
+      segments.push_back({(*vertices_)[piece.from], (*vertices_)[piece.to]});
+    for (const std::int32_t v : order_) segments.push_back({(*vertices_)[v], (*vertices_)[v]});
+    if (const auto pairs = FindNearbyPairs(segments, std::max(snap_, rounding_))) {
+      for (const auto& [i, k] : *pairs) {
+        if (i >= first_vertex || k < first_vertex) continue;
+        const std::int32_t v = order_[k - first_vertex];
+        if ((fresh_[i] || v >= fresh_vertex_) && Splits((*pieces_)[i], v)) Cut(i, v);
+      }
+      return;
+    }
+  }
   for (std::int32_t i = 0; i < Size(*pieces_); ++i) {
     const SegmentPiece& piece = (*pieces_)[i];
     tree_.Find(BoxOf(piece, snap_), found_);
@@ -193,6 +224,17 @@ void SegmentSplitter::CutAtCrossingsOfMany() {
   boxes_.clear();
   for (const std::int32_t i : order_) boxes_.push_back(BoxOf((*pieces_)[i], 0));
   tree_.Build(boxes_);
+  if (IsCrowded(tree_, Size(boxes_), [&](std::int32_t k) { return boxes_[k]; })) {
+    std::vector<PlaneSegment> segments;
+    for (const std::int32_t i : order_)
+      segments.push_back({(*vertices_)[(*pieces_)[i].from], (*vertices_)[(*pieces_)[i].to]});
+    if (const auto pairs = FindNearbyPairs(segments, 0)) {
+      for (const auto& [k, l] : *pairs)
+        if (fresh_[order_[k]] || fresh_[order_[l]])
+          CutCrossing(std::min(order_[k], order_[l]), std::max(order_[k], order_[l]));
+      return;
+    }
+  }
   for (std::int32_t k = 0; k < Size(order_); ++k) {
     tree_.Find(boxes_[k], found_);
     std::sort(found_.begin(), found_.end());

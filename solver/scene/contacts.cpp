@@ -129,41 +129,86 @@ class ContactFinder {
   std::vector<Contact> found_;
 };
 
+struct ReachBox {
+  Vec3 low, high;
+
+  void Add(const ReachBox& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+  }
+  bool Meets(const ReachBox& other) const {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
+};
+
+// Patches that are pieces of one flat face: none of them stands on another. Of a star of many spikes, each
+// piece's box meets those of very many others.
+struct FlatSheet {
+  std::vector<PatchId> patches;
+  ReachBox box;
+};
+
+// Whether the patch is a piece of the same flat face as another one.
+bool IsPieceOf(const Patch& first, const Patch& patch, double diagonal) {
+  // Within what a flat face's vertices deviate by, relative to the scene; and the sine of the angle by which
+  // this turns the narrowest pieces that matter.
+  constexpr double kFlat = 1e-6, kTurned = 1e-3;
+  if (first.faces != patch.faces || first.normal.dot(patch.normal) <= 0) return false;
+  if (first.normal.cross(patch.normal).norm() > kTurned) return false;
+  for (const Vec3& v : patch.Vertices())
+    if (std::abs(first.normal.dot(v - first.vertex[0])) > kFlat * diagonal) return false;
+  return true;
+}
+
+std::vector<FlatSheet> SheetsOf(const Scene& scene) {
+  const double diagonal = scene.Diagonal();
+  std::vector<FlatSheet> sheets;
+  for (PatchId p = 0; p < Size(scene.patches); ++p) {
+    // The pieces of a face follow each other.
+    if (p == 0 || !IsPieceOf(scene.patches[sheets.back().patches[0]], scene.patches[p], diagonal))
+      sheets.emplace_back();
+    sheets.back().patches.push_back(p);
+  }
+  return sheets;
+}
+
 }  // namespace
 
 std::vector<Contact> FindContacts(const Scene& scene, PatchId receiver) {
   return ContactFinder(scene, receiver, ContactGap(scene)).Find();
 }
 
-// Sweeps along x for pairs of patches whose boxes meet.
+// Sweeps along x for pairs of sheets whose boxes meet.
 ContactSearch::ContactSearch(const Scene& scene)
     : scene_(scene), gap_(ContactGap(scene)), near_(scene.patches.size()) {
-  struct Box {
-    Vec3 low, high;
-    PatchId patch;
-  };
-  std::vector<Box> boxes;
+  std::vector<ReachBox> boxes;
   for (PatchId p = 0; p < Size(scene.patches); ++p) {
     const auto vertices = scene.patches[p].Vertices();
-    Box box{vertices[0], vertices[0], p};
-    for (const Vec3& v : vertices) {
-      box.low = box.low.cwiseMin(v);
-      box.high = box.high.cwiseMax(v);
-    }
+    ReachBox box{vertices[0], vertices[0]};
+    for (const Vec3& v : vertices) box.Add({v, v});
     const double reach = gap_ + kMaxHangingHeight * Diameter(vertices);
     box.low.array() -= reach;
     box.high.array() += reach;
     boxes.push_back(box);
   }
-  std::stable_sort(boxes.begin(), boxes.end(),
-                   [](const Box& p, const Box& q) { return p.low.x() < q.low.x(); });
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].low.x() <= boxes[i].high.x(); ++j) {
-      const Box &p = boxes[i], &q = boxes[j];
-      if (p.low.y() > q.high.y() || q.low.y() > p.high.y()) continue;
-      if (p.low.z() > q.high.z() || q.low.z() > p.high.z()) continue;
-      near_[p.patch].push_back(q.patch);
-      near_[q.patch].push_back(p.patch);
+  std::vector<FlatSheet> sheets = SheetsOf(scene);
+  for (FlatSheet& sheet : sheets) {
+    sheet.box = boxes[sheet.patches[0]];
+    for (const PatchId p : sheet.patches) sheet.box.Add(boxes[p]);
+  }
+  std::stable_sort(sheets.begin(), sheets.end(),
+                   [](const FlatSheet& p, const FlatSheet& q) { return p.box.low.x() < q.box.low.x(); });
+  for (std::size_t i = 0; i < sheets.size(); ++i)
+    for (std::size_t j = i + 1; j < sheets.size() && sheets[j].box.low.x() <= sheets[i].box.high.x(); ++j) {
+      if (!sheets[i].box.Meets(sheets[j].box)) continue;
+      for (const PatchId p : sheets[i].patches) {
+        if (!boxes[p].Meets(sheets[j].box)) continue;
+        for (const PatchId q : sheets[j].patches) {
+          if (!boxes[p].Meets(boxes[q])) continue;
+          near_[p].push_back(q);
+          near_[q].push_back(p);
+        }
+      }
     }
   for (std::vector<PatchId>& near : near_) std::sort(near.begin(), near.end());
 }

@@ -9,6 +9,7 @@
 
 #include "solver/geometry/box_tree.h"
 #include "solver/geometry/constrained_triangulation.h"
+#include "solver/geometry/nearby_segments.h"
 #include "solver/geometry/orientation.h"
 #include "solver/geometry/plane_projection.h"
 
@@ -110,10 +111,12 @@ bool SurelyCrosses(const std::vector<Vec2>& outline, double rounding) {
   if (outline.size() < kLarge) return false;
   const auto size = static_cast<std::int32_t>(outline.size());
   std::vector<PlaneBox> boxes;
+  std::vector<PlaneSegment> edges;
   PlaneBox all{outline[0], outline[0]};
   for (std::int32_t i = 0; i < size; ++i) {
     const Vec2 &a = outline[i], &b = outline[(i + 1) % size];
     boxes.push_back({a.cwiseMin(b), a.cwiseMax(b)});
+    edges.push_back({a, b});
     all.low = all.low.cwiseMin(a);
     all.high = all.high.cwiseMax(a);
   }
@@ -121,20 +124,23 @@ bool SurelyCrosses(const std::vector<Vec2>& outline, double rounding) {
   const auto apart = [&](const Vec2& a, const Vec2& b, const Vec2& p) {
     return std::abs(Cross2(b - a, p - a)) > near * (b - a).norm();
   };
+  const auto cross = [&](std::int32_t i, std::int32_t j) {
+    const Vec2 &a = outline[i], &b = outline[(i + 1) % size], &c = outline[j], &d = outline[(j + 1) % size];
+    return Orientation(a, b, c) * Orientation(a, b, d) < 0 &&
+           Orientation(c, d, a) * Orientation(c, d, b) < 0 && apart(a, b, c) && apart(a, b, d) &&
+           apart(c, d, a) && apart(c, d, b);
+  };
+  if (const auto pairs = FindNearbyPairs(edges, 0))
+    return std::any_of(pairs->begin(), pairs->end(),
+                       [&](const auto& pair) { return cross(pair.first, pair.second); });
+  // Where very many edges meet, some cross, and the first of them are found soon.
   BoxTree tree;
   tree.Build(boxes);
   std::vector<std::int32_t> found;
   for (std::int32_t i = 0; i < size; ++i) {
-    const Vec2 &a = outline[i], &b = outline[(i + 1) % size];
     tree.Find(boxes[i], found);
-    for (const std::int32_t j : found) {
-      if (j <= i) continue;
-      const Vec2 &c = outline[j], &d = outline[(j + 1) % size];
-      if (Orientation(a, b, c) * Orientation(a, b, d) < 0 &&
-          Orientation(c, d, a) * Orientation(c, d, b) < 0 && apart(a, b, c) && apart(a, b, d) &&
-          apart(c, d, a) && apart(c, d, b))
-        return true;
-    }
+    for (const std::int32_t j : found)
+      if (j > i && cross(i, j)) return true;
   }
   return false;
 }
