@@ -180,16 +180,16 @@ class PatchCutter {
   bool Split(const Polygon3& piece, std::span<const Vec2> flat, const Stretch& line, Polygon3& left,
              Polygon3& right) const {
     std::vector<double> height;
-    double lowest = 0, highest = 0, first = INFINITY, last = -INFINITY;
+    double lowest = 0, highest = 0;
     for (const Vec2& p : flat) {
       const double h = line.HeightOf(p);
       height.push_back(std::abs(h) <= snap_ ? 0 : h);
       lowest = std::min(lowest, h);
       highest = std::max(highest, h);
-      first = std::min(first, line.PlaceOf(p));
-      last = std::max(last, line.PlaceOf(p));
     }
-    if (std::min(highest, -lowest) <= std::max(snap_, kLeastWidth * (last - first))) return false;
+    Stretch cut{line.from, line.along, -INFINITY, INFINITY};
+    ClipTo(flat, cut);
+    if (std::min(highest, -lowest) <= std::max(snap_, kLeastWidth * (cut.high - cut.low))) return false;
     for (std::size_t k = 0; k < piece.size(); ++k) {
       const std::size_t next = (k + 1) % piece.size();
       if (height[k] >= 0) left.push_back(piece[k]);
