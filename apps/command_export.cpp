@@ -9,6 +9,7 @@
 
 #include "apps/camera_arguments.h"
 #include "apps/commands.h"
+#include "apps/dim_option.h"
 #include "apps/export_file.h"
 #include "apps/option_values.h"
 #include "apps/options_used.h"
@@ -91,6 +92,7 @@ Command AddExportCommand(CLI::App& program) {
             fmt::format("Brightness of the colours in {}, 0 to 1, per W/m^2 (default: metered from the mesh)",
                         EndingsWithColours()));
   AddCameraOptions(*app, &arguments->camera, &arguments->scene.reading.up);
+  AddDimOption(*app, &arguments->scene);
   AddSolveOptions(*app, &arguments->scene);
   AddRestartOption(*app, &arguments->scene);
   AddReportOption(*app, &arguments->scene);

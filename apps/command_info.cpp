@@ -53,7 +53,7 @@ Json ToJson(const Eigen::Ref<const Vec3>& v) { return {v.x(), v.y(), v.z()}; }
 Json SolutionJson(const StoredSolve& stored) {
   const PipelineState& state = stored.state;
   return {{"version", stored.version},
-          {"schema", kSolutionSchema},
+          {"schema", stored.schema},
           {"tables",
            {{"visible_pairs", state.visibility.rows().pairs.size()},
             {"elements", state.solution.forest.size()},
@@ -61,7 +61,8 @@ Json SolutionJson(const StoredSolve& stored) {
             {"link_blockers", state.solution.links.blockers.size()},
             {"fragments", state.solution.fragments.size()},
             {"mesh_positions", state.mesh.positions.size()},
-            {"mesh_triangles", state.mesh.triangles.size()}}},
+            {"mesh_triangles", state.mesh.triangles.size()},
+            {"emitters", state.emitters.size()}}},
           {"triangles", TriangleQualityJson(state.report.quality)},
           {"options", stored.options},
           {"report", Json::parse(LastingReportJson(state.report))}};
@@ -176,7 +177,7 @@ std::string InfoText(const LoadedScene& loaded, const SceneSummary& summary) {
   add("warnings", fmt::format("{}", scene.warnings.size()));
   if (loaded.stored) {
     const Json solution = SolutionJson(*loaded.stored);
-    add("solved by", fmt::format("penumbra {}, schema {}", loaded.stored->version, kSolutionSchema));
+    add("solved by", fmt::format("penumbra {}, schema {}", loaded.stored->version, loaded.stored->schema));
     for (const auto& [name, rows] : solution["tables"].items())
       add(name == "visible_pairs" ? "tables" : "", fmt::format("{} {}", name, rows.get<std::size_t>()));
     const PipelineReport& report = loaded.stored->state.report;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/dim_option.h"
 #include "apps/interruptible.h"
 #include "apps/messages.h"
 #include "apps/option_values.h"
@@ -150,6 +151,7 @@ Command AddProbeCommand(CLI::App& program) {
       ->check(CLI::IsMember(methods))
       ->type_name("METHOD")
       ->capture_default_str();
+  AddDimOption(*app, &arguments->scene);
   AddSolveOptions(*app, &arguments->scene);
   AddRestartOption(*app, &arguments->scene)->excludes(direct);
   AddReportOption(*app, &arguments->scene)->excludes(direct);

@@ -11,6 +11,7 @@
 
 #include "apps/benchmark.h"
 #include "apps/commands.h"
+#include "apps/dim_option.h"
 #include "apps/interruptible.h"
 #include "apps/output.h"
 #include "apps/render_arguments.h"
@@ -195,6 +196,7 @@ Command AddRenderCommand(CLI::App& program) {
   AddSceneArguments(*app, &arguments->scene);
   AddPictureOptions(*app, arguments.get());
   AddCameraOptions(*app, &arguments->camera, &arguments->scene.reading.up);
+  AddDimOption(*app, &arguments->scene);
   AddSolveOptions(*app, &arguments->scene);
   AddPictureStudies(*app, arguments.get());
   AddRestartOption(*app, &arguments->scene);

@@ -13,6 +13,7 @@
 
 #include "apps/camera_arguments.h"
 #include "apps/commands.h"
+#include "apps/dim_option.h"
 #include "apps/export_file.h"
 #include "apps/load_scene.h"
 #include "apps/material_change.h"
@@ -92,6 +93,7 @@ class ViewedScene {
     other.scene = name;
     other.emittance.clear();
     other.reflectance.clear();
+    other.dims.clear();
     other.restart.reset();
     LoadedScene loaded = LoadScene(other);
     {
@@ -341,6 +343,7 @@ Command AddViewCommand(CLI::App& program) {
          "Print the actions, options and menus that scripts know, and exit")
       ->group("Window");
   AddCameraOptions(*app, &arguments->camera, &arguments->scene.reading.up);
+  AddDimOption(*app, &arguments->scene);
   AddSolveOptions(*app, &arguments->scene);
   AddRestartOption(*app, &arguments->scene);
   app->footer(std::string(viewer::kScriptHelp) +

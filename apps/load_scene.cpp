@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/dim_option.h"
 #include "apps/messages.h"
 #include "apps/option_checks.h"
 #include "apps/options_used.h"
@@ -76,6 +77,7 @@ Scene ReadChangedScene(const SceneArguments& arguments) {
   };
   options.before_library = [&](const std::string& path) { arguments.outputs.RefuseInput(path); };
   Scene scene = ReadNamedScene(arguments.scene, options);
+  DimScene(arguments.dims, scene);
   for (const std::string& warning : SceneWarnings(scene, arguments.lit))
     scene.warnings.push_back(fmt::format("{}: warning: {}", arguments.scene, warning));
   return scene;
@@ -97,6 +99,7 @@ LoadedScene LoadSolution(const std::string& path) {
   StoredSolve& stored = loaded.stored.emplace();
   stored.state = std::move(solution.state);
   stored.version = std::move(solution.version);
+  stored.schema = solution.schema;
   try {
     stored.options = nlohmann::ordered_json::parse(solution.options);
     stored.solving = SolvingFrom(stored.options);
@@ -131,8 +134,13 @@ LoadedScene LoadWithoutWarnings(const SceneArguments& arguments) {
   if (is_solution) RefuseSceneOptions(arguments);
   LoadedScene loaded = is_solution ? LoadSolution(arguments.scene)
                                    : LoadedScene{std::make_unique<const Scene>(ReadChangedScene(arguments))};
-  loaded.seconds = reading.Seconds();
   if (!is_solution) CheckDistances(arguments, loaded.scene);
+  if (is_solution && !arguments.dims.empty()) {
+    LoadedScene dimmed = DimSolution(arguments, std::move(loaded));
+    dimmed.seconds = reading.Seconds();
+    return dimmed;
+  }
+  loaded.seconds = reading.Seconds();
   return loaded;
 }
 

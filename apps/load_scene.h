@@ -21,6 +21,7 @@ struct StoredSolve {
   PipelineOptions solving;         // the options of the solve
   nlohmann::ordered_json options;  // the same in the format of OptionsUsed(), without `threads`
   std::string version;             // of the program that wrote the file
+  int schema = 0;                  // of the file
 };
 
 struct LoadedScene {
@@ -33,9 +34,12 @@ struct LoadedScene {
   std::optional<StoredSolve> restart = std::nullopt;
 };
 
-// Sets the number of threads, and reads the scene, or the solution including its scene. Prints warnings about
-// the scene to standard error. Throws InputError if the file cannot be used. Throws UsageError if options of
-// reading or solving are given together with a solution.
+// Sets the number of threads, and reads the scene, or the solution including its scene. Multiplies the light
+// of emitters by the factors of --dim: a scene is read with other emittances, and a solution gets the sum of
+// the lights of its emitters. Throws UsageError if --dim names no emitter; throws InputError if a solution
+// does not keep the light of each emitter. Prints warnings about the scene to standard error. Throws
+// InputError if the file cannot be used. Throws UsageError if options of reading or solving are given
+// together with a solution.
 LoadedScene LoadScene(const SceneArguments& arguments);
 // LoadWithoutWarnings() does the same as LoadScene(), but prints no warnings; TellWarnings() prints them. Use
 // LoadWithoutWarnings() and TellWarnings() if the scene may still be rejected, so that only the error is

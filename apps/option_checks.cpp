@@ -25,6 +25,12 @@ void CheckOptions(const SceneArguments& arguments) {
     if (!IsObeyed(option, solving) && IsGiven(arguments, CommandLineName(option)))
       throw UsageError(fmt::format("{} is of {} and means nothing to --solver {}; leave one of them out",
                                    CommandLineName(option), OwnersOf(option), solving.SolverName()));
+  for (const char* other : {"--source-error", "--min-backprojection-segment"})
+    if (solving.by_emitter && IsGiven(arguments, other))
+      throw UsageError(fmt::format(
+          "--by-emitter needs the same sources and exact form factors for all emitters, and {} gives others; "
+          "leave one of them out",
+          other));
   if (IsGiven(arguments, "--source-error") && solving.max_corrections == 0)
     throw UsageError(
         "--source-error cuts sources for corrections, and --corrections 0 makes none; leave one out");

@@ -84,6 +84,8 @@ Json OptionsUsed(const SceneArguments& arguments, const ResolvedOptions* resolve
        {std::pair("emittance", &arguments.emittance), std::pair("reflectance", &arguments.reflectance)})
     for (const MaterialChange& change : *changes)
       options[name][change.material] = {change.value[0], change.value[1], change.value[2]};
+  for (const Dimming& dimming : arguments.dims)
+    options["dim"][dimming.name] = {dimming.factor[0], dimming.factor[1], dimming.factor[2]};
   options["threads"] = ThreadCount();
   for (const SolveOption& option : OptionTable())
     if (option.group == OptionGroup::kRunning)

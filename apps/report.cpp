@@ -137,15 +137,19 @@ Json ErrorJson(const PipelineReport& report) {
 }
 
 Json OutcomeJson(const PipelineReport& report) {
-  return {{"counts", CountsJson(report.counts)},
-          {"iterations", IterationsJson(report.iterations)},
-          {"energy",
-           {{"emitted", report.energy.emitted},
-            {"absorbed", report.energy.absorbed},
-            {"escaped", report.energy.escaped},
-            {"relative_imbalance", report.energy.relative_imbalance}}},
-          {"error", ErrorJson(report)},
-          {"unmet", report.unmet}};
+  const InteractionCounts& interactions = report.interactions;
+  return {
+      {"counts", CountsJson(report.counts)},
+      {"interactions",
+       {{"smooth", interactions.smooth}, {"sharp", interactions.sharp}, {"sampled", interactions.sampled}}},
+      {"iterations", IterationsJson(report.iterations)},
+      {"energy",
+       {{"emitted", report.energy.emitted},
+        {"absorbed", report.energy.absorbed},
+        {"escaped", report.energy.escaped},
+        {"relative_imbalance", report.energy.relative_imbalance}}},
+      {"error", ErrorJson(report)},
+      {"unmet", report.unmet}};
 }
 
 // The parts that err most, and the largest error; empty where nothing was measured.
@@ -215,6 +219,13 @@ PipelineReport PipelineReportFrom(const Json& lasting) {
   PipelineReport report;
   const Json& counts = lasting.at("counts");
   for (const auto& [name, count] : CountNames()) counts.at(name).get_to(report.counts.*count);
+  if (const auto interactions = lasting.find("interactions"); interactions != lasting.end()) {
+    interactions->at("smooth").get_to(report.interactions.smooth);
+    interactions->at("sharp").get_to(report.interactions.sharp);
+    interactions->at("sampled").get_to(report.interactions.sampled);
+  } else {  // of an older file
+    report.interactions = {report.counts.links_visible, report.counts.links_partial, 0};
+  }
   for (const Json& from : lasting.at("iterations")) {
     IterationReport& iteration = report.iterations.emplace_back();
     from.at("residual").get_to(iteration.residual);

@@ -15,6 +15,7 @@
 #include "apps/material_change.h"
 #include "apps/output.h"
 #include "mesh/pipeline/pipeline.h"
+#include "solver/scene/emitters.h"
 #include "solver/scene/scene_options.h"
 
 namespace penumbra {
@@ -25,6 +26,7 @@ struct SceneArguments {
   std::vector<std::string> scenes;  // of commands that take several, which work on one after the other
   SceneOptions reading;
   std::vector<MaterialChange> emittance, reflectance;
+  std::vector<Dimming> dims;  // factors on the light of emitters (AddDimOption)
   PipelineOptions solving;
   int threads = 0;  // 0: all processors
   bool verbose = false;

@@ -43,7 +43,12 @@ nlohmann::ordered_json StartOptions(const SceneArguments& arguments, const Loade
   // Whatever a solve may be told has to come back out of a file.
   SceneArguments told = arguments;
   told.solving = loaded.stored->solving;
-  PENUMBRA_DCHECK(LastingOptions(StoredOptions(options, told, pipeline.resolved())) == options);
+  told.dims.clear();
+  // An older file lacks options that came later.
+  PENUMBRA_DCHECK(loaded.stored->schema < kSolutionSchema ||
+                  LastingOptions(StoredOptions(options, told, pipeline.resolved())) == options);
+  for (const Dimming& dimming : arguments.dims)
+    options["dim"][dimming.name] = {dimming.factor[0], dimming.factor[1], dimming.factor[2]};
   options["solution"] = arguments.scene;
   options["threads"] = ThreadCount();
   return options;

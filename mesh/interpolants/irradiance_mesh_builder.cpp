@@ -197,8 +197,21 @@ class NodeValues {
     const double done_first = done_before + kFirstShare * (done_after - done_before);
     std::vector<PointIrradianceResult> sampled = sampling_.Evaluate(at, done_before, done_first);
     for (std::size_t i = 0; i < slots.size(); ++i) values_[slots[i]] = std::move(sampled[i]);
+    asked_.insert(asked_.end(), slots.begin(), slots.end());
     sampled = sampling_.Evaluate(SplitOneSided(kind), done_first, done_after);
+    for (std::size_t i = 0; i < sampled.size(); ++i) asked_.push_back(static_cast<Slot>(values_.size() + i));
     std::move(sampled.begin(), sampled.end(), std::back_inserter(values_));
+  }
+
+  // For each triangle, the numbers of its samples in the order in which they were evaluated. REQUIRES: all
+  // have been sampled.
+  std::vector<std::array<std::uint32_t, 6>> SampleNumbers() const {
+    std::vector<std::uint32_t> number(values_.size());
+    for (std::size_t i = 0; i < asked_.size(); ++i) number[asked_[i]] = static_cast<std::uint32_t>(i);
+    std::vector<std::array<std::uint32_t, 6>> numbers(nodes_.of_triangle.size());
+    for (std::size_t t = 0; t < numbers.size(); ++t)
+      for (std::size_t k = 0; k < 6; ++k) numbers[t][k] = number[nodes_.of_triangle[t][k]];
+    return numbers;
   }
 
   // Predicts midpoints where irradiance bends little (Interpolation::smooth), from the samples at vertices.
@@ -288,6 +301,7 @@ class NodeValues {
   Nodes nodes_;
   std::vector<PointIrradianceResult> values_;  // by slot
   std::vector<char> predicted_;                // by slot of the first triangles
+  std::vector<Slot> asked_;                    // the slots of all samples, in the order of their evaluation
 };
 
 }  // namespace
@@ -308,6 +322,8 @@ BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangula
   if (quadratic && how.smooth > 0) nodes.PredictMidpoints(how.smooth);
   if (quadratic) nodes.Sample(kMidpoints, kVerticesShare, 1);
   built.point_evaluations = sampling.evaluations();
+  if (quadratic && how.smooth <= 0 && !cache && !context.Cancelled())
+    built.sample_numbers = nodes.SampleNumbers();
 
   mesh.irradiance.resize(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -12,6 +12,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -45,6 +46,9 @@ struct BuiltMesh {
   IrradianceMesh mesh;
   std::size_t point_evaluations = 0;     // calls of the sampler, without the samples from the cache
   std::vector<std::uint32_t> predicted;  // the triangles with midpoints that were not sampled, ascending
+  // For each triangle, the numbers of its six samples, in the order in which the sampler was asked for them;
+  // empty if samples came from a cache, were predicted, or are those of a linear interpolant.
+  std::vector<std::array<std::uint32_t, 6>> sample_numbers;
 };
 
 // The mesh of all patches, with linear or quadratic interpolants. The order of patches and triangles is that

@@ -105,6 +105,28 @@ void AddErrors(Entries& table) {
                    .label = "Min area of an element"});
 }
 
+NamedValues<EmitterUnit> EmitterUnits() {
+  return {
+      {"face", EmitterUnit::kFace}, {"object", EmitterUnit::kObject}, {"material", EmitterUnit::kMaterial}};
+}
+
+void AddEmitters(Entries& table) {
+  table.push_back({.name = "by-emitter",
+                   .field = FlagField(&PipelineOptions::by_emitter),
+                   .help =
+                       "Keep the light of each emitter by itself in the solution, so that --dim scales it "
+                       "afterwards without a solve",
+                   .in_older_files = [](const PipelineOptions&) { return OptionValue(false); },
+                   .label = "Keep the light of each emitter"});
+  table.push_back({.name = "emitters",
+                   .field = ChoiceField(&PipelineOptions::emitter_unit, EmitterUnits()),
+                   .help =
+                       "What counts as one emitter for --by-emitter: a face, all emitting faces of an object "
+                       "or group, or all of a material; time and memory grow with their number",
+                   .in_older_files = [](const PipelineOptions&) { return OptionValue("face"); },
+                   .label = "What counts as one emitter"});
+}
+
 void AddChoiceOfDiscontinuities(Entries& table) {
   table.push_back(
       {.name = "discontinuities",
@@ -461,6 +483,7 @@ std::vector<SolveOption> OptionEntries() {
   AddSolvers(table);
   AddClassicSolvers(table);
   AddErrorPoints(table);
+  AddEmitters(table);
   TellOwners(table);
   return table;
 }

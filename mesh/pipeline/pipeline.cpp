@@ -11,6 +11,8 @@
 #include "mesh/interpolants/current_irradiance.h"
 #include "mesh/interpolants/mesh_locator.h"
 #include "mesh/pipeline/run_limits.h"
+#include "mesh/refinement/emitter_interpolants.h"
+#include "mesh/refinement/emitter_sources.h"
 #include "mesh/refinement/shown_mesh.h"
 #include "solver/base/check.h"
 #include "solver/base/stopwatch.h"
@@ -160,6 +162,7 @@ struct Pipeline::Impl {
   PipelineReport report;
   CurrentIrradiance irradiance;  // from the present solution
   ShownMesh shown;
+  std::vector<EmitterLight> emitters;  // of the present solution; without interpolants before BuildMesh()
 
   // A new solver, and the seconds that finding pairs and making the solver have taken.
   struct NewSolver {
@@ -179,9 +182,10 @@ struct Pipeline::Impl {
       made.pairs = seconds.Seconds();
       return visibility;
     };
-    made.solver =
-        LightSolvers().Make(resolved.solver_name, {scene, pairs, from},
-                            {resolved.solver, options.dense, resolved.sampled, resolved.uniform}, context);
+    DenseOptions dense = options.dense;
+    dense.keep_matrix = options.by_emitter;
+    made.solver = LightSolvers().Make(resolved.solver_name, {scene, pairs, from},
+                                      {resolved.solver, dense, resolved.sampled, resolved.uniform}, context);
     made.making = stopwatch.Seconds() - made.pairs;
     if (has_pairs || !made.solver) return made;
     const Stopwatch seconds;
@@ -231,11 +235,72 @@ struct Pipeline::Impl {
 
   // Null if cancelled.
   std::unique_ptr<const PointIrradiance> MakeIrradiance(const ExecutionContext& context) {
+    return MakeIrradiance(Solution(), context);
+  }
+  // From a solution with the same elements.
+  std::unique_ptr<const PointIrradiance> MakeIrradiance(const RadiositySolution& solution,
+                                                        const ExecutionContext& context) {
     const std::shared_ptr<const LeafVisibility> leaves = solver ? solver->SeenFromLeaves(context) : nullptr;
     if (solver && !leaves) return nullptr;
     PointIrradianceOptions how = options.point;
     if (solver) how.part_of_tolerance = solver->PartOfTolerance();
-    return std::make_unique<PointIrradiance>(Solution(), visibility, how, leaves);
+    return std::make_unique<PointIrradiance>(solution, visibility, how, leaves);
+  }
+
+  // True if the light of each emitter is to be found, and the options permit it: corrections that cut leaves
+  // would cut them differently for each emitter, and other occlusion methods give no rows.
+  bool Splits() const {
+    return options.by_emitter && solver && !options.source_error && !options.point.method &&
+           options.point.min_backprojection_segment <= 0;
+  }
+
+  // Finds the light of each emitter on the present sources, and makes their sum the whole light.
+  void SplitLight(const ExecutionContext& context) {
+    const std::vector<std::vector<PatchId>> all = EmittersOf(scene, options.emitter_unit);
+    if (!Splits() || !emitters.empty() || all.empty()) return;
+    const Stopwatch stopwatch;
+    const bool by_mesh = resolved.refine_light && solver->TakesLight();
+    std::optional<std::vector<EmitterLight>> lights;
+    if (!by_mesh)
+      lights = SolveByEmitter(*solver, all, nullptr, context);
+    else if (light_refined)
+      lights = shown.SplitLight(*solver, all, OptionsOf(MeshKind::kInterpolant), context);
+    if (lights) {
+      const EmitterLight sum = SumOf(*lights, std::vector<Rgb>(lights->size(), Rgb::Ones()));
+      solver->ReplaceLight(sum.element, sum.fragment);
+      emitters = std::move(*lights);
+      undivided.reset();
+      irradiance.Reset();
+    }
+    shown.TakeNewLight();
+    AddPhase("iterate", stopwatch.Seconds());
+  }
+
+  // Finds the interpolants of each emitter on the present mesh, and makes their sum the interpolants of the
+  // mesh.
+  void SplitInterpolants(const ExecutionContext& context) {
+    if (emitters.empty()) return;
+    const Stopwatch stopwatch;
+    const PointIrradiance* const exact = irradiance.Get(context);
+    const auto of_solution = [&](const RadiositySolution& alone) { return MakeIrradiance(alone, context); };
+    const std::size_t evaluations = exact ? InterpolateByEmitter({Solution(), shown.triangulations(), *exact,
+                                                                  of_solution, shown.EmitterTolerance()},
+                                                                 emitters, context)
+                                          : 0;
+    if (evaluations == 0)
+      emitters.clear();
+    else
+      shown.SetInterpolants(SumOf(emitters, std::vector<Rgb>(emitters.size(), Rgb::Ones())).interpolant);
+    report.counts.point_evaluations += evaluations;
+    AddPhase("interpolate", stopwatch.Seconds());
+  }
+
+  // Says why there is no light by emitter, if that was asked for.
+  void TellUnsplit() {
+    DropUnmet("emitters: ");
+    if (!options.by_emitter || !emitters.empty() || EmittersOf(scene, options.emitter_unit).empty()) return;
+    report.unmet.push_back(Splits() ? "emitters: the light of each is not kept: the work ended before it"
+                                    : "emitters: the light of each is not kept: other options exclude it");
   }
 
   void BeginLimits() { begun = options.limits_from.value_or(RunLimits::Clock::now()); }
@@ -363,6 +428,7 @@ struct Pipeline::Impl {
   void Forget() {
     irradiance.Reset();
     undivided.reset();
+    emitters.clear();
     shown.Forget();
     mesh_kind.reset();
     light_refined = false;
@@ -393,6 +459,9 @@ struct Pipeline::Impl {
     counts.links_visible = counts.links_partial = 0;
     for (const penumbra::Link& link : solution.links.links)
       ++(link.visibility == Visibility::kVisible ? counts.links_visible : counts.links_partial);
+    report.interactions = solver ? solver->report().interactions : InteractionCounts();
+    report.interactions.smooth += counts.links_visible;
+    report.interactions.sharp += counts.links_partial;
   }
 };
 
@@ -406,6 +475,7 @@ Pipeline::Pipeline(const Scene& scene, const PipelineOptions& options, PipelineS
   impl_->stored = std::move(state.solution);
   impl_->mesh_kind = state.mesh_kind;
   impl_->shown.Take(std::move(state.mesh));
+  impl_->emitters = std::move(state.emitters);
   impl_->locator = std::make_unique<MeshLocator>(scene, impl_->shown.mesh());
   impl_->report = std::move(state.report);
 }
@@ -519,6 +589,7 @@ void Pipeline::RefineLight(const ExecutionContext& context) {
   impl_->mesh_kind.reset();
   impl_->locator.reset();
   impl_->AddMeshPhases();
+  impl_->SplitLight(limits.context());
 }
 
 void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is) {
@@ -529,6 +600,8 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context, bool as
   // A mesh without irradiance at points is quick to make, so that limits do not apply.
   const bool flat = kind == MeshKind::kFlat;
   MeshKind made = kind;
+  const bool splits = impl_->Splits() && kind == MeshKind::kInterpolant && !as_it_is;
+  if (splits) impl_->SplitLight(limits.context());
   if (!impl_->MakeMesh(kind, flat ? context : limits.context(), as_it_is) && !flat && !context.Cancelled()) {
     made = MeshKind::kFlat;
     impl_->MakeMesh(made, context, as_it_is);
@@ -541,7 +614,6 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context, bool as
                                  : "before there were interpolants: leaves show their mean"));
   impl_->mesh_kind = context.Cancelled() ? std::nullopt : std::optional(made);
   impl_->mesh_unrefined = as_it_is;
-  impl_->locator = std::make_unique<MeshLocator>(impl_->scene, impl_->shown.mesh());
 
   impl_->AddMeshPhases();
   const MeshReport& report = impl_->shown.report();
@@ -553,6 +625,9 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context, bool as
   counts.interpolants = report.counts.interpolants;
   counts.point_evaluations = report.counts.point_evaluations;
   counts.sources_renewed = report.counts.sources_renewed;
+  if (splits && made == kind) impl_->SplitInterpolants(limits.context());
+  impl_->locator = std::make_unique<MeshLocator>(impl_->scene, impl_->shown.mesh());
+  if (kind == MeshKind::kInterpolant && !as_it_is && !impl_->stored) impl_->TellUnsplit();
   if (report.counts.refused_contacts > 0)
     impl_->report.unmet.push_back(
         fmt::format("discontinuities: {} contact edges left out, since a leaf would have more "
@@ -663,6 +738,10 @@ const PatchVisibility& Pipeline::visibility() const { return impl_->visibility; 
 const PointIrradiance& Pipeline::irradiance() const { return *impl_->irradiance.Get(); }
 const IrradianceMesh& Pipeline::mesh() const { return impl_->shown.mesh(); }
 std::optional<MeshKind> Pipeline::mesh_kind() const { return impl_->mesh_kind; }
+std::span<const EmitterLight> Pipeline::emitters() const {
+  const bool complete = !impl_->emitters.empty() && !impl_->emitters[0].interpolant.empty();
+  return complete ? std::span<const EmitterLight>(impl_->emitters) : std::span<const EmitterLight>();
+}
 std::span<const TriangleError> Pipeline::triangle_errors() const { return impl_->shown.triangle_errors(); }
 const PipelineReport& Pipeline::report() const { return impl_->report; }
 

@@ -20,7 +20,9 @@
 #include "mesh/interpolants/triangle_error.h"
 #include "mesh/interpolants/triangle_quality.h"
 #include "mesh/pipeline/discontinuity_list.h"
+#include "mesh/refinement/emitter_light.h"
 #include "solver/base/progress.h"
+#include "solver/scene/emitters.h"
 #include "solver/scene/scene.h"
 #include "solver/transport/links/solution.h"
 #include "solver/transport/points/point_irradiance.h"
@@ -85,6 +87,9 @@ struct PipelineOptions {
   PointIrradianceOptions point;     // Appendix A, 9 and 10
   std::size_t error_points = 1000;  // random points for the interpolants' error; 0: not measured
   std::uint64_t seed = 1;
+  // If true, the pipeline keeps the light of each emitter (Pipeline::emitters).
+  bool by_emitter = false;
+  EmitterUnit emitter_unit = EmitterUnit::kFace;  // what counts as one emitter
   // A name in LightSolvers(). If omitted, the solver depends on the scene (SolverFor); options of other
   // solvers than SolverName() are refused.
   std::optional<std::string> solver;
@@ -141,6 +146,7 @@ struct PipelineReport {
                 links_partial = 0, discontinuities = 0, dsets_active = 0, most_merged = 0, triangles = 0,
                 interpolants = 0, point_evaluations = 0, sources_renewed = 0;
   } counts;
+  InteractionCounts interactions;  // of the transport operator, links included
   std::vector<IterationReport> iterations;
   std::optional<SolverReport::Dense> dense;
   EnergyBalance energy;
@@ -168,6 +174,7 @@ struct PipelineState {
   MeshKind mesh_kind = MeshKind::kInterpolant;
   IrradianceMesh mesh;
   PipelineReport report;
+  std::vector<EmitterLight> emitters = {};  // Pipeline::emitters()
 };
 
 // Runs the stages and holds their results. The scene must outlive the pipeline.
@@ -230,10 +237,11 @@ class Pipeline {
   void RefineLight(const ExecutionContext& context);
 
   // Makes the stages "discontinuities", "triangulate" and "interpolate", as far as the kind of mesh needs
-  // them. BuildMesh() does not change the solution. A mesh of kind kInterpolant is also refined (RefineMesh)
-  // until it meets the requested error, unless the option `refine` is kTransport. If `as_it_is` is true, the
-  // mesh is not refined, so that the result of a single step can be inspected. BuildMesh() has no effect if
-  // the mesh exists already. REQUIRES: Link() or a step that calls it.
+  // them. BuildMesh() does not change the solution, except that, with PipelineOptions::by_emitter, the light
+  // becomes the sum of that of the emitters, which differs within the error. A mesh of kind kInterpolant is
+  // also refined (RefineMesh) until it meets the requested error, unless the option `refine` is kTransport.
+  // If `as_it_is` is true, the mesh is not refined, so that the result of a single step can be inspected.
+  // BuildMesh() has no effect if the mesh exists already. REQUIRES: Link() or a step that calls it.
   void BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is = false);
   // Restarts the limits of time and memory, as Solve() does at its beginning; for callers that make the steps
   // of Solve() themselves.
@@ -256,6 +264,10 @@ class Pipeline {
   const PointIrradiance& irradiance() const;  // exact, from the solution's leaves; valid until the next step
   const IrradianceMesh& mesh() const;         // REQUIRES: BuildMesh()
   std::optional<MeshKind> mesh_kind() const;  // of mesh(); nothing if it shows an earlier solution
+  // With PipelineOptions::by_emitter, the light of each emitter alone on the present solution and on its mesh
+  // of kind kInterpolant; their sum is the whole light. Empty before there is such a mesh, and if a limit of
+  // time or memory ended the work on it (PipelineReport::unmet).
+  std::span<const EmitterLight> emitters() const;
   // The errors of the mesh's triangles; zero for triangles that were not measured because their interpolants
   // agree with the neighbours. The list is empty if the mesh was not refined.
   std::span<const TriangleError> triangle_errors() const;

@@ -144,4 +144,29 @@ void CheckMesh(const Scene& scene, const IrradianceMesh& mesh) {
            "an interpolant is no number");
 }
 
+void CheckEmitters(const RadiositySolution& solution, const IrradianceMesh& mesh,
+                   std::span<const EmitterLight> emitters) {
+  const std::size_t patches = solution.forest.scene().patches.size();
+  std::vector<bool> taken(patches, false);
+  for (const EmitterLight& light : emitters) {
+    for (const PatchId patch : light.patches) {
+      Demand(IsIndex(patch, patches) && !taken[static_cast<std::size_t>(patch)],
+             "an emitter consists of patches that are not its own");
+      taken[static_cast<std::size_t>(patch)] = true;
+    }
+    Demand(light.element.size() == solution.forest.size() &&
+               light.fragment.size() == solution.fragments.size() &&
+               light.interpolant.size() == mesh.triangles.size(),
+           "an emitter does not light everything");
+    const auto is_finite = [](const Rgb& rgb) { return rgb.allFinite(); };
+    Demand(All(light.element, is_finite) && All(light.fragment, is_finite) &&
+               All(light.interpolant,
+                   [&](const QuadraticInterpolant& q) {
+                     return is_finite(q.a) && is_finite(q.b2) && is_finite(q.c2) && is_finite(q.d) &&
+                            is_finite(q.e2) && is_finite(q.f);
+                   }),
+           "an emitter's light is no number");
+  }
+}
+
 }  // namespace penumbra

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "mesh/interpolants/irradiance_mesh.h"
+#include "mesh/refinement/emitter_light.h"
 #include "solver/scene/scene.h"
 #include "solver/transport/links/solution.h"
 #include "solver/visibility/pair/patch_visibility.h"
@@ -22,5 +23,7 @@ void CheckVisibility(const Scene& scene, const PatchVisibility::Rows& rows);
 ElementForest RestoreForest(const Scene& scene, std::span<const Element> elements);
 void CheckLight(const RadiositySolution& solution);
 void CheckMesh(const Scene& scene, const IrradianceMesh& mesh);
+void CheckEmitters(const RadiositySolution& solution, const IrradianceMesh& mesh,
+                   std::span<const EmitterLight> emitters);
 
 }  // namespace penumbra

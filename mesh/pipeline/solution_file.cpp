@@ -23,6 +23,8 @@ namespace {
 constexpr std::string_view kMagic = "\x89Penumbra solution\r\n\x1a\n";
 constexpr std::string_view kHdf5Magic = "\x89HDF\r\n\x1a\n";
 constexpr std::size_t kDigestSize = 64;
+// The first schema with the light of each emitter.
+constexpr int kSchemaWithEmitters = 5;
 
 // The header in front of the HDF5 image: the magic, lines of text, zeros.
 std::string Header(int schema, const std::string& version, std::size_t length, const std::string& digest) {
@@ -58,6 +60,7 @@ std::optional<std::uint64_t> Number(std::optional<std::string_view> digits) {
 }
 
 struct Envelope {
+  int schema = 0;
   std::string version;
   std::string_view image;  // the HDF5 image
 };
@@ -84,12 +87,12 @@ Envelope Open(std::string_view bytes) {
     throw Hdf5Error(kDamaged);
   const auto digest_at = static_cast<std::size_t>(digest->data() - bytes.data());
   if (Digest(header, digest_at, bytes.substr(kSolutionHeaderSize)) != *digest) throw Hdf5Error(kDamaged);
-  if (std::cmp_not_equal(*schema, kSolutionSchema))
+  if (std::cmp_less(*schema, kOldestSolutionSchema) || std::cmp_greater(*schema, kSolutionSchema))
     throw Hdf5Error(fmt::format(
-        "it was written by {} version of penumbra, {} (schema {}, this one reads {}); solve again",
+        "it was written by {} version of penumbra, {} (schema {}, this one reads {} to {}); solve again",
         std::cmp_less(*schema, kSolutionSchema) ? "an older" : "a newer", *version, *schema,
-        kSolutionSchema));
-  return {std::string(*version), bytes.substr(kSolutionHeaderSize)};
+        kOldestSolutionSchema, kSolutionSchema));
+  return {static_cast<int>(*schema), std::string(*version), bytes.substr(kSolutionHeaderSize)};
 }
 
 StoredSolution Read(const Envelope& envelope) {
@@ -97,6 +100,7 @@ StoredSolution Read(const Envelope& envelope) {
   ArchiveReader archive(&file);
   StoredSolution stored;
   stored.version = envelope.version;
+  stored.schema = envelope.schema;
   archive.Text("options", stored.options);
   archive.Text("report", stored.report);
 
@@ -124,6 +128,8 @@ StoredSolution Read(const Envelope& envelope) {
     throw Hdf5Error("its mesh is of no kind that a solution has");
   stored.state.mesh_kind = kind[0];
   CheckMesh(*scene, stored.state.mesh);
+  if (envelope.schema >= kSchemaWithEmitters) DescribeEmitters(archive, stored.state.emitters);
+  CheckEmitters(stored.state.solution, stored.state.mesh, stored.state.emitters);
   stored.scene = std::move(scene);
   return stored;
 }
@@ -136,6 +142,7 @@ void CheckKept(const Pipeline& pipeline) {
     CheckVisibility(pipeline.scene(), pipeline.visibility().rows());
     CheckLight(pipeline.solution());
     CheckMesh(pipeline.scene(), pipeline.mesh());
+    CheckEmitters(pipeline.solution(), pipeline.mesh(), pipeline.emitters());
   } catch (const Hdf5Error& error) {
     throw InputError(fmt::format(
         "{}: error: the solution is not fit to be kept: {}; nothing is written: this is a mistake of the "
@@ -167,6 +174,8 @@ std::string EncodeSolution(const Pipeline& pipeline, const std::string& options,
   DescribeElements(archive, copy);
   DescribeLight(archive, pipeline.solution());
   DescribeMesh(archive, pipeline.mesh(), kind);
+  const std::vector<EmitterLight> emitters(pipeline.emitters().begin(), pipeline.emitters().end());
+  DescribeEmitters(archive, emitters);
   DescribeDiscontinuities(archive, pipeline.Discontinuities());
 
   const std::string image = file.Finish();

@@ -18,8 +18,10 @@
 
 namespace penumbra {
 
-// The version of the file's layout, incremented with every change. Files with another version are rejected.
-inline constexpr int kSolutionSchema = 4;
+// The version of the file's layout, incremented with every change. Files with an older version than
+// kOldestSolutionSchema, or a newer one than kSolutionSchema, are rejected. Files of version 4 lack the light
+// of each emitter.
+inline constexpr int kSolutionSchema = 5, kOldestSolutionSchema = 4;
 
 // The contents of a file.
 struct StoredSolution {
@@ -28,6 +30,7 @@ struct StoredSolution {
   std::string options;  // the options of the solve, and
   std::string report;   // its results: texts of the writer's choice
   std::string version;  // of the program that wrote the file
+  int schema = 0;       // of the file
 };
 
 inline constexpr std::size_t kSolutionHeaderSize =
@@ -44,7 +47,7 @@ std::string EncodeSolution(const Pipeline& pipeline, const std::string& options,
                            const std::string& version);
 
 // Decodes the bytes of a solution file. Throws InputError, "FILE: error: …", unless the bytes are complete,
-// have this version of the layout, and pass all checks.
+// have a version of the layout that can be read, and pass all checks.
 StoredSolution DecodeSolution(std::string_view bytes, const std::string& file);
 
 }  // namespace penumbra

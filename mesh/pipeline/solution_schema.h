@@ -15,6 +15,7 @@
 #include "mesh/interpolants/irradiance_mesh.h"
 #include "mesh/pipeline/discontinuity_list.h"
 #include "mesh/pipeline/solution_archive.h"
+#include "mesh/refinement/emitter_light.h"
 #include "solver/scene/scene.h"
 #include "solver/transport/links/solution.h"
 #include "solver/visibility/pair/patch_visibility.h"
@@ -109,6 +110,16 @@ void DescribeMesh(Archive& archive, Mesh& mesh, Kind& kind) {
       .Column("patch", &IrradianceMesh::Triangle::patch)
       .Column("discontinuity", &IrradianceMesh::Triangle::discontinuity);
   Table(archive, "mesh/triangles", mesh.irradiance).Column("interpolant", std::identity());
+}
+
+// The light of each emitter; no rows if it was not kept.
+template <class Archive, class Emitters>
+void DescribeEmitters(Archive& archive, Emitters& emitters) {
+  Table(archive, "emitters", emitters)
+      .Lists("patches", &EmitterLight::patches)
+      .Lists("element_irradiance", &EmitterLight::element)
+      .Lists("fragment_irradiance", &EmitterLight::fragment)
+      .Lists("interpolant", &EmitterLight::interpolant);
 }
 
 // Discontinuities are stored for other programs only; Penumbra does not read them, but computes them again.

@@ -8,6 +8,8 @@
 
 #include "mesh/interpolants/known_light.h"
 #include "mesh/interpolants/representation_error.h"
+#include "mesh/refinement/emitter_sources.h"
+#include "solver/base/check.h"
 #include "solver/base/stopwatch.h"
 #include "solver/transport/solvers/hierarchical_solver.h"
 
@@ -19,6 +21,10 @@ namespace {
 constexpr double kSampleShare = 0.2;
 // Refinement that may request edges starts with edges of kWeightToBegin times the minimum weight.
 constexpr double kWeightToBegin = 2;
+// The light of single emitters: the tolerance of rows, as a fraction of that of other samples, since a source
+// that is dim in the whole light may be the brightest of one emitter; and the change, as a fraction of the
+// error, at which its sources have settled: turns take products only, and may be many.
+constexpr double kEmitterShare = 0.5, kEmitterSettledShare = 0.05;
 // Interpolation::smooth, as a fraction of the error, and at most: gradients over triangles say little where
 // light bends by more.
 constexpr double kSmoothShare = 0.5, kMostSmooth = 0.02;
@@ -99,6 +105,26 @@ bool ShownMesh::MakeRefined(const RadiositySolution& solution, const MeshOptions
     return false;
   if (!mesh_.triangles.empty()) RefineLeaves(solution, ToBeginWith(options, options_.error), context);
   return true;
+}
+
+std::optional<std::vector<EmitterLight>> ShownMesh::SplitLight(const LightSolver& solver,
+                                                               std::span<const std::vector<PatchId>> emitters,
+                                                               const MeshOptions& options,
+                                                               const ExecutionContext& context) {
+  const PointIrradiance* const exact = irradiance_.Get(context);
+  if (!exact) return std::nullopt;
+  const MeshOptions first = ToBeginWith(options, options_.error);
+  const SourceMesh mesh = {
+      plan_.forest,  triangulations_,    {first.order, first.smooth},          cells_, *exact, samples_,
+      samples_from_, EmitterTolerance(), kEmitterSettledShare * options_.error};
+  return SolveByEmitter(solver, emitters, &mesh, context);
+}
+
+double ShownMesh::EmitterTolerance() const { return kEmitterShare * Tolerance(); }
+
+void ShownMesh::SetInterpolants(std::vector<QuadraticInterpolant> irradiance) {
+  PENUMBRA_CHECK(irradiance.size() == mesh_.triangles.size());
+  mesh_.irradiance = std::move(irradiance);
 }
 
 MeshSeconds ShownMesh::TakeSeconds() {

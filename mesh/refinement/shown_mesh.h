@@ -19,6 +19,7 @@
 #include "mesh/interpolants/irradiance_mesh.h"
 #include "mesh/interpolants/sample_cache.h"
 #include "mesh/interpolants/triangle_error.h"
+#include "mesh/refinement/emitter_light.h"
 #include "mesh/refinement/local_pass.h"
 #include "mesh/refinement/mesh_refinement.h"
 #include "mesh/refinement/source_cells.h"
@@ -68,6 +69,13 @@ class ShownMesh {
   // refines the mesh. If cancelled, returns false and keeps the last complete light. REQUIRES:
   // solver.TakesLight().
   bool RefineLight(LightSolver& solver, const MeshOptions& options, const ExecutionContext& context);
+  // The light of each emitter alone, without interpolants, on the sources that RefineLight() has made
+  // (SolveByEmitter). Nothing if cancelled. REQUIRES: RefineLight() has returned true for the present light
+  // of the solver, with the same options, and samples have rows (PointIrradiance::CanRecord).
+  std::optional<std::vector<EmitterLight>> SplitLight(const LightSolver& solver,
+                                                      std::span<const std::vector<PatchId>> emitters,
+                                                      const MeshOptions& options,
+                                                      const ExecutionContext& context);
   // Makes a mesh that meets the requested error, by refining the mesh of RefineLight(), or, if RefineLight()
   // was not called, a new mesh of the solution's leaves. If cancelled before there is a mesh, returns false.
   // If cancelled later, keeps the last complete mesh and returns true.
@@ -80,6 +88,12 @@ class ShownMesh {
     light_plan_.reset();
     samples_are_current_ = false;
   }
+  // Must be called after the light has changed within its error, so that the plan of RefineLight() holds.
+  void TakeNewLight() { samples_are_current_ = false; }
+  // Replaces the interpolants of the mesh. REQUIRES: there is one for each triangle.
+  void SetInterpolants(std::vector<QuadraticInterpolant> irradiance);
+  // The tolerance of the samples of interpolants that carry the light of single emitters.
+  double EmitterTolerance() const;
   // Replaces the mesh by a mesh that another object has made.
   void Take(IrradianceMesh mesh);
   // Must be called after the PatchVisibility passed to the constructor has been replaced.

@@ -55,8 +55,9 @@ const std::map<std::string, std::string>& Given() {
   return given;
 }
 const std::map<std::string, std::string>& GivenToDense() {
-  static const std::map<std::string, std::string> given = {
-      {"solver", "dense"}, {"basis", "linear"}, {"divisions", "2"}, {"error-points", "20"}};
+  static const std::map<std::string, std::string> given = {{"solver", "dense"}, {"basis", "linear"},
+                                                           {"divisions", "2"},  {"error-points", "20"},
+                                                           {"by-emitter", ""},  {"emitters", "object"}};
   return given;
 }
 

@@ -134,14 +134,14 @@ TEST(OptionTable, OptionalEntriesAreLeftOut) {
 TEST(OptionTable, KeysAndTheirOrderStay) {
   std::vector<std::string> keys;
   for (const SolveOption& option : OptionTable()) keys.push_back(OptionKey(option));
-  EXPECT_THAT(
-      keys, ElementsAre("seed", "error", "eps", "min_area", "discontinuities", "weight",
-                        "min_discontinuity_weight", "min_wanted_weight", "corner_divisions", "max_leaf_dsets",
-                        "keep_hidden_discontinuities", "eee", "error_samples", "refine", "corrections",
-                        "source_error", "acceleration", "scheme", "oracle", "multigrid", "relative_cutoff",
-                        "iterations", "time_limit", "memory_limit", "bounces", "nudge", "source_push_off",
-                        "min_backprojection_segment", "form_factors", "solver", "rays", "resolution", "basis",
-                        "divisions", "shots", "overshoot", "ambient", "error_points"));
+  EXPECT_THAT(keys, ElementsAre("seed", "error", "eps", "min_area", "discontinuities", "weight",
+                                "min_discontinuity_weight", "min_wanted_weight", "corner_divisions",
+                                "max_leaf_dsets", "keep_hidden_discontinuities", "eee", "error_samples",
+                                "refine", "corrections", "source_error", "acceleration", "scheme", "oracle",
+                                "multigrid", "relative_cutoff", "iterations", "time_limit", "memory_limit",
+                                "bounces", "nudge", "source_push_off", "min_backprojection_segment",
+                                "form_factors", "solver", "rays", "resolution", "basis", "divisions", "shots",
+                                "overshoot", "ambient", "error_points", "by_emitter", "emitters"));
 }
 
 std::vector<std::string> NamesWhere(bool (*holds)(const SolveOption&)) {
@@ -242,7 +242,9 @@ std::map<std::string, std::string> WordsOfRanges() {
           {"shots", "an integer from 0 to 1000000"},
           {"overshoot", "one of off|on"},
           {"ambient", "one of off|on"},
-          {"error-points", "an integer from 0 to 100000000"}};
+          {"error-points", "an integer from 0 to 100000000"},
+          {"by-emitter", "one of off|on"},
+          {"emitters", "one of face|object|material"}};
 }
 
 // What is out of range is refused in these words.
@@ -280,7 +282,9 @@ TEST(OptionTable, OlderFilesMeanWhatHeldThen) {
                                                     {"corner_divisions", std::uint64_t{0}},
                                                     {"keep_hidden_discontinuities", false},
                                                     {"eee", 0.0},
-                                                    {"min_backprojection_segment", 0.0}};
+                                                    {"min_backprojection_segment", 0.0},
+                                                    {"by_emitter", false},
+                                                    {"emitters", "face"}};
   const std::set<std::string> never_needed = {"source_error", "time_limit", "memory_limit"};
   PipelineOptions options;
   options.min_discontinuity_weight = 0.25;

@@ -266,9 +266,52 @@ TEST(SolutionFile, SaysWhatElseItIs) {
     EXPECT_THAT(Refusal(other), HasSubstr("damaged"));
     EXPECT_THAT(Refusal(WithDigest(other)), HasSubstr(words));
   }
+  // A file of the schema before is read; it keeps no light by emitter.
+  std::string older = whole;
+  older.replace(older.find("schema "), 8, "schema 4");
+  EXPECT_EQ(Refusal(WithDigest(older)), "");
   // Text is left to the reader of scenes.
   EXPECT_FALSE(LooksLikeSolution("v 0 0 0\nv 1 0 0\n"));
   EXPECT_TRUE(LooksLikeSolution(std::string_view(whole).substr(0, 5)));
+}
+
+// The light of each emitter comes back to the bit, and what is no light of the solution is refused.
+TEST(SolutionFile, KeepsTheLightOfEachEmitter) {
+  const Scene scene = *LoadBuiltinScene("floating-cube", {});
+  PipelineOptions options;
+  options.error = 0.5;
+  options.by_emitter = true;
+  Pipeline pipeline(scene, options);
+  pipeline.Solve({});
+  pipeline.RefineLight({});
+  pipeline.BuildMesh(MeshKind::kInterpolant, {});
+  const std::span<const EmitterLight> kept = pipeline.emitters();
+  ASSERT_EQ(kept.size(), 2U);
+  const StoredSolution stored = DecodeSolution(Encode(pipeline), "a.h5");
+  const std::vector<EmitterLight>& read = stored.state.emitters;
+  ASSERT_EQ(read.size(), kept.size());
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    EXPECT_EQ(read[k].patches, kept[k].patches);
+    const auto same = [](const Rgb& a, const Rgb& b) { return (a == b).all(); };
+    EXPECT_TRUE(std::equal(read[k].element.begin(), read[k].element.end(), kept[k].element.begin(),
+                           kept[k].element.end(), same));
+    EXPECT_TRUE(std::equal(read[k].fragment.begin(), read[k].fragment.end(), kept[k].fragment.begin(),
+                           kept[k].fragment.end(), same));
+    ASSERT_EQ(read[k].interpolant.size(), kept[k].interpolant.size());
+    for (std::size_t t = 0; t < read[k].interpolant.size(); ++t)
+      ASSERT_TRUE((read[k].interpolant[t].d == kept[k].interpolant[t].d).all());
+  }
+  const auto bad = [&](const auto& spoil) {
+    std::vector<EmitterLight> spoilt = read;
+    EXPECT_NO_THROW(CheckEmitters(stored.state.solution, stored.state.mesh, spoilt));
+    spoil(spoilt);
+    EXPECT_THROW(CheckEmitters(stored.state.solution, stored.state.mesh, spoilt), Hdf5Error);
+  };
+  bad([](std::vector<EmitterLight>& e) { e[0].patches[0] = 1000; });
+  bad([](std::vector<EmitterLight>& e) { e[0].patches = e[1].patches; });
+  bad([](std::vector<EmitterLight>& e) { e[0].element.pop_back(); });
+  bad([](std::vector<EmitterLight>& e) { e[1].interpolant.pop_back(); });
+  bad([](std::vector<EmitterLight>& e) { e[1].element[3][1] = std::numeric_limits<double>::quiet_NaN(); });
 }
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

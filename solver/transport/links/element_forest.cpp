@@ -139,6 +139,13 @@ std::size_t ElementForest::Balance(PatchId patch) {
   return split;
 }
 
+ElementForest ElementForest::Of(const Scene& other) const {
+  PENUMBRA_CHECK(other.patches.size() == scene_->patches.size());
+  ElementForest same = *this;
+  same.scene_ = &other;
+  return same;
+}
+
 void ElementForest::ForEachBelow(ElementId top, const std::function<void(ElementId)>& visit) const {
   visit(top);
   const ElementId first = (*this)[top].first_child;

@@ -76,6 +76,10 @@ class ElementForest {
   // One root for each patch; the root of patch p is element p. The scene must outlive the forest.
   explicit ElementForest(const Scene& scene);
 
+  // The same elements of a scene with the same patches, but perhaps with other materials. The other scene
+  // must outlive the result.
+  ElementForest Of(const Scene& other) const;
+
   const Scene& scene() const { return *scene_; }
   std::span<const Element> elements() const { return elements_; }
   const Element& operator[](ElementId id) const { return elements_[static_cast<std::size_t>(id)]; }

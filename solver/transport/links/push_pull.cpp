@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/base/check.h"
 #include "solver/base/parallel.h"
 
 namespace penumbra {
@@ -205,6 +206,21 @@ double PushPull::LargestReflected() const {
     largest = std::max(largest, (solution_.radiosity[leaf] - material.emittance).maxCoeff());
   }
   return largest;
+}
+
+void ReplaceIrradiance(std::span<const Rgb> element, std::span<const Rgb> fragment,
+                       RadiositySolution& solution) {
+  PENUMBRA_CHECK(element.size() == solution.forest.size() && fragment.size() == solution.fragments.size());
+  PushPull light(solution);
+  for (const ElementId leaf : light.leaves()) light.Light(leaf, element[static_cast<std::size_t>(leaf)]);
+  light.Pull();
+  light.UpdateSpreads();
+  for (std::size_t i = 0; i < fragment.size(); ++i) {
+    Fragment& piece = solution.fragments[i];
+    const Material& material = solution.forest.scene().MaterialOf(solution.forest[piece.leaf].patch);
+    piece.irradiance = fragment[i].max(0.0);
+    piece.radiosity = material.emittance + material.reflectance * piece.irradiance;
+  }
 }
 
 }  // namespace penumbra

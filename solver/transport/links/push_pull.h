@@ -81,4 +81,10 @@ class PushPull {
   std::vector<double> scale_;  // by element: the factor on the links' light, for leaves; or empty
 };
 
+// Sets the irradiance of all leaves, from `element`, which is indexed by ElementId, and of all fragments
+// [W/m^2], and the radiosities and spreads that follow from them. No light is reflected any further.
+// REQUIRES: there is one value for each element and each fragment.
+void ReplaceIrradiance(std::span<const Rgb> element, std::span<const Rgb> fragment,
+                       RadiositySolution& solution);
+
 }  // namespace penumbra

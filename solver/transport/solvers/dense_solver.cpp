@@ -44,12 +44,28 @@ void Average(RadiositySolution& solution) {
   }
 }
 
+// The pairs of elements that see each other.
+InteractionCounts CountPairs(const DenseSystem& system, const PatchVisibility& visibility) {
+  const auto elements = [&](PatchId patch) {
+    const auto p = static_cast<std::size_t>(patch);
+    return system.first_of_patch[p + 1] - system.first_of_patch[p];
+  };
+  InteractionCounts counts;
+  for (PatchId receiver = 0; receiver + 1 < static_cast<PatchId>(system.first_of_patch.size()); ++receiver)
+    for (const PatchPair& pair : visibility.SourcesOf(receiver))
+      (pair.visibility == Visibility::kVisible ? counts.smooth : counts.sharp) +=
+          elements(receiver) * elements(pair.source);
+  return counts;
+}
+
 }  // namespace
 
-DenseLight SolveDense(const DenseSystem& system) {
+DenseLight SolveDense(const DenseSystem& system) { return SolveDense(system, system.forest.scene()); }
+
+DenseLight SolveDense(const DenseSystem& system, const Scene& scene) {
   std::vector<Rgb> emittance, reflectance;
   for (std::size_t i = 0; i < system.size(); ++i) {
-    const Material& material = system.forest.scene().MaterialOf(system.PatchOf(i));
+    const Material& material = scene.MaterialOf(system.PatchOf(i));
     emittance.push_back(material.emittance);
     reflectance.push_back(material.reflectance);
   }
@@ -122,15 +138,36 @@ DenseSolver::DenseSolver(const Scene& scene, const PatchVisibility& visibility, 
     throw InputError(scene.name + ": error: the dense solver would have " + std::to_string(unknowns) +
                      " unknowns and can take " + std::to_string(kMostDenseUnknowns) +
                      "; ask for fewer divisions or a basis of lower degree");
-  const DenseSystem system = AssembleDense(forest, visibility, options, context);
+  auto system = std::make_shared<const DenseSystem>(AssembleDense(forest, visibility, options, context));
   solved_ = !context.Cancelled();
   if (!solved_) {
     solution_.forest = ElementForest(scene);
     PushPull dark(solution_);  // sets the light of the elements to emittance only
     return;
   }
-  solution_ = ToRadiositySolution(system, SolveDense(system));
-  report_.dense = {system.size(), MeasureClosure(system), system.form_factor_error};
+  solution_ = ToRadiositySolution(*system, SolveDense(*system));
+  report_.dense = {system->size(), MeasureClosure(*system), system->form_factor_error};
+  report_.interactions = CountPairs(*system, visibility);
+  if (options.keep_matrix) system_ = std::move(system);
+}
+
+DenseSolver::DenseSolver(const DenseSolver& from, const Scene& other)
+    : visibility_(from.visibility_),
+      system_(from.system_),
+      solved_(true),
+      solution_(ToRadiositySolution(*system_, SolveDense(*system_, other))),
+      report_(from.report_),
+      seen_from_leaves_(from.seen_from_leaves_) {
+  solution_.forest = solution_.forest.Of(other);
+}
+
+std::unique_ptr<LightSolver> DenseSolver::LitAs(const Scene& other, const ExecutionContext& context) const {
+  if (!system_ || context.Cancelled()) return nullptr;
+  return std::unique_ptr<LightSolver>(new DenseSolver(*this, other));
+}
+
+void DenseSolver::ReplaceLight(std::span<const Rgb> element, std::span<const Rgb> fragment) {
+  ReplaceIrradiance(element, fragment, solution_);
 }
 
 bool DenseSolver::SetLight(std::span<const Rgb>, std::vector<Fragment>, const ExecutionContext&) {

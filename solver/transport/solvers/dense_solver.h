@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct DenseLight {
 // Solves B = E + rho T B by LU factorisation with pivoting. `emittance` [W/m^2] and `reflectance` have one
 // entry for each unknown; by default, they are taken from the scene's materials.
 DenseLight SolveDense(const DenseSystem& system);
+// With the materials of another scene of the same patches.
+DenseLight SolveDense(const DenseSystem& system, const Scene& scene);
 DenseLight SolveDense(const DenseSystem& system, std::span<const Rgb> emittance,
                       std::span<const Rgb> reflectance);
 
@@ -40,7 +43,7 @@ RadiositySolution ToRadiositySolution(const DenseSystem& system, const DenseLigh
 inline constexpr std::size_t kMostDenseUnknowns = 16'000;
 
 // Solves the dense system of a uniform mesh in its constructor; no steps remain. Other stages see only the
-// mean radiosity of linear and quadratic elements. The light never changes after construction.
+// mean radiosity of linear and quadratic elements. LitAs() needs DenseOptions::keep_matrix.
 class DenseSolver final : public LightSolver {
  public:
   // Throws InputError if the system has more than kMostDenseUnknowns unknowns. If the context is cancelled,
@@ -58,12 +61,17 @@ class DenseSolver final : public LightSolver {
   bool TakesLight() const override { return false; }
   bool SetLight(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
                 const ExecutionContext& context) override;
+  std::unique_ptr<LightSolver> LitAs(const Scene& other, const ExecutionContext& context) const override;
+  void ReplaceLight(std::span<const Rgb> element, std::span<const Rgb> fragment) override;
   double PartOfTolerance() const override { return 1; }
   std::shared_ptr<const LeafVisibility> SeenFromLeaves(const ExecutionContext& context) override;
   std::vector<Rgb> MeanIrradianceByBounce(int) const override { return {}; }
 
  private:
+  DenseSolver(const DenseSolver& from, const Scene& other);
+
   const PatchVisibility& visibility_;
+  std::shared_ptr<const DenseSystem> system_;  // of the scene for which it was assembled; null unless kept
   bool solved_ = false;
   RadiositySolution solution_;
   SolverReport report_;

@@ -35,6 +35,7 @@ struct DenseOptions {
   // of points for one pair (AreaFormFactorOptions). All other form factors are exact up to rounding.
   double tolerance = 1e-7;
   std::size_t max_points = 100'000;
+  bool keep_matrix = false;  // after the solve, for LightSolver::LitAs(): 8 bytes * (unknowns)^2
 };
 
 // An element is a leaf of the forest, or, if the degree is not constant and the leaf is a quadrilateral but

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "solver/base/check.h"
 #include "solver/base/parallel.h"
 #include "solver/base/stopwatch.h"
 #include "solver/transport/points/leaf_cells.h"
@@ -38,6 +39,11 @@ HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility
       options_(options),
       links_(scene, visibility, options, std::move(solution), context) {
   report_.most_iterations = options.max_iterations;
+  FindCorrections();
+}
+
+// Finds the corrections that lead from the light of the links to the present light.
+void HierarchicalSolver::FindCorrections() {
   const RadiositySolution& light = links_.solution();
   const PushPull& push_pull = links_.push_pull();
   // The correction of a leaf is its irradiance minus that of its links.
@@ -45,6 +51,7 @@ HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility
   correction_.of_element.assign(light.forest.size(), Rgb::Zero());
   for (const ElementId leaf : push_pull.leaves())
     correction_.of_element[leaf] = light.irradiance[leaf] - linked[leaf];
+  correction_.of_fragment.clear();
   for (const Fragment& fragment : light.fragments)
     correction_.of_fragment.push_back(fragment.irradiance - light.irradiance[fragment.leaf]);
 }
@@ -257,6 +264,24 @@ bool HierarchicalSolver::SetLight(std::span<const Rgb> irradiance, std::vector<F
   }
   correction_.LightFragments(solution);
   return true;
+}
+
+std::unique_ptr<LightSolver> HierarchicalSolver::LitAs(const Scene& other,
+                                                       const ExecutionContext& context) const {
+  PENUMBRA_CHECK(options_.source_error == 0);
+  RadiositySolution same = solution();
+  same.forest = same.forest.Of(other);
+  auto lit =
+      std::make_unique<HierarchicalSolver>(other, visibility_, options_, std::move(same), ExecutionContext());
+  lit->seen_from_leaves_ = seen_from_leaves_;
+  if (!lit->Relight(context)) return nullptr;
+  if (!options_.last_correction_elsewhere && !lit->CorrectAll(context)) return nullptr;
+  return lit;
+}
+
+void HierarchicalSolver::ReplaceLight(std::span<const Rgb> element, std::span<const Rgb> fragment) {
+  ReplaceIrradiance(element, fragment, links_.solution());
+  FindCorrections();
 }
 
 std::shared_ptr<const LeafVisibility> HierarchicalSolver::SeenFromLeaves(const ExecutionContext& context) {

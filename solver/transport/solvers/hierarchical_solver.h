@@ -52,6 +52,9 @@ class HierarchicalSolver final : public LightSolver {
   // Makes one pass of deferred correction, with exact irradiance that the caller has computed.
   bool SetLight(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
                 const ExecutionContext& context) override;
+  // REQUIRES: corrections do not cut leaves (SolverOptions::source_error is 0).
+  std::unique_ptr<LightSolver> LitAs(const Scene& other, const ExecutionContext& context) const override;
+  void ReplaceLight(std::span<const Rgb> element, std::span<const Rgb> fragment) override;
   double PartOfTolerance() const override;
   std::shared_ptr<const LeafVisibility> SeenFromLeaves(
       const ExecutionContext& context = ExecutionContext()) override;
@@ -90,6 +93,7 @@ class HierarchicalSolver final : public LightSolver {
   void Restore(Snapshot snapshot);
   PointIrradianceOptions HowToSample() const;
   void TakeCorrectionsBack();
+  void FindCorrections();
   std::optional<double> AddExact(LeafSampling sampling, const ExecutionContext& context);
   // Like Correct(), with parts of leaves so small that their constant radiosity causes a relative error of at
   // most about `error`.

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "solver/base/check.h"
 #include "solver/base/progress.h"
 #include "solver/base/registry.h"
 #include "solver/transport/links/solution.h"
@@ -33,11 +34,19 @@ enum class SolverStep : std::uint8_t {
 // "iterate" or "correct".
 std::string_view StepName(SolverStep step);
 
+// How many times a receiver of the transport operator meets a source. A link, or a pair of elements of a
+// dense system, is smooth if nothing can block any of it, and sharp if blockers may hide a part. An
+// interaction is sampled if a ray decides on it.
+struct InteractionCounts {
+  std::size_t smooth = 0, sharp = 0, sampled = 0;
+};
+
 // Statistics about the work that a solver has done so far.
 struct SolverReport {
   std::vector<IterationReport> iterations;
   int most_iterations = 0;  // the largest number that Next() asks for; 0: unknown
   bool full = false;  // links should have been split, but would have been too many (SolverOptions::max_links)
+  InteractionCounts interactions;  // those that are no links of the solution
   struct Dense {
     std::size_t unknowns = 0;
     DenseClosure closure;
@@ -82,6 +91,19 @@ class LightSolver {
   // leaf; the area-weighted mean of their irradiances is the irradiance of the leaf.
   virtual bool SetLight(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
                         const ExecutionContext& context) = 0;
+
+  // A solver with the same elements and form factors for a scene of the same patches with other emittances or
+  // reflectances. It is lit by that scene: as after Relight(), and corrected if no other stage corrects the
+  // light of this solver (TakesLight). Null if cancelled, or if the method has no such solver. `other` and
+  // what this solver was made from must outlive the result.
+  virtual std::unique_ptr<LightSolver> LitAs(const Scene& /*other*/, const ExecutionContext&) const {
+    return nullptr;
+  }
+  // Sets the irradiance of all elements and of the solution's fragments [W/m^2], and what follows from it, as
+  // it is: unlike SetLight(), adds no reflections. Only of solvers that have LitAs().
+  virtual void ReplaceLight(std::span<const Rgb> /*element*/, std::span<const Rgb> /*fragment*/) {
+    PENUMBRA_CHECK(false);
+  }
 
   // The value of PointIrradianceOptions::part_of_tolerance that suits the reflectances of this scene [1].
   virtual double PartOfTolerance() const = 0;

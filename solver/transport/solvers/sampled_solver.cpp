@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "solver/base/parallel.h"
 #include "solver/base/stopwatch.h"
@@ -41,12 +42,28 @@ RadiositySolution Unlit(const Scene& scene, const SampledOptions& options) {
 SampledSolver::SampledSolver(const Scene& scene, const SampledOptions& options)
     : scene_(scene),
       options_(options),
-      caster_(scene),
-      shadows_(std::make_unique<const ShadowRays>(scene, caster_)),
+      caster_(std::make_shared<const RayCaster>(scene)),
+      shadows_(std::make_unique<const ShadowRays>(scene, *caster_)),
       solution_(Unlit(scene, options)),
       push_pull_(solution_),
       no_pairs_(PatchVisibility::WithoutPairs(scene)) {
   report_.most_iterations = options.passes;
+}
+
+SampledSolver::SampledSolver(const SampledSolver& from, const Scene& other)
+    : scene_(other),
+      options_(from.options_),
+      caster_(from.caster_),
+      solution_(from.solution_),
+      push_pull_(solution_),
+      rows_(from.rows_),
+      rays_(from.rays_),
+      pass_(from.pass_),
+      report_(from.report_),
+      no_pairs_(PatchVisibility::WithoutPairs(other)),
+      seen_from_leaves_(from.seen_from_leaves_) {
+  solution_.forest = solution_.forest.Of(other);
+  std::fill(solution_.irradiance.begin(), solution_.irradiance.end(), Rgb::Zero());
 }
 
 std::optional<SolverStep> SampledSolver::Next() const {
@@ -132,7 +149,7 @@ void SampledSolver::SampleMatrix(std::size_t rays, const ExecutionContext& conte
   std::vector<std::int32_t> place(solution_.forest.size(), -1);
   for (std::size_t i = 0; i < leaves.size(); ++i)
     place[static_cast<std::size_t>(leaves[i])] = static_cast<std::int32_t>(i);
-  row_.assign(leaves.size() * rays, -1);
+  std::vector<std::int32_t> rows(leaves.size() * rays, -1);
   rays_ = rays;
   const double lift = RayLift(scene_);
   const ElementLocator elements(solution_.forest);
@@ -142,12 +159,14 @@ void SampledSolver::SampleMatrix(std::size_t rays, const ExecutionContext& conte
     const Vec3& normal = scene_.patches[static_cast<std::size_t>(element.patch)].normal;
     for (std::size_t k = 0; k < rays; ++k) {
       const DiffuseRay ray = MakeDiffuseRay(element.Vertices(), normal, lift, k, i);
-      const RayCaster::Hit hit = caster_.Cast(ray.origin, ray.direction);
+      const RayCaster::Hit hit = caster_->Cast(ray.origin, ray.direction);
       if (hit.patch == kNoPatch || !hit.front) continue;
       const ElementId leaf = elements.LeafAt(hit.patch, ray.origin + hit.distance * ray.direction);
-      row_[i * rays + k] = place[static_cast<std::size_t>(leaf)];
+      rows[i * rays + k] = place[static_cast<std::size_t>(leaf)];
     }
   });
+  report_.interactions.sampled = rows.size();
+  rows_ = std::make_shared<const std::vector<std::int32_t>>(std::move(rows));
 }
 
 // The irradiance by the reflected part of the given irradiance; both are in the order of the leaves.
@@ -160,7 +179,7 @@ std::vector<Rgb> SampledSolver::Gather(std::span<const Rgb> irradiance) const {
   ParallelFor(leaves.size(), kGrain, [&](std::size_t i) {
     Rgb sum = Rgb::Zero();
     for (std::size_t k = i * rays_; k < (i + 1) * rays_; ++k)
-      if (row_[k] >= 0) sum += reflected[static_cast<std::size_t>(row_[k])];
+      if ((*rows_)[k] >= 0) sum += reflected[static_cast<std::size_t>((*rows_)[k])];
     gathered[i] = sum / static_cast<double>(rays_);
   });
   return gathered;
@@ -232,13 +251,24 @@ void SampledSolver::Report(std::size_t sweeps, double seconds) {
 bool SampledSolver::Relight(const ExecutionContext& context) {
   if (rays_ == 0) return Step(SolverStep::kIterate, context);
   const Stopwatch stopwatch;
-  shadows_ = std::make_unique<const ShadowRays>(scene_, caster_);
+  shadows_ = std::make_unique<const ShadowRays>(scene_, *caster_);
   direct_.clear();
   LightNewElements(context);
   const std::size_t sweeps = context.Cancelled() ? 0 : Settle(context);
   if (context.Cancelled()) return false;
   Report(sweeps, stopwatch.Seconds());
   return true;
+}
+
+std::unique_ptr<LightSolver> SampledSolver::LitAs(const Scene& other, const ExecutionContext& context) const {
+  if (rays_ == 0) return nullptr;
+  std::unique_ptr<SampledSolver> lit(new SampledSolver(*this, other));
+  if (!lit->Relight(context)) return nullptr;
+  return lit;
+}
+
+void SampledSolver::ReplaceLight(std::span<const Rgb> element, std::span<const Rgb> fragment) {
+  ReplaceIrradiance(element, fragment, solution_);
 }
 
 bool SampledSolver::SetLight(std::span<const Rgb>, std::vector<Fragment>, const ExecutionContext&) {

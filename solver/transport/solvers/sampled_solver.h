@@ -40,6 +40,8 @@ class SampledSolver final : public LightSolver {
   bool TakesLight() const override { return false; }
   bool SetLight(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
                 const ExecutionContext& context) override;
+  std::unique_ptr<LightSolver> LitAs(const Scene& other, const ExecutionContext& context) const override;
+  void ReplaceLight(std::span<const Rgb> element, std::span<const Rgb> fragment) override;
   double PartOfTolerance() const override { return 1; }
   std::shared_ptr<const LeafVisibility> SeenFromLeaves(const ExecutionContext& context) override;
   std::vector<Rgb> MeanIrradianceByBounce(int bounces) const override;
@@ -66,16 +68,19 @@ class SampledSolver final : public LightSolver {
   std::size_t Settle(const ExecutionContext& context);
   void Report(std::size_t sweeps, double seconds);
 
+  // The solver of another scene with the same elements and the same matrix, not lit yet.
+  SampledSolver(const SampledSolver& from, const Scene& other);
+
   const Scene& scene_;
   SampledOptions options_;
-  RayCaster caster_;
+  std::shared_ptr<const RayCaster> caster_;
   std::unique_ptr<const ShadowRays> shadows_;  // for the present emittances
   RadiositySolution solution_;
   PushPull push_pull_;
   std::vector<Direct> direct_;  // by element
   // For each leaf in push_pull_.leaves(), rays_ entries, one for each ray from the leaf: the index in
   // push_pull_.leaves() of the leaf that the ray hits, or -1 if the ray hits no front.
-  std::vector<std::int32_t> row_;
+  std::shared_ptr<const std::vector<std::int32_t>> rows_;
   std::size_t rays_ = 0;
   int pass_ = 0;
   double residual_ = 1;

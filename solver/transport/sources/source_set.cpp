@@ -85,16 +85,19 @@ void AppendPieces(std::span<const JoinedFragment> pieces, std::span<const Fragme
   }
 }
 
-// Appends the subtree below `id`. A subtree whose leaves all have the same radiosity becomes a single node.
-void Append(const RadiositySolution& solution, std::span<const Fragment> fragments, ElementId id,
+// Appends the subtree below `id`. If `join`, a subtree whose leaves all have the same radiosity becomes a
+// single node.
+void Append(const RadiositySolution& solution, std::span<const Fragment> fragments, ElementId id, bool join,
             std::vector<SourceSet::Node>& nodes) {
   const Element& element = solution.forest[id];
   const std::size_t at = nodes.size();
   nodes.push_back(MakeNode(element.Vertices(), solution.radiosity[id]));
+  nodes.back().element = id;
   if (element.IsLeaf()) {
     const std::span<const Fragment> own = FragmentsOf(fragments, id);
     const std::size_t first = own.empty() ? 0 : static_cast<std::size_t>(own.data() - fragments.data());
     AppendPieces(JoinFragments(own), own, first, nodes);
+    for (std::size_t i = at + 1; i < nodes.size(); ++i) nodes[i].element = id;
     // A piece that is the whole leaf replaces it; a subtree with one child would get a slope from rounding.
     if (nodes.size() > at + 1 && nodes.size() == at + 1 + static_cast<std::size_t>(nodes[at + 1].skip))
       nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(at));
@@ -102,10 +105,10 @@ void Append(const RadiositySolution& solution, std::span<const Fragment> fragmen
     return;
   }
   for (ElementId child = element.first_child; child < element.first_child + 4; ++child)
-    Append(solution, fragments, child, nodes);
+    Append(solution, fragments, child, join, nodes);
   const Rgb& first = nodes[at + 1].radiosity;
   const bool uniform =
-      nodes.size() == at + 5 &&
+      join && nodes.size() == at + 5 &&
       std::all_of(nodes.begin() + static_cast<std::ptrdiff_t>(at) + 1, nodes.end(),
                   [&](const SourceSet::Node& node) { return (node.radiosity == first).all(); });
   if (uniform) {
@@ -152,16 +155,54 @@ SourceSet SourceSet::FromSolution(const RadiositySolution& solution) {
 }
 
 SourceSet SourceSet::FromSolution(const RadiositySolution& solution, std::span<const Fragment> fragments) {
+  return Make(solution, fragments, UniformSubtrees::kJoin);
+}
+
+SourceSet SourceSet::ForAnyLight(const RadiositySolution& solution) {
+  return Make(solution, solution.fragments, UniformSubtrees::kJoinIfBlack);
+}
+
+SourceSet SourceSet::Make(const RadiositySolution& solution, std::span<const Fragment> fragments,
+                          UniformSubtrees uniform) {
   SourceSet set;
   for (std::size_t p = 0; p < solution.forest.scene().patches.size(); ++p) {
     set.first_.push_back(set.nodes_.size());
-    set.emittance_.push_back(solution.forest.scene().MaterialOf(static_cast<PatchId>(p)).emittance);
+    const Material& material = solution.forest.scene().MaterialOf(static_cast<PatchId>(p));
+    set.emittance_.push_back(material.emittance);
     const ElementId root = ElementForest::Root(static_cast<PatchId>(p));
-    if ((solution.radiosity[root] != 0).any()) Append(solution, fragments, root, set.nodes_);
+    const bool join = uniform == UniformSubtrees::kJoin || (material.reflectance == 0).all();
+    if ((solution.radiosity[root] != 0).any()) Append(solution, fragments, root, join, set.nodes_);
   }
   set.first_.push_back(set.nodes_.size());
   set.Measure();
   return set;
+}
+
+SourceSet SourceSet::WithLight(const Light& light) const {
+  SourceSet set = *this;
+  set.TakeLight(light);
+  return set;
+}
+
+void SourceSet::TakeLight(const Light& light) {
+  emittance_.assign(light.emittance.begin(), light.emittance.end());
+  for (std::size_t l = 0; l < leaf_node_.size(); ++l) {
+    Node& node = nodes_[static_cast<std::size_t>(leaf_node_[l])];
+    node.radiosity = node.fragment >= 0 && !light.fragment.empty()
+                         ? light.fragment[static_cast<std::size_t>(node.fragment)]
+                         : light.element[static_cast<std::size_t>(node.element)];
+    leaf_radiosity_[l] = node.radiosity;
+  }
+  MeasureSubtrees();
+  CompactLight();
+}
+
+void SourceSet::TakeSpreads(const SourceSet& other) {
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    nodes_[i].spread = std::max(nodes_[i].spread, other.nodes_[i].spread);
+    nodes_[i].residual = std::max(nodes_[i].residual, other.nodes_[i].residual);
+  }
+  CompactLight();
 }
 
 SourceSet SourceSet::Emitters(const Scene& scene) {
@@ -303,14 +344,15 @@ struct Moments {
   }
 };
 
-// The slope of the linear function that is nearest, in the square mean over the polygon, to radiosities that
-// are constant on each leaf. Zero across a region that is much narrower than long.
-Eigen::Matrix3d Slope(const Eigen::Matrix3d& moment, const Eigen::Matrix3d& second_moment) {
+// What turns the moment of radiosities that are constant on each leaf into the slope of the linear function
+// that is nearest to them in the square mean over the polygon. Zero across a region that is much narrower
+// than long.
+Eigen::Matrix3d InverseOf(const Eigen::Matrix3d& second_moment) {
   constexpr double kNarrow = 1e-9;  // threshold for the squared width
   Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> decomposition;
   decomposition.setThreshold(kNarrow);
   decomposition.compute(second_moment);
-  return moment * decomposition.pseudoInverse();
+  return decomposition.pseudoInverse();
 }
 
 }  // namespace
@@ -319,6 +361,8 @@ Eigen::Matrix3d Slope(const Eigen::Matrix3d& moment, const Eigen::Matrix3d& seco
 void SourceSet::MeasureSubtrees() {
   const Rgb dark = kErrorFloor * MeanReflected();
   std::vector<Moments> moments(nodes_.size());
+  const bool is_measured = !inverse_moment_.empty();  // for an earlier light
+  inverse_moment_.resize(nodes_.size());
   for (std::size_t p = 0; p + 1 < first_.size(); ++p)
     for (std::size_t i = first_[p + 1]; i-- > first_[p];) {
       Node& node = nodes_[i];
@@ -333,10 +377,12 @@ void SourceSet::MeasureSubtrees() {
       node.radiosity = own.sum / own.area;
       node.moment = own.sum_of_places - node.radiosity.matrix() * own.place.transpose();
       node.second_moment = own.squares_of_places - own.place * own.place.transpose() / own.area;
-      node.slope = Slope(node.moment, node.second_moment);
+      if (!is_measured) inverse_moment_[i] = InverseOf(node.second_moment);
+      node.slope = node.moment * inverse_moment_[i];
       const Rgb variance = (own.squares / own.area - node.radiosity.square()).max(0.0),
                 by_slope = node.slope.cwiseProduct(node.moment).rowwise().sum().array() / own.area;
       const Rgb around = node.radiosity.max(dark);
+      node.spread = node.residual = 0;
       for (int c = 0; c < 3; ++c) {
         if (around[c] <= 0) continue;
         node.spread = std::max(node.spread, std::sqrt(variance[c]) / around[c]);

@@ -39,6 +39,7 @@ class SourceSet {
     std::int32_t first_leaf = 0, leaf_count = 1;  // range of the subtree's leaves in the set
     std::array<std::int32_t, 4> corner = {};      // indices of the vertices in Corners()
     std::int32_t fragment = -1;                   // index of the fragment that contains the node; -1: none
+    std::int32_t element = -1;  // the element that the node is, or that contains it; -1: none
     // For a subtree: the root mean square deviation of the leaves' radiosities B from their mean, divided by
     // max(mean, 1 % of the scene's mean reflected radiosity), for the channel with the largest quotient [1].
     double spread = 0;
@@ -62,6 +63,9 @@ class SourceSet {
   // The leaves of the solution with `fragments` instead of the solution's fragments. REQUIRES: `fragments` is
   // sorted by leaf.
   static SourceSet FromSolution(const RadiositySolution& solution, std::span<const Fragment> fragments);
+  // The leaves of the solution, also those of subtrees that have the same radiosity everywhere, unless their
+  // patch reflects nothing: nodes that can carry the light of any emitter (WithLight).
+  static SourceSet ForAnyLight(const RadiositySolution& solution);
   // The emitters with their emittances, for direct light.
   static SourceSet Emitters(const Scene& scene);
 
@@ -69,6 +73,18 @@ class SourceSet {
   using DivideLeaf = std::function<std::vector<SourcePart>(PatchId patch, const Node& leaf)>;
   // The given patches with their leaves divided. In the result, no other patch sends light.
   SourceSet Divided(std::span<const PatchId> patches, const DivideLeaf& divide) const;
+  // Another light of the elements and fragments from which a set was made.
+  struct Light {
+    std::span<const Rgb> element, fragment;  // radiosities [W/m^2]; no fragments: those of their elements
+    std::span<const Rgb> emittance;          // of each patch [W/m^2]
+  };
+  // WithLight() returns the same nodes with another light; TakeLight() changes this set. REQUIRES: the set
+  // was made from a solution.
+  SourceSet WithLight(const Light& light) const;
+  void TakeLight(const Light& light);
+  // Raises the spread and the residual of each node to those of the same node in the other set, so that both
+  // hold for the light of both sets. REQUIRES: `other` is the result of WithLight().
+  void TakeSpreads(const SourceSet& other);
 
   // The light of a node in a compact form, for sums over many nodes. The members have the meaning of those of
   // Node with the same names.
@@ -112,6 +128,9 @@ class SourceSet {
   const Rgb& Emittance(PatchId patch) const { return emittance_[static_cast<std::size_t>(patch)]; }
 
  private:
+  enum class UniformSubtrees : std::uint8_t { kJoin, kJoinIfBlack };
+  static SourceSet Make(const RadiositySolution& solution, std::span<const Fragment> fragments,
+                        UniformSubtrees uniform);
   // Computes all data that are derived from the polygons of nodes and the radiosities of leaves.
   void Measure();
   void NumberLeaves();
@@ -122,6 +141,8 @@ class SourceSet {
   void CompactLight();
 
   std::vector<std::size_t> first_;  // of each patch, in nodes_
+  std::vector<Eigen::Matrix3d>
+      inverse_moment_;  // pseudo-inverse of the second moment of each subtree [1/m^4]
   std::vector<Node> nodes_;
   std::vector<NodeLight> light_;
   std::vector<Vec3> corners_;
