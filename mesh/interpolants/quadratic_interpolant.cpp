@@ -2,6 +2,11 @@
 
 namespace penumbra {
 
+std::array<double, 6> QuadraticInterpolant::WeightsAt(double s, double t) {
+  const double r = 1 - s - t;
+  return {r * (2 * r - 1), 4 * r * s, s * (2 * s - 1), 4 * s * t, t * (2 * t - 1), 4 * r * t};
+}
+
 QuadraticInterpolant QuadraticInterpolant::Quadratic(const std::array<Rgb, 6>& r) {
   QuadraticInterpolant q;
   q.a = 2 * r[0] - 4 * r[1] + 2 * r[2];

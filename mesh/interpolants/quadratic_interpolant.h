@@ -24,6 +24,9 @@ struct QuadraticInterpolant {
 
   Rgb At(double s, double t) const { return (a * s + b2 * t + c2) * s + (d * t + e2) * t + f; }
 
+  // The weights of the six samples in the value at (s, t) of the quadratic through them, in the order of
+  // kSampleAt.
+  static std::array<double, 6> WeightsAt(double s, double t);
   // The quadratic through six samples in the order of kSampleAt. If the samples are values of a quadratic,
   // the result is this quadratic, up to rounding.
   static QuadraticInterpolant Quadratic(const std::array<Rgb, 6>& r);

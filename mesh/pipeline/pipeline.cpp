@@ -13,6 +13,7 @@
 #include "mesh/pipeline/run_limits.h"
 #include "mesh/refinement/emitter_interpolants.h"
 #include "mesh/refinement/emitter_sources.h"
+#include "mesh/refinement/light_operator.h"
 #include "mesh/refinement/shown_mesh.h"
 #include "solver/base/check.h"
 #include "solver/base/stopwatch.h"
@@ -162,6 +163,7 @@ struct Pipeline::Impl {
   PipelineReport report;
   CurrentIrradiance irradiance;  // from the present solution
   ShownMesh shown;
+  std::optional<LightOperator> light_operator;  // of the present solution and mesh
   std::vector<EmitterLight> emitters;  // of the present solution; without interpolants before BuildMesh()
 
   // A new solver, and the seconds that finding pairs and making the solver have taken.
@@ -429,6 +431,7 @@ struct Pipeline::Impl {
     irradiance.Reset();
     undivided.reset();
     emitters.clear();
+    light_operator.reset();
     shown.Forget();
     mesh_kind.reset();
     light_refined = false;
@@ -571,6 +574,42 @@ void Pipeline::Solve(const ExecutionContext& context, const StepObserver& observ
                     iterations.size(), Converged() ? "converged" : "not converged"));
 }
 
+bool Pipeline::KeepOperator(const ExecutionContext& context) {
+  PENUMBRA_CHECK(impl_->shown.triangulations().size() == impl_->scene.patches.size() &&
+                 impl_->mesh_kind == MeshKind::kInterpolant);
+  const PointIrradiance* const exact = impl_->irradiance.Get(context);
+  if (!exact || !exact->CanRecord()) return false;
+  impl_->light_operator.emplace(
+      OperatorInput{solution(), impl_->shown.forest(), impl_->shown.triangulations(), *exact, impl_->emitters,
+                    impl_->shown.EmitterTolerance()},
+      context);
+  if (!impl_->light_operator->Ready()) impl_->light_operator.reset();
+  return impl_->light_operator.has_value();
+}
+
+std::size_t Pipeline::OperatorBytes() const {
+  return impl_->light_operator ? impl_->light_operator->bytes() : 0;
+}
+
+std::optional<PipelineState> Pipeline::LitBy(const Scene& other) const {
+  if (!impl_->light_operator) return std::nullopt;
+  std::optional<EmitterLight> light =
+      impl_->light_operator->LitBy(other, impl_->resolved.solver.relative_cutoff);
+  if (!light) return std::nullopt;
+  PipelineState state;
+  state.visibility = visibility();
+  state.solution = solution();
+  state.solution.forest = state.solution.forest.Of(other);
+  ReplaceIrradiance(light->element, light->fragment, state.solution);
+  state.mesh = mesh();
+  state.mesh.irradiance = std::move(light->interpolant);
+  state.report.counts = impl_->report.counts;
+  state.report.interactions = impl_->report.interactions;
+  state.report.iterations = impl_->report.iterations;
+  state.report.error_asked = impl_->report.error_asked;
+  return state;
+}
+
 void Pipeline::CountLimits() { impl_->begun = RunLimits::Clock::now(); }
 
 bool Pipeline::RefinesLight() const {
@@ -581,6 +620,7 @@ void Pipeline::RefineLight(const ExecutionContext& context) {
   if (!RefinesLight()) return;
   if (impl_->light_refined) return;
   const RunLimits limits = impl_->LimitsSinceSolve(context);
+  impl_->light_operator.reset();
   impl_->light_refined =
       impl_->shown.RefineLight(*impl_->solver, impl_->OptionsOf(MeshKind::kInterpolant), limits.context());
   impl_->DropUnmet("light: ");
@@ -595,6 +635,7 @@ void Pipeline::RefineLight(const ExecutionContext& context) {
 void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is) {
   if (impl_->mesh_kind == kind && (as_it_is || !impl_->mesh_unrefined)) return;
   const RunLimits limits = impl_->LimitsSinceSolve(context);
+  impl_->light_operator.reset();
   if (!impl_->stored)
     for (const char* stage : {"mesh: ", "discontinuities: ", "interpolants: "}) impl_->DropUnmet(stage);
   // A mesh without irradiance at points is quick to make, so that limits do not apply.

@@ -243,6 +243,18 @@ class Pipeline {
   // If `as_it_is` is true, the mesh is not refined, so that the result of a single step can be inspected.
   // BuildMesh() has no effect if the mesh exists already. REQUIRES: Link() or a step that calls it.
   void BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is = false);
+  // Keeps the light transport of the present solution and mesh as a matrix, for LitBy(). Looks at each node
+  // of the mesh once more. Returns false if cancelled, or if irradiance has no rows of form factors: that of
+  // the sampled solver and of chosen occlusion methods. The next step or mesh drops the matrix. REQUIRES:
+  // this pipeline has made the mesh, of kind kInterpolant, after the last step.
+  bool KeepOperator(const ExecutionContext& context);
+  // The memory of the matrix [bytes]; 0: none is kept.
+  std::size_t OperatorBytes() const;
+  // The solution and the mesh of a scene with the same patches and other emittances or reflectances, for
+  // another Pipeline: products with the matrix, and no form factors. The report measures nothing. Nothing if
+  // no matrix is kept, or if a patch of `other` sends light that sent none in this scene. `other` must
+  // outlive the result.
+  std::optional<PipelineState> LitBy(const Scene& other) const;
   // Restarts the limits of time and memory, as Solve() does at its beginning; for callers that make the steps
   // of Solve() themselves.
   void CountLimits();

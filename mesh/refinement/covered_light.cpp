@@ -28,7 +28,7 @@ void KeepLeft(const Vec2& a, const Vec2& b, Polygon2& polygon, Polygon2& buffer)
 }  // namespace
 
 Rgb CoveredLight::Triangle::At(const Vec2& p) const {
-  const Vec2 st = to_barycentric * (p - origin);
+  const Vec2 st = BarycentricOf(p);
   return irradiance->At(st.x(), st.y());
 }
 
@@ -41,7 +41,7 @@ CoveredLight::CoveredLight(const IrradianceMesh& mesh, std::uint32_t first, std:
       corner[k] = frame.ToPlane(mesh.positions[mesh.triangles[t].vertex[k]]);
     const double area = SignedArea(corner);
     if (!(area > 0)) continue;
-    Triangle triangle{corner[0], Eigen::Matrix2d(), area, &mesh.irradiance[t]};
+    Triangle triangle{t, corner[0], Eigen::Matrix2d(), area, &mesh.irradiance[t]};
     triangle.to_barycentric.col(0) = corner[1] - corner[0];
     triangle.to_barycentric.col(1) = corner[2] - corner[0];
     triangle.to_barycentric = triangle.to_barycentric.inverse().eval();
@@ -90,6 +90,26 @@ Rgb CoveredLight::Mean() const {
     }
   }
   return sum / area_;
+}
+
+std::vector<CoveredLight::SampleWeights> CoveredLight::MeanWeights() const {
+  std::vector<SampleWeights> weights;
+  for (const Piece& piece : pieces_) {
+    const Triangle& triangle = (*triangles_)[piece.triangle];
+    SampleWeights& own = weights.emplace_back();
+    own.triangle = triangle.number;
+    const std::span<const Vec2> p = Corners(piece);
+    for (std::size_t i = 2; i < p.size(); ++i) {
+      const double area = 0.5 * Cross2(p[i - 1] - p[0], p[i] - p[0]);
+      for (const Vec2& at :
+           {Vec2(0.5 * (p[0] + p[i - 1])), Vec2(0.5 * (p[i - 1] + p[i])), Vec2(0.5 * (p[i] + p[0]))}) {
+        const Vec2 st = triangle.BarycentricOf(at);
+        const std::array<double, 6> basis = QuadraticInterpolant::WeightsAt(st.x(), st.y());
+        for (std::size_t k = 0; k < basis.size(); ++k) own.weight[k] += area / (3 * area_) * basis[k];
+      }
+    }
+  }
+  return weights;
 }
 
 Rgb CoveredLight::Deviation(const Rgb& mean) const {

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -27,6 +28,13 @@ class CoveredLight {
   double area() const { return area_; }
   // The exact mean of the interpolants over the pieces [W/m^2]. REQUIRES: area() > 0.
   Rgb Mean() const;
+  // Mean() as a sum over samples: for each triangle with a piece, its number in the mesh, and the weights of
+  // its six samples in the order of kSampleAt. The weights add up to 1. REQUIRES: area() > 0.
+  struct SampleWeights {
+    std::uint32_t triangle = 0;
+    std::array<double, 6> weight = {};
+  };
+  std::vector<SampleWeights> MeanWeights() const;
   // For each channel, the largest difference between `mean` and the interpolants, at the vertices of the
   // pieces and at the midpoints of their edges [W/m^2].
   Rgb Deviation(const Rgb& mean) const;
@@ -35,11 +43,13 @@ class CoveredLight {
 
  private:
   struct Triangle {
+    std::uint32_t number;  // in the mesh
     Vec2 origin;
     Eigen::Matrix2d to_barycentric;
     double area;  // [m^2]
     const QuadraticInterpolant* irradiance;
 
+    Vec2 BarycentricOf(const Vec2& p) const { return to_barycentric * (p - origin); }
     Rgb At(const Vec2& p) const;
   };
   struct Piece {

@@ -119,6 +119,8 @@ class ShownMesh {
                                                          const SourceCells& finest);
 
   const IrradianceMesh& mesh() const { return mesh_; }
+  // The forest of triangulations().
+  const ElementForest& forest() const { return plan_.forest; }
   // The triangulations of mesh(); empty if the mesh was set by Take().
   std::span<const PatchTriangulation> triangulations() const { return triangulations_; }
   // The error of each triangle of the mesh; empty if the triangles were not measured.
