@@ -60,14 +60,15 @@ void Export(ExportArguments arguments) {
   for (const std::string& library : FilesBeside(arguments.output))
     arguments.scene.outputs.Add("the library of -o", library);
   LoadedScene loaded = LoadToSolve(arguments.scene);
+  const Camera camera = ChooseCamera(loaded.scene, arguments.camera);
   if (!ExportsMesh(arguments.output)) {
     if (arguments.scene.verbose) PrintOptionsUsed(OptionsUsed(arguments.scene, nullptr));
-    ExportScene(arguments.output, loaded.scene, ChooseCamera(loaded.scene, arguments.camera));
+    ExportScene(arguments.output, loaded.scene, camera);
     return;
   }
   SolveRun run(arguments.scene, loaded);
   run.Run(MeshKind::kInterpolant, WantsReport(arguments.scene));
-  ExportMesh(arguments.output, loaded.scene, run.pipeline().mesh(), arguments.exposure);
+  ExportMesh(arguments.output, {run.pipeline().scene(), run.pipeline().mesh(), camera, arguments.exposure});
   run.Tell();
 }
 

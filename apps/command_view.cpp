@@ -242,7 +242,7 @@ viewer::ViewerFiles FilesOf(ViewedScene& viewed) {
                                 const Camera& camera) {
     viewed.CheckExport(path);
     if (mesh)
-      ExportMesh(path, scene, *mesh, std::nullopt);
+      ExportMesh(path, {scene, *mesh, camera});
     else
       ExportScene(path, scene, camera);
   };

@@ -6,7 +6,6 @@
 
 #include "apps/option_values.h"
 #include "apps/output.h"
-#include "display/mesh_nodes.h"
 #include "display/mesh_writers.h"
 #include "solver/base/file_endings.h"
 #include "solver/base/whole_file.h"
@@ -27,12 +26,11 @@ std::unique_ptr<const SceneWriter> SceneWriterFor(const std::string& path) {
 }
 
 // The endings of the writers that have what is asked for.
-template <class Writers>
-std::string EndingsWith(const Writers& writers, const auto& has) {
+std::vector<std::string> EndingsWith(const auto& writers, const auto& has) {
   std::vector<std::string> endings;
   for (const auto& format : writers.methods())
     if (has(*format.make())) endings.push_back(format.name);
-  return NameList(Dotted(endings));
+  return Dotted(endings);
 }
 
 // A line for each format of a kind.
@@ -66,29 +64,32 @@ bool ExportsColours(const std::string& path) {
 }
 
 bool ExportsCamera(const std::string& path) {
-  const std::unique_ptr<const SceneWriter> writer = SceneWriterFor(path);
-  return writer && writer->HasCamera();
+  const std::unique_ptr<const SceneWriter> of_scene = SceneWriterFor(path);
+  const std::unique_ptr<const MeshWriter> of_mesh = MeshWriterFor(path);
+  return (of_scene && of_scene->HasCamera()) || (of_mesh && of_mesh->HasCamera());
 }
 
 std::string EndingsWithColours() {
-  return EndingsWith(MeshWriters(), [](const MeshWriter& writer) { return writer.HasColours(); });
+  return NameList(EndingsWith(MeshWriters(), [](const MeshWriter& writer) { return writer.HasColours(); }));
 }
 
 std::string EndingsWithCamera() {
-  return EndingsWith(SceneWriters(), [](const SceneWriter& writer) { return writer.HasCamera(); });
+  const auto has_camera = [](const auto& writer) { return writer.HasCamera(); };
+  std::vector<std::string> endings = EndingsWith(MeshWriters(), has_camera);
+  for (const std::string& ending : EndingsWith(SceneWriters(), has_camera)) endings.push_back(ending);
+  return NameList(endings);
 }
 
 std::string ExportFormats() {
   return "With the light, which is solved for first:" + Formats(MeshWriters()) +
-         "\nThe scene alone, nothing is solved:" + Formats(SceneWriters());
+         "\nThe scene alone, nothing is solved:" +
+         Formats(SceneWriters());
 }
 
-void ExportMesh(const std::string& path, const Scene& scene, const IrradianceMesh& mesh,
-                std::optional<double> exposure) {
+void ExportMesh(const std::string& path, const MeshExport& from) {
   const std::unique_ptr<const MeshWriter> writer = MeshWriterFor(path);
   PENUMBRA_CHECK(writer != nullptr);
-  if (!exposure && writer->HasColours()) exposure = MeterMesh(scene, mesh);
-  WriteResult(path, writer->Bytes(scene, mesh, exposure.value_or(1)));
+  WriteResult(path, writer->Bytes(from));
 }
 
 void ExportScene(const std::string& path, const Scene& scene, const Camera& camera) {

@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/interpolants/irradiance_mesh.h"
-#include "solver/scene/scene.h"
+#include "display/mesh_writer.h"
 
 namespace penumbra {
 
@@ -32,10 +31,8 @@ std::string EndingsWithCamera();
 std::string ExportFormats();
 
 // ExportMesh() writes the mesh to a file, and ExportScene() the scene. ExportMesh() and ExportScene() throw
-// InputError if the file cannot be written. Colours are exposure [m^2/W] * radiosity; if `exposure` is
-// nullopt, it is determined by MeterMesh(). REQUIRES: ExportFormatError(path) returns nullopt.
-void ExportMesh(const std::string& path, const Scene& scene, const IrradianceMesh& mesh,
-                std::optional<double> exposure);
+// InputError if the file cannot be written. REQUIRES: ExportFormatError(path) returns nullopt.
+void ExportMesh(const std::string& path, const MeshExport& from);
 void ExportScene(const std::string& path, const Scene& scene, const Camera& camera);
 
 }  // namespace penumbra

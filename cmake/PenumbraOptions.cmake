@@ -66,3 +66,21 @@ function(penumbra_library name)
   target_link_libraries(penumbra_${name} PUBLIC penumbra_options PRIVATE $<BUILD_INTERFACE:penumbra_warnings>)
   target_link_libraries(penumbra_${name} PUBLIC ${ARGN})
 endfunction()
+
+# penumbra_embed(TARGET FOLDER ENDINGS HEADER FUNCTION): the files of a folder travel inside the target. ENDINGS are
+# separated by commas. The header declares the function that returns the files.
+function(penumbra_embed target folder endings header function)
+  get_filename_component(name "${header}" NAME_WE)
+  set(output "${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp")
+  string(REPLACE "," ";" list "${endings}")
+  list(TRANSFORM list PREPEND "${folder}/*.")
+  file(GLOB files CONFIGURE_DEPENDS ${list})
+  set(script "${PROJECT_SOURCE_DIR}/cmake/EmbedFiles.cmake")
+  add_custom_command(
+    OUTPUT "${output}"
+    COMMAND "${CMAKE_COMMAND}" -D "FOLDER=${folder}" -D "ENDINGS=${endings}" -D "HEADER=${header}"
+            -D "FUNCTION=${function}" -D "OUTPUT=${output}" -P "${script}"
+    DEPENDS ${files} "${script}"
+    VERBATIM)
+  target_sources(${target} PRIVATE "${output}")
+endfunction()

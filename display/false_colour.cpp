@@ -14,13 +14,13 @@ namespace penumbra {
 namespace {
 
 // Lightness rises along the scale.
-constexpr std::array<ScreenColour, 7> kScale = {{{0, 0, 20},
-                                                 {30, 20, 110},
-                                                 {120, 25, 130},
-                                                 {205, 60, 85},
-                                                 {245, 130, 30},
-                                                 {250, 205, 60},
-                                                 {255, 255, 235}}};
+constexpr std::array<ScreenColour, kFalseColourStops> kScale = {{{0, 0, 20},
+                                                                 {30, 20, 110},
+                                                                 {120, 25, 130},
+                                                                 {205, 60, 85},
+                                                                 {245, 130, 30},
+                                                                 {250, 205, 60},
+                                                                 {255, 255, 235}}};
 
 constexpr ScreenColour kWhite{255, 255, 255};
 

@@ -16,6 +16,9 @@ namespace penumbra {
 // A colour scale of monotonically increasing lightness: black, blue, violet, orange, yellow, white. `x` is
 // clamped to [0, 1].
 ScreenColour FalseColour(double x);
+// The scale is linear in the codes between this many colours at equal distances: x = i / (kFalseColourStops -
+// 1).
+inline constexpr int kFalseColourStops = 7;
 
 // Colours every pixel of a surface by FalseColour(mean of its channels / top); `top` has the unit of the
 // image. Emitters are white, and the background is dark grey.

@@ -120,8 +120,8 @@ std::string GlbBytes(const Scene& scene, const IrradianceMesh& mesh, double expo
 class GlbWriter final : public MeshWriter {
  public:
   bool HasColours() const override { return true; }
-  std::string Bytes(const Scene& scene, const IrradianceMesh& mesh, double exposure) const override {
-    return GlbBytes(scene, mesh, exposure);
+  std::string Bytes(const MeshExport& from) const override {
+    return GlbBytes(from.scene, from.mesh, ExposureOf(from));
   }
 };
 

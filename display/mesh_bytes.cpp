@@ -17,6 +17,10 @@ MeshNodes NodesToWrite(const Scene& scene, const IrradianceMesh& mesh, double mo
   return nodes;
 }
 
+double ExposureOf(const MeshExport& from) {
+  return from.exposure ? *from.exposure : MeterMesh(from.scene, from.mesh);
+}
+
 Rgb ExposedAt(const Scene& scene, const MeshNodes::Node& node, double exposure) {
   if ((scene.MaterialOf(node.patch).emittance > 0).any()) return Rgb::Ones();
   return (exposure * node.radiosity).max(0.0).min(1.0);

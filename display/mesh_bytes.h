@@ -10,6 +10,7 @@
 #include <string>
 
 #include "display/mesh_nodes.h"
+#include "display/mesh_writer.h"
 
 namespace penumbra {
 
@@ -30,6 +31,9 @@ void AppendTriple(std::string& bytes, const auto& triple) {
 // The nodes of the mesh. `most` is the largest number that the file format can represent. Throws InputError
 // if a value of a node exceeds `most`.
 MeshNodes NodesToWrite(const Scene& scene, const IrradianceMesh& mesh, double most);
+
+// The exposure of the colours [m^2/W]: the one that was asked for, else the result of MeterMesh().
+double ExposureOf(const MeshExport& from);
 
 // The linear colour of a node on a screen: exposure * radiosity, or white if the node lies on an emitter.
 Rgb ExposedAt(const Scene& scene, const MeshNodes::Node& node, double exposure);

@@ -42,8 +42,8 @@ std::string PlyBytes(const Scene& scene, const IrradianceMesh& mesh, double expo
 class PlyWriter final : public MeshWriter {
  public:
   bool HasColours() const override { return true; }
-  std::string Bytes(const Scene& scene, const IrradianceMesh& mesh, double exposure) const override {
-    return PlyBytes(scene, mesh, exposure);
+  std::string Bytes(const MeshExport& from) const override {
+    return PlyBytes(from.scene, from.mesh, ExposureOf(from));
   }
 };
 

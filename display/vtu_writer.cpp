@@ -7,24 +7,11 @@
 #include <limits>
 #include <string_view>
 
+#include "display/base64.h"
 #include "display/mesh_bytes.h"
 
 namespace penumbra {
 namespace {
-
-std::string Base64(std::string_view bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(4 * bytes.size() / 3 + 4);
-  for (std::size_t at = 0; at < bytes.size(); at += 3) {
-    std::uint32_t word = 0;
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - at);
-    for (std::size_t i = 0; i < 3; ++i)
-      word = word << 8 | (i < count ? static_cast<unsigned char>(bytes[at + i]) : 0U);
-    for (std::size_t i = 0; i < 4; ++i) text.push_back(i <= count ? kDigits[word >> (18 - 6 * i) & 63] : '=');
-  }
-  return text;
-}
 
 // One array of a VTU file: its length in bytes and itself.
 std::string DataArray(const char* type, const char* name, int components, const std::string& bytes) {
@@ -68,9 +55,7 @@ std::string VtuBytes(const Scene& scene, const IrradianceMesh& mesh) {
 class VtuWriter final : public MeshWriter {
  public:
   bool HasColours() const override { return false; }
-  std::string Bytes(const Scene& scene, const IrradianceMesh& mesh, double /*exposure*/) const override {
-    return VtuBytes(scene, mesh);
-  }
+  std::string Bytes(const MeshExport& from) const override { return VtuBytes(from.scene, from.mesh); }
 };
 
 }  // namespace

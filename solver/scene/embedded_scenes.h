@@ -2,14 +2,9 @@
 
 #pragma once
 
-#include <span>
-#include <string_view>
+#include "solver/base/embedded_file.h"
 
 namespace penumbra {
-
-struct EmbeddedFile {
-  std::string_view name, text;
-};
 
 // The files of the folder scenes/, sorted by name. The build generates the definition of this function.
 std::span<const EmbeddedFile> EmbeddedSceneFiles();

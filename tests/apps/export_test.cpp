@@ -41,7 +41,7 @@ TEST(Export, ScenesComeBack) {
 TEST(Export, MeshesAreTheSameForAnyThreads) {
   const Sandbox sandbox;
   sandbox.Write("empty.obj", "# nothing\n");
-  for (const char* format : {".vtu", ".ply", ".glb"}) {
+  for (const char* format : {".vtu", ".ply", ".glb", ".html"}) {
     const std::string one = std::string("one") + format, two = std::string("two") + format;
     ASSERT_EQ(sandbox.Run({"export", "furnace", "--error", "0.5", "-o", one, "--threads", "1"}).status, 0);
     ASSERT_EQ(sandbox.Run({"export", "furnace", "--error", "0.5", "-o", two, "--threads", "2"}).status, 0);

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 class TriangleCounter final : public MeshWriter {
  public:
   bool HasColours() const override { return false; }
-  std::string Bytes(const Scene&, const IrradianceMesh& mesh, double) const override {
-    return std::to_string(mesh.triangles.size());
+  std::string Bytes(const MeshExport& from) const override {
+    return std::to_string(from.mesh.triangles.size());
   }
 };
 
@@ -46,7 +46,7 @@ void AddToyWriters() {
 // Writers are listed, each with a line of help; a name that nobody has is refused.
 TEST(Writers, AreListed) {
   AddToyWriters();
-  EXPECT_EQ(MeshWriters().Names(), (std::vector<std::string>{"vtu", "ply", "glb", "count"}));
+  EXPECT_EQ(MeshWriters().Names(), (std::vector<std::string>{"vtu", "ply", "glb", "html", "count"}));
   EXPECT_EQ(ImageWriters().Names(), (std::vector<std::string>{"png", "exr", "raw"}));
   for (const auto& method : MeshWriters().methods()) EXPECT_FALSE(method.help.empty());
   for (const auto& method : ImageWriters().methods()) EXPECT_FALSE(method.help.empty());
@@ -59,11 +59,12 @@ TEST(Writers, MeshesGoByEnding) {
   AddToyWriters();
   const auto bytes = [](const char* path) {
     const MeshWriterRegistry::Method* format = FindByEnding(MeshWriters(), path);
-    return format ? format->make()->Bytes(Scene(), IrradianceMesh(), 1) : "";
+    return format ? format->make()->Bytes({Scene(), IrradianceMesh(), {}, 1}) : "";
   };
   EXPECT_TRUE(bytes("a.vtu").starts_with("<?xml"));
   EXPECT_TRUE(bytes("a.ply").starts_with("ply\n"));
   EXPECT_TRUE(bytes("a.glb").starts_with("glTF"));
+  EXPECT_TRUE(bytes("a.html").starts_with("<!DOCTYPE html>"));
   EXPECT_EQ(bytes("a.count"), "0");
   EXPECT_EQ(bytes("a.obj"), "");
 }

@@ -1,0 +1,13 @@
+// display/base64.h
+
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace penumbra {
+
+// The bytes as text (RFC 4648, section 4), filled up with `=` to a multiple of four characters.
+std::string Base64(std::string_view bytes);
+
+}  // namespace penumbra
