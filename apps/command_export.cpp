@@ -28,6 +28,7 @@ struct ExportArguments {
   CameraArguments camera;
   std::string output;
   std::optional<double> exposure;  // [m^2/W]; metered if not given
+  int atlas = 0;                   // pixels a side of an irradiance map; 0: none is wanted
 };
 
 // Where the scene alone is written, nothing can be said of a solve.
@@ -42,33 +43,46 @@ void RefuseSolve(const ExportArguments& arguments) {
 // Options that the format has no use for.
 void RefuseIdle(const ExportArguments& arguments) {
   const std::string format = fmt::format(".{}", EndingOf(arguments.output));
-  if (arguments.exposure && !ExportsColours(arguments.output))
-    throw UsageError(fmt::format("--exposure is of the colours in {}, and {} has none; leave it out",
-                                 EndingsWithColours(), format));
+  const bool map = arguments.atlas > 0;
+  if (map && !ExportsMap(arguments.output))
+    throw UsageError(fmt::format("--atlas makes a map of {}, and {} is no such format; leave it out",
+                                 EndingsOfMaps(), format));
+  if (!map && IsMapOnly(arguments.output))
+    throw UsageError(
+        fmt::format("{} holds an irradiance map; give its size by --atlas N, such as --atlas 1024", format));
+  if (arguments.exposure && !(map ? format != ".exr" : ExportsColours(arguments.output)))
+    throw UsageError(fmt::format(
+        "--exposure is of the colours in {}, and of maps other than .exr, and {} has none; leave it out",
+        EndingsWithColours(), format));
   const CameraArguments& camera = arguments.camera;
-  if (!ExportsCamera(arguments.output) &&
+  if ((map || !ExportsCamera(arguments.output)) &&
       (camera.camera || camera.eye || camera.look_at || camera.up || camera.vertical_fov))
     throw UsageError(fmt::format("a camera is of {}, and {} has none; leave its options out",
-                                 EndingsWithCamera(), format));
+                                 EndingsWithCamera(), map ? "a map" : format));
 }
 
 void Export(ExportArguments arguments) {
   RefuseIdle(arguments);
-  if (!ExportsMesh(arguments.output)) RefuseSolve(arguments);
+  const bool map = arguments.atlas > 0, lit = map || ExportsMesh(arguments.output);
+  if (!lit) RefuseSolve(arguments);
   arguments.scene.outputs.Add("-o", arguments.output);
   arguments.scene.outputs.Add("--report", arguments.scene.report);
   for (const std::string& library : FilesBeside(arguments.output))
     arguments.scene.outputs.Add("the library of -o", library);
   LoadedScene loaded = LoadToSolve(arguments.scene);
   const Camera camera = ChooseCamera(loaded.scene, arguments.camera);
-  if (!ExportsMesh(arguments.output)) {
+  if (!lit) {
     if (arguments.scene.verbose) PrintOptionsUsed(OptionsUsed(arguments.scene, nullptr));
     ExportScene(arguments.output, loaded.scene, camera);
     return;
   }
   SolveRun run(arguments.scene, loaded);
   run.Run(MeshKind::kInterpolant, WantsReport(arguments.scene));
-  ExportMesh(arguments.output, {run.pipeline().scene(), run.pipeline().mesh(), camera, arguments.exposure});
+  const MeshExport from{run.pipeline().scene(), run.pipeline().mesh(), camera, arguments.exposure};
+  if (map)
+    ExportMap(arguments.output, from, arguments.atlas);
+  else
+    ExportMesh(arguments.output, from);
   run.Tell();
 }
 
@@ -92,6 +106,11 @@ Command AddExportCommand(CLI::App& program) {
   AddNumber(*app, "--exposure", &arguments->exposure, kPositive,
             fmt::format("Brightness of the colours in {}, 0 to 1, per W/m^2 (default: metered from the mesh)",
                         EndingsWithColours()));
+  AddInteger(
+      *app, "--atlas", &arguments->atlas, 1, 16384,
+      fmt::format("Write an irradiance map of N x N pixels, with a chart for each patch, to {} [pixels]",
+                  EndingsOfMaps()))
+      ->default_str("");
   AddCameraOptions(*app, &arguments->camera, &arguments->scene.reading.up);
   AddDimOption(*app, &arguments->scene);
   AddSolveOptions(*app, &arguments->scene);

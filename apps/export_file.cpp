@@ -6,6 +6,7 @@
 
 #include "apps/option_values.h"
 #include "apps/output.h"
+#include "display/atlas/atlas_files.h"
 #include "display/mesh_writers.h"
 #include "solver/base/file_endings.h"
 #include "solver/base/whole_file.h"
@@ -45,11 +46,22 @@ std::string Formats(const auto& writers) {
 }  // namespace
 
 std::optional<std::string> ExportFormatError(const std::string& path) {
-  if (MeshWriterFor(path) || SceneWriterFor(path)) return std::nullopt;
+  if (MeshWriterFor(path) || SceneWriterFor(path) || ExportsMap(path)) return std::nullopt;
   std::vector<std::string> endings = MeshWriters().Names();
   for (const std::string& ending : SceneWriters().Names()) endings.push_back(ending);
   return EndingError(path, endings);
 }
+
+bool ExportsMap(const std::string& path) {
+  const std::vector<std::string> endings = AtlasEndings();
+  return std::find(endings.begin(), endings.end(), EndingOf(path)) != endings.end();
+}
+
+bool IsMapOnly(const std::string& path) {
+  return ExportsMap(path) && !MeshWriterFor(path) && !SceneWriterFor(path);
+}
+
+std::string EndingsOfMaps() { return NameList(Dotted(AtlasEndings())); }
 
 std::vector<std::string> FilesBeside(const std::string& path) {
   const std::unique_ptr<const SceneWriter> writer = SceneWriterFor(path);
@@ -82,6 +94,10 @@ std::string EndingsWithCamera() {
 
 std::string ExportFormats() {
   return "With the light, which is solved for first:" + Formats(MeshWriters()) +
+         "\nIrradiance maps, with --atlas:"
+         "\n  .exr   linear irradiance [W/m^2]"
+         "\n  .png   exposure * irradiance, as a screen shows it"
+         "\n  .glb   glTF 2.0: the patches, unlit, with their radiosity as a texture"
          "\nThe scene alone, nothing is solved:" +
          Formats(SceneWriters());
 }
@@ -90,6 +106,10 @@ void ExportMesh(const std::string& path, const MeshExport& from) {
   const std::unique_ptr<const MeshWriter> writer = MeshWriterFor(path);
   PENUMBRA_CHECK(writer != nullptr);
   WriteResult(path, writer->Bytes(from));
+}
+
+void ExportMap(const std::string& path, const MeshExport& from, int size) {
+  WriteResult(path, AtlasBytes(EndingOf(path), from, size));
 }
 
 void ExportScene(const std::string& path, const Scene& scene, const Camera& camera) {

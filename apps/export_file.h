@@ -13,7 +13,11 @@
 namespace penumbra {
 
 // Describes what is wrong with the path's ending; nullopt if Penumbra can write a format with this ending.
+// Pictures are formats of irradiance maps only.
 std::optional<std::string> ExportFormatError(const std::string& path);
+// True if the format can be that of an irradiance map; IsMapOnly() is true if it can be nothing else.
+bool ExportsMap(const std::string& path);
+bool IsMapOnly(const std::string& path);
 // The paths of the files that are written in addition to the scene file `path`, such as the material library
 // of an .obj file.
 std::vector<std::string> FilesBeside(const std::string& path);
@@ -27,12 +31,17 @@ bool ExportsCamera(const std::string& path);
 // ".ply and .glb".
 std::string EndingsWithColours();
 std::string EndingsWithCamera();
+// The endings of irradiance maps.
+std::string EndingsOfMaps();
 // A description of all formats, one line each.
 std::string ExportFormats();
 
 // ExportMesh() writes the mesh to a file, and ExportScene() the scene. ExportMesh() and ExportScene() throw
 // InputError if the file cannot be written. REQUIRES: ExportFormatError(path) returns nullopt.
 void ExportMesh(const std::string& path, const MeshExport& from);
+// Writes an irradiance map of size x size pixels. Throws InputError like ExportMesh(), or if the map has no
+// room for all patches. REQUIRES: ExportsMap(path).
+void ExportMap(const std::string& path, const MeshExport& from, int size);
 void ExportScene(const std::string& path, const Scene& scene, const Camera& camera);
 
 }  // namespace penumbra

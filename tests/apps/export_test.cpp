@@ -50,6 +50,36 @@ TEST(Export, MeshesAreTheSameForAnyThreads) {
   }
 }
 
+// In a furnace, irradiance is the same everywhere, and so is every pixel of its map that lies on a chart.
+TEST(Export, MapsHoldIrradiance) {
+  const Sandbox sandbox;
+  const std::vector<std::string> solved = {"solve", "furnace", "--error", "0.1", "-o", "a.h5"};
+  ASSERT_EQ(sandbox.Run(solved).status, 0);
+  for (const char* file : {"a.exr", "a.png", "a.glb"})
+    ASSERT_EQ(sandbox.Run({"export", "a.h5", "-o", file, "--atlas", "128"}).status, 0);
+  const RgbImage map = ReadExr(sandbox.Path("a.exr"));
+  ASSERT_EQ(map.width, 128);
+  sandbox.Write("points.csv", "x,y,z,nx,ny,nz\n0.5,0.5,0,0,0,1\n");
+  const std::string row = Lines(sandbox.Run({"probe", "a.h5", "--points", "points.csv"}).out).at(1);
+  const double want = std::stod(Fields(row).at(10));
+  int lit = 0;
+  for (const float value : map.channel[0])
+    if (value > 0) {
+      ++lit;
+      EXPECT_NEAR(static_cast<double>(value), want, 0.01 * want);
+    }
+  EXPECT_GT(lit, 128 * 128 / 4);
+  EXPECT_EQ(ReadBytes(sandbox.Path("a.png")).substr(1, 3), "PNG");
+  const std::string glb = ReadBytes(sandbox.Path("a.glb"));
+  std::uint32_t length = 0;
+  std::memcpy(&length, glb.data() + 12, 4);
+  const json gltf = json::parse(glb.substr(20, length));
+  EXPECT_EQ(gltf["images"][0]["mimeType"], "image/png");
+  EXPECT_EQ(gltf["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"], 1);
+  EXPECT_EQ(gltf["nodes"][0]["rotation"].size(), 4U);
+  EXPECT_EQ(gltf["scenes"][0]["nodes"], json::array({0}));
+}
+
 // The numbers of this type, so many in a row.
 template <class Scalar>
 std::vector<double> Numbers(const std::string& bytes, std::size_t at, std::size_t count) {
@@ -131,6 +161,11 @@ TEST(Export, RefusesOtherEndings) {
   const Sandbox sandbox;
   EXPECT_EQ(sandbox.Run({"export", "furnace", "-o", "a.stl"}).status, 2);
   EXPECT_EQ(sandbox.Run({"export", "furnace"}).status, 2);
+  EXPECT_THAT(sandbox.Run({"export", "furnace", "-o", "a.exr"}).err, HasSubstr("--atlas"));
+  EXPECT_EQ(sandbox.Run({"export", "furnace", "-o", "a.exr"}).status, 2);
+  EXPECT_EQ(sandbox.Run({"export", "furnace", "-o", "a.vtu", "--atlas", "64"}).status, 2);
+  EXPECT_EQ(sandbox.Run({"export", "furnace", "-o", "a.exr", "--atlas", "64", "--exposure", "1"}).status, 2);
+  EXPECT_EQ(sandbox.Run({"export", "furnace", "-o", "a.ply", "--eye", "1,1,1"}).status, 2);
   EXPECT_EQ(sandbox.Run({"export", "furnace", "-o", "nowhere/a.ply"}).status, 1);
   EXPECT_EQ(sandbox.Run({"diff", "a.exr"}).status, 2);
   EXPECT_THAT(sandbox.Files(), ElementsAre());

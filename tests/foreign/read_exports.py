@@ -7,6 +7,7 @@ meshio reads the VTU, assimp the PLY, GLB, and OBJ; h5py is not needed.
 
 import json
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -76,4 +77,11 @@ demand(numpy.allclose(numbers("a.ply", "Maximum point"), high, atol=1e-5), "boun
 demand(numpy.allclose(numbers("a.glb", "Minimum point"), [low[0], low[2], -high[1]], atol=1e-5), "bounds of the GLB")
 demand(numpy.allclose(numbers("a.glb", "Maximum point"), [high[0], high[2], -low[1]], atol=1e-5), "bounds of the GLB")
 demand(numpy.allclose(numbers("a.obj", "Minimum point"), low, atol=1e-5), "bounds of the OBJ")
+
+# The map in a GLB: the patches alone, in the same place, with one picture and both sets of coordinates.
+run(program, "export", "a.h5", "--atlas", "256", "-o", "map.glb")
+told = run(assimp, "info", "map.glb")
+demand(re.search(r"Textures \(embed\.\):\s+1\b", told), "the picture of the map")
+demand(numbers("map.glb", "Faces:")[0] >= info["faces"], "a triangle or more for each face")
+demand(numpy.allclose(numbers("map.glb", "Minimum point"), [low[0], low[2], -high[1]], atol=1e-5), "bounds of the map")
 print("read", triangles, "triangles")
