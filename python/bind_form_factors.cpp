@@ -1,6 +1,7 @@
 // The function form_factor().
 
 #include <fmt/format.h>
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -15,7 +16,9 @@
 #include "python/python_errors.h"
 #include "python/python_scene.h"
 #include "solver/base/check.h"
+#include "solver/transport/links/link_form_factor_method.h"
 #include "solver/visibility/area/area_form_factor.h"
+#include "solver/visibility/area/form_factor_matrix.h"
 #include "solver/visibility/exact/occlusion_methods.h"
 #include "solver/visibility/point/occlusion_method.h"
 
@@ -60,6 +63,8 @@ FormFactorKeywords KeywordsOf(const py::kwargs& given) {
       {TextKeyword("method", &all.method),
        {"tolerance", [&](const py::object& value) { all.tolerance = NumberOrNone<double>(value); }},
        {"rays", [&](const py::object& value) { all.approximate.rays = NumberOrNone<std::uint64_t>(value); }},
+       {"resolution",
+        [&](const py::object& value) { all.approximate.resolution = NumberOrNone<std::uint64_t>(value); }},
        {"seed",
         [&](const py::object& value) {
           all.approximate.seed = NumberOrNone<std::uint64_t>(value).value_or(1);
@@ -77,9 +82,14 @@ FormFactorKeywords KeywordsOf(const py::kwargs& given) {
         "tolerance is of exact point factors, and method='{}' has none; leave one out", all.method));
   if (all.tolerance && !(*all.tolerance >= kLeastTolerance && *all.tolerance <= kMostTolerance))
     throw InputError(fmt::format("tolerance={} is not a number from 1e-13 to 1", *all.tolerance));
-  if (all.approximate.rays && (!CastsRays(all.method) || *all.approximate.rays == 0))
+  if (all.approximate.rays && (!Takes(all.method, "rays") || *all.approximate.rays == 0))
     throw InputError(fmt::format("rays is the number of random rays, 1 or more, and method='{}' casts {}",
-                                 all.method, CastsRays(all.method) ? "that many" : "none"));
+                                 all.method, Takes(all.method, "rays") ? "that many" : "none"));
+  if (all.approximate.resolution &&
+      (!Takes(all.method, "resolution") || *all.approximate.resolution > kMostResolution))
+    throw InputError(fmt::format(
+        "resolution is the cells along a side of planes, at most {}, and method='{}' has {}", kMostResolution,
+        all.method, Takes(all.method, "resolution") ? "not so many" : "no planes"));
   all.approximate.method = all.method;
   return all;
 }
@@ -157,22 +167,61 @@ py::tuple FormFactor(const PythonScene& scene, const py::object& from, const py:
   return py::make_tuple(found.factor, found.error);
 }
 
+// (F, error, area): the matrix of all faces, dense.
+py::tuple FormFactors(const PythonScene& scene, const std::optional<double>& tolerance,
+                      const py::object& progress) {
+  const std::size_t count = scene.scene->faces.size();
+  std::vector<std::vector<AreaPart>> faces;
+  for (std::size_t i = 0; i < count; ++i)
+    faces.push_back(PartsOfFace(*scene.scene, static_cast<std::int32_t>(i)));
+  FormFactorMatrix matrix;
+  RunInBackground(progress, [&](const ExecutionContext& context) {
+    FormFactorMatrixOptions options;
+    options.tolerance = tolerance.value_or(options.tolerance);
+    options.context = &context;
+    matrix = ComputeFormFactorMatrix(*scene.scene, faces, options);
+  });
+  py::array_t<double> factor({count, count}), error({count, count}), area(count);
+  std::fill_n(factor.mutable_data(), count * count, 0.0);
+  std::fill_n(error.mutable_data(), count * count, 0.0);
+  std::copy(matrix.area.begin(), matrix.area.end(), area.mutable_data());
+  for (std::size_t row = 0; row < count; ++row)
+    for (std::size_t k = matrix.first[row]; k < matrix.first[row + 1]; ++k) {
+      const std::size_t place = row * count + static_cast<std::size_t>(matrix.column[k]);
+      factor.mutable_data()[place] = matrix.factor[k];
+      error.mutable_data()[place] = matrix.error[k];
+    }
+  return py::make_tuple(factor, error, area);
+}
+
 }  // namespace
 
 void BindFormFactors(py::module_& module) {
+  module.def("form_factors", &FormFactors, py::arg("scene"), py::kw_only(), py::arg("tolerance") = py::none(),
+             py::arg("progress") = py::none(),
+             R"(form_factors(scene, *, tolerance=None, progress=None) -> (F, error, area)
+
+The form factors between all faces of the scene, past the whole scene, as (n, n) arrays for n faces: F[i, j] is
+the fraction of the diffuse flux that leaves the front of face i and reaches the front of face j; error[i, j] is an
+upper estimate of its error. area, (n,): the area of each front in m^2, 0 for dropped faces. Each pair is
+integrated once, so that area[i] F[i, j] = area[j] F[j, i] up to rounding.
+
+tolerance: what the errors of a row may add up to, by default 1e-6.)");
   module.def(
       "form_factor", &FormFactor, py::arg("scene"), py::arg("from_"), py::arg("to"),
-      R"(form_factor(scene, from_, to, *, method="exact", tolerance=None, rays=None, seed=1, progress=None)
-    -> (F, error)
+      R"(form_factor(scene, from_, to, *, method="exact", tolerance=None, rays=None, resolution=None, seed=1,
+    progress=None) -> (F, error)
 
 The fraction of the diffuse flux that leaves the front of some faces and reaches the front of others, past the
 whole scene, as the command `form-factor` tells, to the bit; and an estimate of its error.
 
 from_, to: the name of an object or group, the number of a face from 0, or a sequence of these.
 method: "exact", the default: exact point factors past all blockers, integrated to the tolerance; "clipping",
-    "backprojection", "vertex-tracing": the same, occlusion found so; "cubature", "disk", "monte-carlo": approximate.
+    "backprojection", "vertex-tracing": the same, occlusion found so; "cubature", "disk", "monte-carlo", "malley",
+    "hemicube" and the others that `penumbra methods` lists as form-factors: approximate.
 tolerance: for the exact ones, the error that is asked for, relative to F; from 1e-13 to 1.
-rays, seed: of "monte-carlo": the number of rays, by default a million.
+rays, seed: of the methods that cast rays: their number, by default a million, and the seed.
+resolution: of hemicubes and their like: cells along a side of their planes.
 Raises InputError for names, numbers and values that are not there.)");
 }
 

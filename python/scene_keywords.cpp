@@ -4,6 +4,7 @@
 
 #include "python/arrays.h"
 #include "solver/base/check.h"
+#include "solver/scene/scene_frame.h"
 
 namespace penumbra {
 namespace {
@@ -43,6 +44,22 @@ std::vector<Keyword> FaceKeywords(SceneOptions* reading) {
 std::vector<Keyword> FileKeywords(SceneArguments* arguments) {
   constexpr NumberRule kReflectance{[](double x) { return x >= 0 && x < 1; }, "a number in [0, 1)"};
   std::vector<Keyword> keywords = FaceKeywords(&arguments->reading);
+  keywords.push_back(
+      {"unit", [arguments](const py::object& value) {
+         if (value.is_none()) return;
+         const auto text = py::str(value).cast<std::string>();
+         arguments->reading.unit = UnitNamed(text);
+         if (!arguments->reading.unit)
+           throw InputError(fmt::format(
+               "unit='{}' is no unit of length; give one of {}, or a number of metres", text, UnitNames()));
+       }});
+  keywords.push_back({"up", [arguments](const py::object& value) {
+                        if (value.is_none()) return;
+                        const auto text = py::str(value).cast<std::string>();
+                        arguments->reading.up = UpAxisNamed(text);
+                        if (!arguments->reading.up)
+                          throw InputError(fmt::format("up='{}' is not one of x, y, z", text));
+                      }});
   keywords.push_back(BoolKeyword("emission_is_radiance", &arguments->reading.emission_is_radiance));
   keywords.push_back(ChangesKeyword("emittance", kEmittance, &arguments->emittance));
   keywords.push_back(ChangesKeyword("reflectance", kReflectance, &arguments->reflectance));

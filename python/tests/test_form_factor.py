@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 import penumbra
@@ -70,3 +71,26 @@ def test_values_that_cannot_be_are_refused(cube_solution):
             penumbra.form_factor(cube_solution.scene, 0, 1, **options)
     with pytest.raises(TypeError, match="did you mean 'method'"):
         penumbra.form_factor(cube_solution.scene, 0, 1, methode="exact")
+
+
+def test_matrix_of_a_closed_box_closes_and_is_reciprocal():
+    """In a closed convex box each face sends all its flux to the others, and exchanges are symmetric."""
+    scene = penumbra.Scene.read("furnace")
+    factor, error, area = penumbra.form_factors(scene)
+    assert factor.shape == error.shape == (len(area), len(area))
+    exchange = area[:, None] * factor
+    assert np.abs(exchange - exchange.T).max() <= 1e-14 * exchange.max()
+    assert np.abs(factor.sum(axis=1) - 1).max() <= 1e-6
+    one, its_error = penumbra.form_factor(scene, 0, 1)
+    assert abs(one - factor[0, 1]) <= its_error + error[0, 1] + 1e-12
+
+
+def test_unit_and_up_axis_turn_the_scene(tmp_path):
+    """A scene in millimetres with y up is the scene in metres with z up."""
+    file = tmp_path / "one.obj"
+    file.write_text("v 0 0 0\nv 0 0 1000\nv 1000 0 1000\nv 1000 0 0\nf 1 2 3 4\n")
+    scene = penumbra.Scene.read(file, unit="mm", up="y")
+    factor, _, area = penumbra.form_factors(scene)
+    assert area[0] == 1 and factor[0, 0] == 0
+    with pytest.raises(penumbra.InputError, match="parsec"):
+        penumbra.Scene.read(file, unit="parsec")
