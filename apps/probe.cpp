@@ -42,14 +42,6 @@ std::string RowList(const std::vector<std::size_t>& rows) {
   return list;
 }
 
-// The largest distance of a corner from the plane of a patch [m].
-double Unevenness(const Patch& patch) {
-  double largest = 0;
-  for (const Vec3& v : patch.Vertices())
-    largest = std::max(largest, std::abs(patch.normal.dot(v - patch.vertex[0])));
-  return largest;
-}
-
 }  // namespace
 
 Prober::Prober(const Scene& scene, const PointIrradiance& irradiance, const Pipeline* pipeline, bool parts)
@@ -60,28 +52,11 @@ Prober::Prober(const Scene& scene, const PointIrradiance& irradiance, const Pipe
       surroundings_(scene),
       reach_(PatchReach(scene)) {}
 
-// The two faces of a thin wall lie in one plane, but for the rounding of their corners: a foot on the plane
-// of one may lie behind the other. Returns the foot on the side of both where its own face looks.
-Vec3 Prober::BeforeBacks(PatchId id, const Vec3& foot) const {
-  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
-  const double least_cosine = std::cos(kOnPatchDegrees * kDegree);
-  const Patch& own = scene_.patches[static_cast<std::size_t>(id)];
-  const double rounding = kRounding * std::max(MaxAbs(low_), MaxAbs(high_));
-  double ahead = rounding;  // a plane that contains the foot, to rounding, is not in the way
-  for (const Patch& other : scene_.patches) {
-    if (-other.normal.dot(own.normal) < least_cosine) continue;
-    const double behind = other.normal.dot(foot - other.vertex[0]);
-    if (behind <= ahead || behind > Unevenness(own) + Unevenness(other)) continue;
-    if (ConvexContains(other.Vertices(), other.normal, foot, reach_)) ahead = behind;
-  }
-  return ahead > rounding ? Vec3(foot + ahead * own.normal) : foot;
-}
-
 ReceiverPoint Prober::ReceiverPointAt(PatchId id, const Vec3& position, const Vec3& normal) const {
   if (id == kNoPatch) return {position, normal, Vec3::Zero(), 0};
   const Patch& patch = scene_.patches[static_cast<std::size_t>(id)];
   const Vec3 foot = NearestInPolygon(patch.Vertices(), patch.normal, position);
-  return {BeforeBacks(id, foot), patch.normal, Vec3::Zero(), 0};
+  return {surroundings_.BeforeBacks(id, foot), patch.normal, Vec3::Zero(), 0};
 }
 
 Measurement Prober::MeasureAt(const ProbePoint& point) const {

@@ -51,7 +51,6 @@ class Prober {
  private:
   // The receiver point for a position. If the position lies on a patch, it is projected onto the plane of the
   // patch, because rounded coordinates may lie behind the front.
-  Vec3 BeforeBacks(PatchId id, const Vec3& foot) const;
   ReceiverPoint ReceiverPointAt(PatchId patch, const Vec3& position, const Vec3& normal) const;
   Measurement MeasureAt(const ProbePoint& point) const;
 

@@ -38,6 +38,14 @@ std::int32_t LowestFace(const Scene& scene, PatchId id, const Vec3& position, do
   return scene.FaceAt(id, position);
 }
 
+// The largest distance of a corner from the plane of a patch [m].
+double Unevenness(const Patch& patch) {
+  double largest = 0;
+  for (const Vec3& v : patch.Vertices())
+    largest = std::max(largest, std::abs(patch.normal.dot(v - patch.vertex[0])));
+  return largest;
+}
+
 }  // namespace
 
 double PatchReach(const Scene& scene) { return kOnPatchDistance * scene.Diagonal(); }
@@ -77,6 +85,21 @@ bool Surroundings::IsFar(const Vec3& position) const {
   const Vec3 nearest = position.cwiseMax(low_).cwiseMin(high_);
   return !scene_.patches.empty() &&
          (position - nearest).stableNorm() > kFarDiagonals * (high_ - low_).stableNorm();
+}
+
+Vec3 Surroundings::BeforeBacks(PatchId id, const Vec3& foot) const {
+  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+  const double least_cosine = std::cos(kOnPatchDegrees * kOneDegree);
+  const Patch& own = scene_.patches[static_cast<std::size_t>(id)];
+  const double rounding = kRounding * std::max(MaxAbs(low_), MaxAbs(high_));
+  double ahead = rounding;  // a plane that contains the foot, to rounding, is not in the way
+  for (const Patch& other : scene_.patches) {
+    if (-other.normal.dot(own.normal) < least_cosine) continue;
+    const double behind = other.normal.dot(foot - other.vertex[0]);
+    if (behind <= ahead || behind > Unevenness(own) + Unevenness(other)) continue;
+    if (ConvexContains(other.Vertices(), other.normal, foot, reach_)) ahead = behind;
+  }
+  return ahead > rounding ? Vec3(foot + ahead * own.normal) : foot;
 }
 
 bool Surroundings::SeesOnlyBacks(const Vec3& position, const Vec3& normal) const {

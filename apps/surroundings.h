@@ -47,6 +47,9 @@ class Surroundings {
 
   // True if the point lies far outside the scene.
   bool IsFar(const Vec3& position) const;
+  // The two faces of a thin wall lie in one plane, but for the rounding of their corners: a foot on the plane
+  // of one may lie behind the other. Returns the foot on the side of both where its own face looks.
+  Vec3 BeforeBacks(PatchId id, const Vec3& foot) const;
   // True if a point with this unit normal lies inside a solid or behind faces: it sees only backs.
   bool SeesOnlyBacks(const Vec3& position, const Vec3& normal) const;
 

@@ -168,8 +168,8 @@ py::tuple FormFactor(const PythonScene& scene, const py::object& from, const py:
 }
 
 // (F, error, area): the matrix of all faces, dense.
-py::tuple FormFactors(const PythonScene& scene, const std::optional<double>& tolerance,
-                      const py::object& progress) {
+py::tuple AllFormFactors(const PythonScene& scene, const std::optional<double>& tolerance,
+                         const py::object& progress) {
   const std::size_t count = scene.scene->faces.size();
   std::vector<std::vector<AreaPart>> faces;
   for (std::size_t i = 0; i < count; ++i)
@@ -197,8 +197,8 @@ py::tuple FormFactors(const PythonScene& scene, const std::optional<double>& tol
 }  // namespace
 
 void BindFormFactors(py::module_& module) {
-  module.def("form_factors", &FormFactors, py::arg("scene"), py::kw_only(), py::arg("tolerance") = py::none(),
-             py::arg("progress") = py::none(),
+  module.def("form_factors", &AllFormFactors, py::arg("scene"), py::kw_only(),
+             py::arg("tolerance") = py::none(), py::arg("progress") = py::none(),
              R"(form_factors(scene, *, tolerance=None, progress=None) -> (F, error, area)
 
 The form factors between all faces of the scene, past the whole scene, as (n, n) arrays for n faces: F[i, j] is

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "apps/camera_arguments.h"
 #include "apps/export_file.h"
 #include "apps/options_used.h"
 #include "apps/report.h"
@@ -145,13 +146,16 @@ void Save(PythonSolution& solution, const py::object& path, const py::object& pr
   WriteWholeFile(to, solution.FileBytes());
 }
 
-void ExportSolution(const PythonSolution& solution, const py::object& path, const py::object& exposure) {
+void ExportSolution(const PythonSolution& solution, const py::object& path, const py::object& exposure,
+                    const py::object& camera) {
   const std::string to = BytesOf(path);
   if (ExportFormatError(to) || !ExportsMesh(to))
     throw InputError(fmt::format(
         "{}: error: {}", to, ExportFormatError(to).value_or("a scene is written to it; use Scene.save()")));
-  ExportMesh(to, *solution.scene().scene, solution.pipeline().mesh(),
-             exposure.is_none() ? std::nullopt : std::optional(exposure.cast<double>()));
+  const Scene& scene = *solution.scene().scene;
+  ExportMesh(to, {scene, solution.pipeline().mesh(),
+                  camera.is_none() ? ChooseCamera(scene, {}) : camera.cast<Camera>(),
+                  exposure.is_none() ? std::nullopt : std::optional(exposure.cast<double>())});
 }
 
 std::string SolveDoc() {
@@ -208,7 +212,9 @@ void BindFiles(py::class_<PythonSolution, SolutionPointer>& solution) {
           "InputError if it "
           "is none, or damaged.")
       .def("export", &ExportSolution, py::arg("path"), py::arg("exposure") = py::none(),
-           "export(path, exposure=None)\n\nWrites the mesh with its light for other programs, by the ending "
+           py::arg("camera") = py::none(),
+           "export(path, exposure=None, camera=None)\n\nThe camera, a Camera, goes into formats that hold "
+           "one. Writes the mesh with its light for other programs, by the ending "
            "of the "
            "path, for example .vtu, .ply or .glb.\nexposure: brightness per W/m^2 where the format holds "
            "colours; "
