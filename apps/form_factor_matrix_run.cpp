@@ -111,8 +111,8 @@ std::string MatrixSummary(const NamedMatrix& named, const char* what, double sec
   add("error",
       fmt::format("at most {:.2g} of a factor, {:.2g} of a row's sum, by estimate", error, row_error));
   if (with_area > 0)
-    add("closure", fmt::format("rows add up to {:.10g} to {:.10g}; farthest from 1 is {}", low, high,
-                               named.names[farthest]));
+    add("closure", fmt::format("rows add up to between {:.10g} and {:.10g}; row {} is farthest from 1", low,
+                               high, named.names[farthest]));
   add("reciprocity", fmt::format("{:.2g} relative, at most", matrix.ReciprocityError()));
   add("seconds", fmt::format("{:.2f}", seconds));
   return text;

@@ -804,7 +804,8 @@ PointIrradianceResult Pipeline::IrradianceInSpace(const PointIrradiance& irradia
   const bool is_light_of_mesh = impl_->mesh_kind == MeshKind::kInterpolant && impl_->resolved.refine_light &&
                                 impl_->resolved.solver_name == PipelineOptions().SolverName() &&
                                 !irradiance.IsSampled();
-  if (!is_light_of_mesh) return irradiance.Anywhere(at, parts);
+  // The choice of divisions depends on the light: lamps that are dimmed one by one would not add up.
+  if (!is_light_of_mesh || impl_->options.by_emitter) return irradiance.Anywhere(at, parts);
   const CloserSources closer(
       impl_->Solution(), irradiance.sources(),
       [this](PatchId patch, const Vec3& point) { return Interpolated(patch, point); }, impl_->options.error);

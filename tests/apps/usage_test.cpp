@@ -286,7 +286,8 @@ TEST(Input, BadPointsAreNamed) {
   const std::string header = "x,y,z,nx,ny,nz\n";
   const std::vector<std::pair<std::string, std::string>> bad = {
       {"", "points.csv:1: error: "},
-      {"x,y,z\n0,0,0\n", "points.csv:1: error: "},
+      {"x,y,z\n0,0,1\n", "points.csv:2: error: "},  // no normal, and on no face
+      {"x,y,z,nx\n0,0,0,1\n", "points.csv:1: error: "},
       {header + "0,0,0,0,0,1\n0,0,0,0,0\n", "points.csv:3: error: "},
       {header + "0,0,0,0,0,1,2\n", "points.csv:2: error: "},
       {header + "0,0,zero,0,0,1\n", "points.csv:2: error: "},
