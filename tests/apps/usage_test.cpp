@@ -286,7 +286,6 @@ TEST(Input, BadPointsAreNamed) {
   const std::string header = "x,y,z,nx,ny,nz\n";
   const std::vector<std::pair<std::string, std::string>> bad = {
       {"", "points.csv:1: error: "},
-      {"x,y,z\n0,0,1\n", "points.csv:2: error: "},  // no normal, and on no face
       {"x,y,z,nx\n0,0,0,1\n", "points.csv:1: error: "},
       {header + "0,0,0,0,0,1\n0,0,0,0,0\n", "points.csv:3: error: "},
       {header + "0,0,0,0,0,1,2\n", "points.csv:2: error: "},
@@ -302,6 +301,12 @@ TEST(Input, BadPointsAreNamed) {
     EXPECT_THAT(Lines(outcome.err), ElementsAre(testing::StartsWith(message)));
     EXPECT_EQ(outcome.out, "");
   }
+  // No normal, and on no face: told once the scene, with its warnings, has been read.
+  sandbox.Write("points.csv", "x,y,z\n0,0,1\n");
+  const Outcome in_space = sandbox.Run({"probe", "scene.obj", "--points", "points.csv", "--direct"});
+  EXPECT_EQ(in_space.status, 1);
+  EXPECT_THAT(Lines(in_space.err).back(), testing::StartsWith("points.csv:2: error: "));
+  EXPECT_EQ(in_space.out, "");
   for (const std::string unreadable : {"missing.csv", "."}) {
     const Outcome outcome = sandbox.Run({"probe", "scene.obj", "--points", unreadable, "--direct"});
     EXPECT_EQ(outcome.status, 1);
