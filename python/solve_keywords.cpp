@@ -58,8 +58,8 @@ void SetOption(const SolveOption& option, const py::object& given, PipelineOptio
   // What is left out of a call that passes every option on.
   if (given.is_none()) return;
   if (!IsObeyed(option, *solving))
-    throw InputError(fmt::format("{} is of the solver '{}' and means nothing to '{}'; leave one of them out",
-                                 key, option.solver, solving->SolverName()));
+    throw InputError(fmt::format("{} is of {} and means nothing to solver='{}'; leave one of them out", key,
+                                 InPythonWords(OwnersOf(option)), solving->SolverName()));
   const py::object value = PlainScalar(given);
   const std::optional<std::string> text = TextOf(option.field, value);
   if (!text)
@@ -84,18 +84,28 @@ py::object ValueObject(const std::optional<OptionValue>& value) {
   return std::visit([](const auto& held) { return py::object(py::cast(held)); }, *value);
 }
 
+// The solvers that obey the option; None: all.
+py::object SolversOf(const SolveOption& option) {
+  if (option.solver.empty() && option.form_factors.empty()) return py::none();
+  std::vector<std::string> names = option.other_solvers;
+  if (!option.solver.empty()) names.insert(names.begin(), option.solver);
+  return py::cast(names);
+}
+
 }  // namespace
 
 std::vector<Keyword> SolveKeywords(PipelineOptions* solving) {
   std::vector<Keyword> keywords;
-  const SolveOption& solver = *FindOption("solver");
+  // These two decide which of the others are obeyed.
+  const SolveOption &solver = *FindOption("solver"), &form_factors = *FindOption("form-factors");
   const auto add = [&](const SolveOption& option) {
     keywords.push_back({OptionKey(option),
                         [&option, solving](const py::object& value) { SetOption(option, value, solving); }});
   };
   add(solver);
+  add(form_factors);
   for (const SolveOption& option : OptionTable())
-    if (&option != &solver) add(option);
+    if (&option != &solver && &option != &form_factors) add(option);
   return keywords;
 }
 
@@ -117,7 +127,9 @@ py::dict DescribeOptions() {
     one["default"] = ValueObject(DefaultValue(option));
     one["choices"] = option.field.kind == OptionKind::kChoice ? py::object(py::cast(option.field.choices()))
                                                               : py::object(py::none());
-    one["solver"] = option.solver.empty() ? py::object(py::none()) : py::object(py::cast(option.solver));
+    one["solvers"] = SolversOf(option);
+    one["form_factors"] =
+        option.form_factors.empty() ? py::object(py::none()) : py::cast(option.form_factors);
     one["group"] = GroupTitle(option.group);
     one["help"] = InPythonWords(OptionHelp(option));
     all[OptionKey(option).c_str()] = one;

@@ -22,7 +22,7 @@ def test_every_option_is_taken_by_its_name(cube_solution, program):
         assert option["kind"] in ("bool", "int", "float", "str") and option["help"]
     # All defaults together are the default.
     defaults = {name: option["default"] for name, option in known.items()
-                if option["solver"] in (None, "hierarchical")}
+                if option["solvers"] is None or "hierarchical" in option["solvers"]}
     solution = penumbra.solve(cube_solution.scene, **{**defaults, "error": 0.1})
     assert np.array_equal(solution.mesh.coefficients, cube_solution.mesh.coefficients)
 
@@ -41,7 +41,7 @@ def test_none_leaves_the_default_and_numpy_scalars_are_numbers(cube_solution):
     (dict(error=0), penumbra.InputError, "error=0 is not a number from 1e-6 to 10"),
     (dict(error=float("nan")), penumbra.InputError, "error=nan is not"),
     (dict(solver="dens"), penumbra.InputError, "did you mean 'dense'?"),
-    (dict(solver="dense", eps=0.1), penumbra.InputError, "eps is of the solver 'hierarchical'"),
+    (dict(solver="dense", eps=0.1), penumbra.InputError, "eps is of the hierarchical solver"),
     (dict(nudge=1.0), penumbra.InputError, "nudge 1 is too far for this scene"),
     (dict(source_error=0.1, corrections=0), penumbra.InputError, "leave one out"),
     (dict(progress=3), TypeError, "progress is no function"),

@@ -79,7 +79,7 @@ def test_materials_of_a_file_may_be_changed():
 @pytest.mark.parametrize("change, message", [
     (dict(faces=[[0, 1, 99]]), "face 0: error: there is no vertex 99; vertices have the numbers 0 to 7"),
     (dict(faces=[[0, 1, 3], [0, -1, 2]]), "face 1: error: there is no vertex -1"),
-    (dict(faces=[[0, 1, 3], [0, 1]]), "face 1: error: a face with fewer than three vertices"),
+    (dict(faces=[[0, 1, 3], [0]]), "face 1: error: a face with fewer than three vertices"),
     (dict(faces=[[0, 3, 1, 2]]), "face 0: error: the face crosses itself"),
     (dict(vertices=[[0, 0, 0], [1, 0, 0], [0, math.nan, 0]], faces=[[0, 1, 2]]), "vertex 2: error: "),
     (dict(vertices=[[0, 0], [1, 0]]), "vertices has the shape"),
