@@ -102,7 +102,8 @@ INSTANTIATE_TEST_SUITE_P(Formats, RoomOfAssimp,
 class AssimpReaderTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / "penumbra_assimp_reader";
+    folder_ = fs::temp_directory_path() / (std::string("penumbra_assimp_reader_") +
+                                           testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directory(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }

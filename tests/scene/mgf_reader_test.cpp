@@ -26,7 +26,8 @@ using testing::HasSubstr;
 class MgfReaderTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / "penumbra_mgf_reader";
+    folder_ = fs::temp_directory_path() / (std::string("penumbra_mgf_reader_") +
+                                           testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directory(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }

@@ -24,7 +24,8 @@ constexpr double kPi = std::numbers::pi;
 class RadReaderTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / "penumbra_rad_reader";
+    folder_ = fs::temp_directory_path() / (std::string("penumbra_rad_reader_") +
+                                           testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directory(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }

@@ -56,7 +56,8 @@ class SceneReaderTest : public testing::Test {
  protected:
   void SetUp() override {
     AddToyFormats();
-    folder_ = fs::temp_directory_path() / "penumbra_scene_reader";
+    folder_ = fs::temp_directory_path() / (std::string("penumbra_scene_reader_") +
+                                           testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directory(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
