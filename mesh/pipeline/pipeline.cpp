@@ -97,7 +97,7 @@ ShownMeshOptions HowToShow(const PipelineOptions& options, const ResolvedOptions
 
 // A solver that needs no pairs of patches leaves the pairs of emitters and receivers to the discontinuities.
 // Behind more blockers than this, shadows overlap so much that single edges say little.
-constexpr std::size_t kMostShadowBlockers = 100;
+constexpr std::size_t kMostShadowBlockers = 8;
 
 std::vector<PatchId> Emitters(const Scene& scene) {
   std::vector<PatchId> emitters;
