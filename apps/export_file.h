@@ -36,12 +36,14 @@ std::string EndingsOfMaps();
 // A description of all formats, one line each.
 std::string ExportFormats();
 
-// ExportMesh() writes the mesh to a file, and ExportScene() the scene. ExportMesh() and ExportScene() throw
-// InputError if the file cannot be written. REQUIRES: ExportFormatError(path) returns nullopt.
+// Writes the mesh to a file. Throws InputError if the file cannot be written. REQUIRES: the ending of the
+// path is that of a known format, so that ExportFormatError(path) returns nullopt.
 void ExportMesh(const std::string& path, const MeshExport& from);
 // Writes an irradiance map of size x size pixels. Throws InputError like ExportMesh(), or if the map has no
 // room for all patches. REQUIRES: ExportsMap(path).
 void ExportMap(const std::string& path, const MeshExport& from, int size);
+// Writes the scene without its light, and the camera if the format holds one. Throws InputError like
+// ExportMesh().
 void ExportScene(const std::string& path, const Scene& scene, const Camera& camera);
 
 }  // namespace penumbra

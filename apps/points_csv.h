@@ -18,8 +18,9 @@ struct ProbePoint {
   int line = 0;                  // of the file, from 1
 };
 
-// The name that stands for standard input instead of a path, and how messages call standard input.
+// Given as the path of a file of points, this means standard input.
 inline constexpr const char* kPointsFromInput = "-";
+// The name of the file in messages: the path, or words for standard input.
 std::string NameOfPoints(const std::string& path);
 
 // The points of a CSV file with the header x,y,z,nx,ny,nz, or x,y,z without normals; of standard input if the

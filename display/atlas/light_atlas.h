@@ -21,10 +21,10 @@ struct LightAtlas {
 // Throws InputError if the charts have no room (LayOutCharts).
 LightAtlas MakeLightAtlas(const Scene& scene, const IrradianceMesh& mesh, int size);
 
-// What a screen shows of irradiance: exposure [m^2/W] * irradiance, in sRGB.
+// The irradiance as colours for a screen: exposure [m^2/W] * irradiance [W/m^2], encoded as sRGB.
 Srgb8Image IrradianceOnScreen(const LightAtlas& atlas, double exposure);
-// What a screen shows of radiosity: exposure [m^2/W] * (irradiance * reflectance), white on emitters, in
-// sRGB.
+// The radiosity as colours for a screen: exposure [m^2/W] * reflectance * irradiance [W/m^2], encoded as
+// sRGB. Emitters are white.
 Srgb8Image RadiosityOnScreen(const Scene& scene, const LightAtlas& atlas, double exposure);
 
 }  // namespace penumbra

@@ -16,10 +16,10 @@ struct ChildResult {
   std::string bytes;  // what the work returned; or, if it threw a std::exception, what()
 };
 
-// Calls `work` in a copy of this process and returns the bytes that the work returned there. What the work
-// changes in memory stays in the copy, and what it prints is lost. Kills the copy after `most_seconds`. The
-// work must not wait for other threads: the copy has only the thread that calls this function. Throws
-// std::runtime_error if the system gives no process.
+// Calls `work` in a child process, a copy of this process, and returns the bytes that `work` returned. If
+// `work` changes memory, this process does not see the change; if `work` prints, nothing is shown. The child
+// is killed after `most_seconds`. `work` must not wait for other threads, because the child has only one
+// thread. Throws std::runtime_error if the system gives no process.
 ChildResult RunInChild(const std::function<std::string()>& work, double most_seconds);
 
 }  // namespace penumbra

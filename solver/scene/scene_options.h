@@ -27,8 +27,8 @@ struct SceneOptions {
   std::function<void(std::vector<Material>&)> change_materials = nullptr;
   bool strict = false;  // refuse what is otherwise repaired with a warning
   bool flip = false;    // reverse the vertices of every face
-  // The unit of the file's lengths, and the axis of the file that points up. If they are not set, they are
-  // what the file or its format says, else metres and z.
+  // The unit in which the file gives lengths, and the file's axis that points up. A member that is not set
+  // follows the file, or else the file's format; if both say nothing, the unit is the metre and z points up.
   std::optional<LengthUnit> unit = std::nullopt;
   std::optional<UpAxis> up = std::nullopt;
   // A function that is called with the path of every material library before the library is opened; it may
