@@ -7,6 +7,7 @@
 
 #include "experiments/bench/bench_scenes.h"
 #include "experiments/studies/study.h"
+#include "solver/transport/form_factors/link_form_factor_methods.h"
 #include "solver/transport/links/approximate_form_factor.h"
 #include "solver/visibility/area/area_form_factor.h"
 
@@ -77,8 +78,11 @@ void StudyFormFactors(StudyLog& log) {
            measure("cubature", "16 parts", [&] { return CubatureFormFactor(scene, sends, receives); }));
       for (const std::size_t rays :
            log.quick() ? std::vector<std::size_t>{1000} : std::vector<std::size_t>{1000, 100'000})
-        measure("monte-carlo", fmt::format("{} rays", rays),
-                [&] { return MonteCarloFormFactor(scene, sends, receives, rays, 1); });
+        measure("malley", fmt::format("{} rays", rays), [&] {
+          LinkFormFactorOptions options;
+          options.rays = rays;
+          return LinkFormFactorMethods().Make("malley", options)->Between(scene, sends, receives, {}).value();
+        });
       for (const double tolerance :
            log.quick() ? std::vector<double>{1e-2} : std::vector<double>{1e-2, 1e-4, 1e-6}) {
         AreaFormFactorOptions options;

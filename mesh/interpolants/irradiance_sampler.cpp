@@ -19,6 +19,16 @@ void IrradianceSampler::SampleAll(std::span<const PatchPoint> points,
               [&](std::size_t i) { results[i] = one_(points[i].patch, points[i].at); });
 }
 
+IrradianceSampler IrradianceSampler::OfMany(Many many) {
+  const auto one = [many](PatchId patch, const ReceiverPoint& at) {
+    const PatchPoint point{patch, at};
+    PointIrradianceResult result;
+    many({&point, 1}, {&result, 1});
+    return result;
+  };
+  return {one, std::move(many)};
+}
+
 IrradianceSampler NearSampler(const PointIrradiance& exact, double tolerance) {
   const auto one = [&exact, tolerance](PatchId patch, const ReceiverPoint& at) {
     return exact.NearlyOnPatch(patch, at, tolerance);

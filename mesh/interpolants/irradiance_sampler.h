@@ -27,6 +27,9 @@ class IrradianceSampler {
   // `many` evaluates many points in parallel. Its values agree with those of `one` within the error of both.
   IrradianceSampler(One one, Many many) : one_(std::move(one)), many_(std::move(many)) {}
 
+  // A sampler that takes one point for a list of one.
+  static IrradianceSampler OfMany(Many many);
+
   PointIrradianceResult operator()(PatchId patch, const ReceiverPoint& at) const { return one_(patch, at); }
   // Sets results[i] to the irradiance at points[i], in parallel. REQUIRES: the sizes are equal.
   void SampleAll(std::span<const PatchPoint> points, std::span<PointIrradianceResult> results) const;

@@ -13,16 +13,13 @@
 namespace penumbra {
 
 IrradianceSampler Remembering(IrradianceSampler sampler, std::vector<KnownLight>& known) {
-  return {[](PatchId, const ReceiverPoint&) -> PointIrradianceResult {
-            PENUMBRA_CHECK(false);
-            return {};
-          },
-          [sampler = std::move(sampler), &known](std::span<const PatchPoint> points,
-                                                 std::span<PointIrradianceResult> results) {
-            sampler.SampleAll(points, results);
-            for (std::size_t i = 0; i < points.size(); ++i)
-              known.push_back({points[i].patch, points[i].at.position, results[i].irradiance});
-          }};
+  return IrradianceSampler::OfMany(
+      [sampler = std::move(sampler), &known](std::span<const PatchPoint> points,
+                                             std::span<PointIrradianceResult> results) {
+        sampler.SampleAll(points, results);
+        for (std::size_t i = 0; i < points.size(); ++i)
+          known.push_back({points[i].patch, points[i].at.position, results[i].irradiance});
+      });
 }
 
 void RaiseErrors(const Scene& scene, const IrradianceMesh& mesh, std::span<const KnownLight> known,

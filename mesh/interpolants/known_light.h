@@ -22,8 +22,8 @@ struct KnownLight {
   Rgb irradiance = Rgb::Zero();  // [W/m^2]
 };
 
-// A sampler that appends what it samples to `known`. Only SampleAll() of the result may be called, by one
-// thread. `known` must outlive the sampler.
+// A sampler that appends what it samples to `known`, for one thread at a time. `known` must outlive the
+// sampler.
 IrradianceSampler Remembering(IrradianceSampler sampler, std::vector<KnownLight>& known);
 
 // Raises the maximum error of each triangle that contains a known point to the error of the interpolant at

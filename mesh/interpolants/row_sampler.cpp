@@ -43,13 +43,7 @@ IrradianceSampler RowSampler::For(const SourceSet& light) const {
       results[i] = {Irradiance(*rows[i].row, light), rows[i].one_sided};
     });
   };
-  const auto one = [many](PatchId patch, const ReceiverPoint& at) {
-    const PatchPoint point{patch, at};
-    PointIrradianceResult result;
-    many({&point, 1}, {&result, 1});
-    return result;
-  };
-  return {one, many};
+  return IrradianceSampler::OfMany(many);
 }
 
 }  // namespace penumbra

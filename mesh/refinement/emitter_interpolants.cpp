@@ -30,13 +30,7 @@ class NodesOfEmitters {
                                        std::span<PointIrradianceResult> results) {
       if (!context.Cancelled()) Record(points, results);
     };
-    const auto one = [many](PatchId patch, const ReceiverPoint& at) {
-      const PatchPoint point{patch, at};
-      PointIrradianceResult result;
-      many({&point, 1}, {&result, 1});
-      return result;
-    };
-    return {one, many};
+    return IrradianceSampler::OfMany(many);
   }
 
   QuadraticInterpolant Interpolant(std::size_t emitter, const std::array<std::uint32_t, 6>& nodes) const {

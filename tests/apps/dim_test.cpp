@@ -18,11 +18,6 @@ using testing::HasSubstr;
 constexpr const char* kDimPoints =
     "x,y,z,nx,ny,nz\n0.3,-0.9,0,0,0,1\n0.1,-0.5,0.2,0.3,0.2,1\n-0.7,0.4,0,0,0,1\n0.4,0.2,0,0,0,1\n";
 
-std::vector<std::string> With(std::vector<std::string> command, const std::vector<std::string>& more) {
-  command.insert(command.end(), more.begin(), more.end());
-  return command;
-}
-
 // The six values of each point.
 std::vector<double> DimProbe(const Sandbox& sandbox, const std::vector<std::string>& input) {
   const Outcome outcome = sandbox.Run(With({"probe", "--points", "points.csv"}, input));

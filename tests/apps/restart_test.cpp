@@ -18,11 +18,6 @@ using testing::HasSubstr;
 constexpr const char* kRestartPoints =
     "x,y,z,nx,ny,nz\n0.3,-0.9,0,0,0,1\n0.1,-0.5,0.2,0.3,0.2,1\n-0.7,0.4,0,0,0,1\n";
 
-std::vector<std::string> Command(std::vector<std::string> command, const std::vector<std::string>& more) {
-  command.insert(command.end(), more.begin(), more.end());
-  return command;
-}
-
 json ReadJson(const Sandbox& sandbox, const std::string& name) {
   return json::parse(ReadBytes(sandbox.Path(name)));
 }
@@ -92,10 +87,10 @@ TEST(Restart, AgreesWithSolvingAnew) {
                                           "plane=0.2,0.2,0.6", "--emittance",      "left_light=0,0,9"};
   const auto solve = [&](const std::string& name, const std::vector<std::string>& changes,
                          const std::vector<std::string>& how) {
-    const Outcome outcome = sandbox.Run(Command(
-        Command(Command({"solve", "floating-cube", "-o", name + ".h5", "--report", name + ".json"}, solving),
-                changes),
-        how));
+    const Outcome outcome = sandbox.Run(
+        With(With(With({"solve", "floating-cube", "-o", name + ".h5", "--report", name + ".json"}, solving),
+                  changes),
+             how));
     ASSERT_EQ(outcome.status, 0) << outcome.err;
   };
   solve("first", {}, {"--eps", "0.5"});
@@ -138,14 +133,14 @@ TEST(Restart, ServesEveryCommandThatSolves) {
   const std::vector<std::string> how = {
       "--error", "0.5", "--error-points", "10", "--emittance", "left_light=0,0,9", "--restart", "first.h5"};
   ASSERT_EQ(sandbox.Run({"solve", "floating-cube", "--error", "0.5", "-o", "first.h5"}).status, 0);
-  ASSERT_EQ(sandbox.Run(Command({"solve", "floating-cube", "-o", "over.h5"}, how)).status, 0);
+  ASSERT_EQ(sandbox.Run(With({"solve", "floating-cube", "-o", "over.h5"}, how)).status, 0);
   for (const auto& [command, output] :
        {std::pair(std::vector<std::string>{"render", "--size", "8x6"}, "a.png"),
         {{"probe", "--points", "points.csv"}, "a.csv"},
         {{"export"}, "a.ply"}}) {
-    const Outcome over = sandbox.Run(Command(command, {"over.h5", "-o", std::string("over-") + output}));
+    const Outcome over = sandbox.Run(With(command, {"over.h5", "-o", std::string("over-") + output}));
     EXPECT_EQ(over.status, 0) << over.err;
-    const Outcome scene = sandbox.Run(Command(Command(command, {"floating-cube", "-o", output}), how));
+    const Outcome scene = sandbox.Run(With(With(command, {"floating-cube", "-o", output}), how));
     EXPECT_EQ(scene.status, 0) << scene.err;
     EXPECT_EQ(ReadBytes(sandbox.Path(output)), ReadBytes(sandbox.Path(std::string("over-") + output)));
   }
@@ -155,11 +150,10 @@ TEST(Restart, ServesEveryCommandThatSolves) {
 TEST(Info, ReportsOnTheSolve) {
   const Sandbox sandbox;
   const std::vector<std::string> how = {"--error", "0.5", "--error-points", "10"};
-  ASSERT_EQ(
-      sandbox.Run(Command({"solve", "floating-cube", "-o", "a.h5", "--report", "solve.json"}, how)).status,
-      0);
+  ASSERT_EQ(sandbox.Run(With({"solve", "floating-cube", "-o", "a.h5", "--report", "solve.json"}, how)).status,
+            0);
   const json solved = ReadJson(sandbox, "solve.json");
-  const Outcome scene = sandbox.Run(Command({"info", "floating-cube", "--report", "scene.json"}, how)),
+  const Outcome scene = sandbox.Run(With({"info", "floating-cube", "--report", "scene.json"}, how)),
                 solution = sandbox.Run({"info", "a.h5", "--report", "solution.json"});
   EXPECT_EQ(scene.status, 0) << scene.err;
   EXPECT_EQ(scene.out, sandbox.Run({"info", "floating-cube"}).out);
@@ -195,7 +189,7 @@ TEST(Restart, RefusesWhatDoesNotFit) {
         Case{{"a.h5", "--restart", "a.h5"}, 2, "'a.h5' is a solution"},
         Case{{"furnace", "--restart", "a.h5", "--eps", "1"}, 2, "--eps says how links"},
         Case{{"furnace", "--restart", "a.h5", "--solver", "dense"}, 2, "--solver says how"}}) {
-    const Outcome outcome = sandbox.Run(Command(Command({"solve"}, c.arguments), {"-o", "x.h5"}));
+    const Outcome outcome = sandbox.Run(With(With({"solve"}, c.arguments), {"-o", "x.h5"}));
     EXPECT_EQ(outcome.status, c.status) << c.says;
     EXPECT_THAT(outcome.err, HasSubstr(c.says));
     EXPECT_EQ(outcome.out, "");

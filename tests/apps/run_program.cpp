@@ -109,6 +109,11 @@ std::string ReadBytes(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+std::vector<std::string> With(std::vector<std::string> command, const std::vector<std::string>& more) {
+  command.insert(command.end(), more.begin(), more.end());
+  return command;
+}
+
 std::vector<std::string> Lines(const std::string& text) { return Split(text, '\n'); }
 std::vector<std::string> Fields(const std::string& line) { return Split(line, ','); }
 

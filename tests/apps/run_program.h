@@ -50,6 +50,8 @@ class Sandbox {
 
 std::string ReadBytes(const std::filesystem::path& path);
 std::vector<std::string> Lines(const std::string& text);
+// The arguments of a command, with more arguments behind them.
+std::vector<std::string> With(std::vector<std::string> command, const std::vector<std::string>& more);
 // The fields of a line of CSV.
 std::vector<std::string> Fields(const std::string& line);
 

@@ -17,6 +17,7 @@
 #include "solver/scene/named_scene.h"
 #include "solver/scene/scene_frame.h"
 #include "test_paths.h"
+#include "tests/scene/temporary_folder.h"
 
 namespace penumbra {
 namespace {
@@ -99,18 +100,8 @@ INSTANTIATE_TEST_SUITE_P(Formats, RoomOfAssimp,
                                          RoomFile{"room.ply", false, false},
                                          RoomFile{"room.stl", false, false}));
 
-class AssimpReaderTest : public testing::Test {
+class AssimpReaderTest : public scene_test::TestWithFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / (std::string("penumbra_assimp_reader_") +
-                                           testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directory(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  std::string Write(const std::string& name, std::string_view text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return (folder_ / name).string();
-  }
   // The message without the path.
   std::string ErrorOf(const std::string& path, const SceneOptions& options = {}) const {
     try {
@@ -123,9 +114,6 @@ class AssimpReaderTest : public testing::Test {
     }
     return "";
   }
-
- private:
-  fs::path folder_;
 };
 
 // A glTF file with a triangle (0,0,0), (1,0,0), (0,1,0); the parts are put into its JSON.

@@ -7,8 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 
 #include "solver/base/check.h"
@@ -16,25 +14,15 @@
 #include "solver/scene/mgf_colour.h"
 #include "solver/scene/mgf_writer.h"
 #include "solver/scene/named_scene.h"
+#include "tests/scene/temporary_folder.h"
 
 namespace penumbra {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-class MgfReaderTest : public testing::Test {
+class MgfReaderTest : public scene_test::TestWithFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / (std::string("penumbra_mgf_reader_") +
-                                           testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directory(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  std::string Write(const std::string& name, std::string_view text) const {
-    std::ofstream(folder_ / name) << text;
-    return (folder_ / name).string();
-  }
   Scene Read(std::string_view text, const SceneOptions& options = {}) const {
     return ReadNamedScene(Write("a.mgf", text), options);
   }
@@ -49,9 +37,6 @@ class MgfReaderTest : public testing::Test {
     }
     return "";
   }
-
- private:
-  fs::path folder_;
 };
 
 double AreaOf(const Scene& scene) {

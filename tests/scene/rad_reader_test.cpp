@@ -5,34 +5,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 
 #include "solver/base/check.h"
 #include "solver/scene/curved_surfaces.h"
 #include "solver/scene/named_scene.h"
+#include "tests/scene/temporary_folder.h"
 
 namespace penumbra {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 constexpr double kPi = std::numbers::pi;
 
-class RadReaderTest : public testing::Test {
+class RadReaderTest : public scene_test::TestWithFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / (std::string("penumbra_rad_reader_") +
-                                           testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directory(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  std::string Write(const std::string& name, std::string_view text) const {
-    std::ofstream(folder_ / name) << text;
-    return (folder_ / name).string();
-  }
   Scene Read(std::string_view text, const SceneOptions& options = {}) const {
     return ReadNamedScene(Write("a.rad", text), options);
   }
@@ -47,9 +35,6 @@ class RadReaderTest : public testing::Test {
     }
     return "";
   }
-
- private:
-  fs::path folder_;
 };
 
 constexpr const char* kMaterials =

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 
 #include "solver/base/check.h"
@@ -11,11 +10,10 @@
 #include "solver/scene/obj_reader.h"
 #include "solver/scene/scene_readers.h"
 #include "solver/scene/scene_writers.h"
+#include "tests/scene/temporary_folder.h"
 
 namespace penumbra {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::string_view kMark = "square ";
 
@@ -52,22 +50,9 @@ void AddToyFormats() {
   EXPECT_TRUE(added);
 }
 
-class SceneReaderTest : public testing::Test {
+class SceneReaderTest : public scene_test::TestWithFolder {
  protected:
-  void SetUp() override {
-    AddToyFormats();
-    folder_ = fs::temp_directory_path() / (std::string("penumbra_scene_reader_") +
-                                           testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directory(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  std::string Write(const std::string& name, std::string_view text) const {
-    std::ofstream(folder_ / name) << text;
-    return (folder_ / name).string();
-  }
-
- private:
-  fs::path folder_;
+  SceneReaderTest() { AddToyFormats(); }
 };
 
 // A reader that a program adds reads its files, whatever they are called; OBJ is read by its ending, and

@@ -8,12 +8,10 @@
 #include <vector>
 
 #include "solver/base/parallel.h"
-#include "solver/base/random.h"
 #include "solver/scene/surface_points.h"
 #include "solver/transport/links/cubature.h"
 #include "solver/visibility/pair/tube_blockers.h"
 #include "solver/visibility/point/point_view.h"
-#include "solver/visibility/point/ray_caster.h"
 
 namespace penumbra {
 namespace {
@@ -166,59 +164,6 @@ FormFactorEstimate CubatureFormFactor(const Scene& scene, std::span<const AreaPa
   };
   const Pair mean = Mean(from, to.size(), AllPairs(from, to, context, factor));
   return {mean.fine, std::abs(mean.fine - mean.coarse)};
-}
-
-FormFactorEstimate MonteCarloFormFactor(const Scene& scene, std::span<const AreaPart> from,
-                                        std::span<const AreaPart> to, std::size_t rays, std::uint64_t seed,
-                                        const ExecutionContext& context) {
-  constexpr std::size_t kGrain = 4096;
-  std::vector<Polygon3> triangles;
-  std::vector<PatchId> patch_of;
-  std::vector<double> cumulative;
-  double area = 0;
-  for (const AreaPart& part : from)
-    for (std::size_t i = 2; i < part.polygon.size(); ++i) {
-      triangles.push_back({part.polygon[0], part.polygon[i - 1], part.polygon[i]});
-      patch_of.push_back(part.patch);
-      cumulative.push_back(area += VectorArea(triangles.back()).norm());
-    }
-  if (area == 0 || rays == 0) return {};
-  std::vector<std::vector<const AreaPart*>> targets(scene.patches.size());
-  for (const AreaPart& part : to) targets[static_cast<std::size_t>(part.patch)].push_back(&part);
-  const RayCaster caster(scene);
-  const double lift = 1e-9 * scene.Diagonal();  // off the plane, whose points have rounding errors
-  std::vector<std::size_t> hits((rays + kGrain - 1) / kGrain, 0);
-  ParallelFor(hits.size(), 1, [&](std::size_t chunk) {
-    Random random(seed, chunk);
-    if (context.Cancelled()) return;
-    for (std::size_t i = chunk * kGrain; i < std::min(rays, (chunk + 1) * kGrain); ++i) {
-      const double at = random.Uniform(0, area), s = random.Uniform(), t = random.Uniform(),
-                   square = random.Uniform(), angle = random.Uniform(0, 2 * std::numbers::pi);
-      const auto k =
-          std::min(triangles.size() - 1,
-                   static_cast<std::size_t>(std::upper_bound(cumulative.begin(), cumulative.end(), at) -
-                                            cumulative.begin()));
-      const Patch& patch = scene.patches[static_cast<std::size_t>(patch_of[k])];
-      const Frame frame = MakeFrame(Vec3::Zero(), patch.normal);
-      const double radius = std::sqrt(square);
-      const Vec3 direction = radius * (std::cos(angle) * frame.u + std::sin(angle) * frame.v) +
-                             std::sqrt(1 - square) * patch.normal;
-      const Vec3 origin = PointOn(triangles[k], s, t) + lift * patch.normal;
-      const RayCaster::Hit hit = caster.Cast(origin, direction, patch_of[k]);
-      if (hit.patch == kNoPatch || !hit.front) continue;
-      const Vec3 met = origin + hit.distance * direction;
-      const Vec3& normal = scene.patches[static_cast<std::size_t>(hit.patch)].normal;
-      for (const AreaPart* part : targets[static_cast<std::size_t>(hit.patch)])
-        if (ConvexContains(part->polygon, normal, met, lift)) {
-          ++hits[chunk];
-          break;
-        }
-    }
-  });
-  const auto n = static_cast<double>(rays);
-  const auto met = static_cast<double>(std::accumulate(hits.begin(), hits.end(), std::size_t{0}));
-  const double likely = (met + 1) / (n + 2);
-  return {met / n, std::sqrt(likely * (1 - likely) / n)};
 }
 
 }  // namespace penumbra

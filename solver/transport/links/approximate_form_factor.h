@@ -5,7 +5,6 @@
 
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include "solver/base/progress.h"
@@ -29,12 +28,5 @@ FormFactorEstimate DiskFormFactor(const Scene& scene, std::span<const AreaPart> 
 // not a bound.
 FormFactorEstimate CubatureFormFactor(const Scene& scene, std::span<const AreaPart> from,
                                       std::span<const AreaPart> to, const ExecutionContext& context = {});
-
-// The fraction of `rays` random rays that first hit a receiving front. The rays start evenly distributed over
-// the sending parts, with cosine-distributed directions. The error is the standard error that results if one
-// more ray is cast and hits; it is therefore never 0.
-FormFactorEstimate MonteCarloFormFactor(const Scene& scene, std::span<const AreaPart> from,
-                                        std::span<const AreaPart> to, std::size_t rays, std::uint64_t seed,
-                                        const ExecutionContext& context = {});
 
 }  // namespace penumbra
