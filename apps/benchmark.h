@@ -9,19 +9,20 @@
 
 namespace penumbra {
 
-// A function that draws and tone-maps a frame, and returns the times of the steps.
+// A function that draws and tone-maps a frame, and returns the duration of each step.
 using DrawFrame = std::function<FrameTimes(const Camera&)>;
 
 struct BenchmarkSettings {
   Camera camera;
-  int width = 0, height = 0;  // of a frame, for the output
+  int width = 0, height = 0;  // size of the frames in pixels, reported in the output
   int frames = 0;
-  std::size_t triangles = 0;  // for the output
+  std::size_t triangles = 0;  // number of triangles, reported in the output
 };
 
-// Draws one frame without measuring it, so that memory is allocated. After this frame, draws and measures
-// `frames` frames while the camera makes one orbit around Camera::look_at. Returns a line of JSON: `fps` is
-// the number of frames per second of wall-clock time; `ms` holds the mean time of each step per frame.
+// Measures how fast frames are drawn. The first frame, in which memory is allocated, is not measured; then
+// `frames` frames are drawn while the camera makes one orbit around Camera::look_at. Returns a line of JSON:
+// `fps` is the number of frames per second of wall-clock time; `ms` holds the mean time of each step per
+// frame, in milliseconds.
 std::string RunBenchmark(const BenchmarkSettings& settings, const DrawFrame& draw);
 
 }  // namespace penumbra

@@ -14,13 +14,13 @@ namespace penumbra {
 
 // The camera options of the command line.
 struct CameraArguments {
-  std::optional<std::string> camera;  // name or index of one of the scene's cameras
+  std::optional<std::string> camera;  // name or index of a camera of the scene
   std::optional<Vec3> eye, look_at, up;
-  std::optional<double> vertical_fov;  // degrees
+  std::optional<double> vertical_fov;  // vertical angle of view in degrees
 };
 
-// Adds the options of the camera. --up replaces the option of the scene (AddSceneArguments), whose values it
-// takes, too: `scene_up` is set to the axis that is given.
+// Adds the camera options to the command line. The camera's option --up replaces the option --up for reading
+// scenes (AddSceneArguments). If the value of --up is an axis x, y or z, `scene_up` is set to this axis.
 void AddCameraOptions(CLI::App& app, CameraArguments* arguments, std::optional<UpAxis>* scene_up);
 
 // Chooses a camera: the camera of the scene that the user requests; by default, the first camera of the

@@ -1,7 +1,7 @@
 // apps/commands.h
 //
-// The commands of the program. Each function adds a command's options to the command line and returns the
-// command.
+// The commands of the program. Each of the functions AddSolveCommand() to AddManualPageCommand() adds a
+// command and its options to the command line and returns the command.
 
 #pragma once
 
@@ -12,21 +12,22 @@
 
 namespace penumbra {
 
-// An error of the command line that is detected after the command line has been parsed, for example an option
-// that does not fit the scene. The exit status is 2.
+// The exception for an error of the command line that is detected after the command line has been parsed, for
+// example an option that does not fit the scene. After a UsageError, the exit status is 2.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// The user has interrupted the work. The exit status is 130, and no output is written.
+// The exception thrown if the user has interrupted the work. After an interrupt, the exit status is 130, and
+// no output is written.
 class Interrupted : public std::runtime_error {
  public:
   Interrupted() : std::runtime_error("interrupted; nothing was written") {}
 };
 
 struct Command {
-  CLI::App* app = nullptr;    // converts to true if the user gave the command
+  CLI::App* app = nullptr;    // converts to true if the user has given this command
   std::function<void()> run;  // throws InputError, UsageError, Interrupted
 };
 

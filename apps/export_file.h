@@ -12,10 +12,11 @@
 
 namespace penumbra {
 
-// Describes what is wrong with the path's ending; nullopt if Penumbra can write a format with this ending.
-// Pictures are formats of irradiance maps only.
+// The error message for a path whose ending is not that of a file format that Penumbra can write; nullopt if
+// the ending is known. Picture formats are permitted for irradiance maps only.
 std::optional<std::string> ExportFormatError(const std::string& path);
-// True if the format can be that of an irradiance map; IsMapOnly() is true if it can be nothing else.
+// ExportsMap() is true if the file format can store an irradiance map; IsMapOnly() is true if the format can
+// store only irradiance maps.
 bool ExportsMap(const std::string& path);
 bool IsMapOnly(const std::string& path);
 // The paths of the files that are written in addition to the scene file `path`, such as the material library
@@ -23,27 +24,27 @@ bool IsMapOnly(const std::string& path);
 std::vector<std::string> FilesBeside(const std::string& path);
 // True if the format of the file stores the mesh, not only the scene.
 bool ExportsMesh(const std::string& path);
-// ExportsColours() is true if the format of the file stores colours for a screen; ExportsCamera() is true if
-// it stores a camera.
+// ExportsColours() is true if the format of the file stores colours for display on a screen; ExportsCamera()
+// is true if the format stores a camera.
 bool ExportsColours(const std::string& path);
 bool ExportsCamera(const std::string& path);
-// Lists of the file endings of all formats that store colours, and of those that store a camera. Example:
-// ".ply and .glb".
+// EndingsWithColours() lists the file endings of all formats that store colours, EndingsWithCamera() those of
+// all formats that store a camera, for example ".ply and .glb".
 std::string EndingsWithColours();
 std::string EndingsWithCamera();
-// The endings of irradiance maps.
+// Lists the file endings of all formats that store irradiance maps.
 std::string EndingsOfMaps();
-// A description of all formats, one line each.
+// A description of all export formats, with one line for each format.
 std::string ExportFormats();
 
 // Writes the mesh to a file. Throws InputError if the file cannot be written. REQUIRES: the ending of the
 // path is that of a known format, so that ExportFormatError(path) returns nullopt.
 void ExportMesh(const std::string& path, const MeshExport& from);
-// Writes an irradiance map of size x size pixels. Throws InputError like ExportMesh(), or if the map has no
-// room for all patches. REQUIRES: ExportsMap(path).
+// Writes an irradiance map of size x size pixels. Throws InputError if the file cannot be written, or if the
+// map has no room for all patches. REQUIRES: ExportsMap(path).
 void ExportMap(const std::string& path, const MeshExport& from, int size);
-// Writes the scene without its light, and the camera if the format holds one. Throws InputError like
-// ExportMesh().
+// Writes the scene without a solution to a file, with the camera if the format stores cameras. Throws
+// InputError if the file cannot be written.
 void ExportScene(const std::string& path, const Scene& scene, const Camera& camera);
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // apps/form_factor_matrix_run.h
 //
-// The whole matrix of form factors, for `penumbra form-factor --all`.
+// Computes the whole matrix of form factors of a scene, for the command `penumbra form-factor --all`.
 
 #pragma once
 
@@ -18,20 +18,22 @@ namespace penumbra {
 enum class MatrixRows : std::uint8_t { kFaces, kObjects };
 
 struct MatrixArguments {
-  bool all = false;  // the matrix is asked for
+  bool all = false;  // true if the whole matrix is requested
   MatrixRows by = MatrixRows::kFaces;
   std::optional<std::string> output;
 };
 
-// Adds --all, --by and -o.
+// Adds the options --all, --by and -o to the command line.
 void AddMatrixOptions(CLI::App& app, MatrixArguments* arguments);
 
-// The name of MatrixArguments::by.
+// The name of a kind of matrix rows, as the option --by takes it.
 const char* MatrixRowsName(MatrixRows by);
 
-// Computes the matrix of the scene, and writes it to MatrixArguments::output, or as CSV to standard output.
-// Errors, closure, reciprocity and seconds are told on the other of standard output and standard error.
-// `method` may be null. Throws InputError if the matrix is too large for the format, and Interrupted.
+// Computes the form factor matrix of the scene, and writes it to the file MatrixArguments::output, or as CSV
+// to standard output. A summary with errors, closure, reciprocity and seconds is printed to standard output,
+// or to standard error if the matrix is on standard output. The occlusion method `method` may be null. Throws
+// InputError if the matrix is too large for the file format, and Interrupted if the user interrupts the
+// computation.
 void WriteFormFactorMatrix(const Scene& scene, const MatrixArguments& arguments,
                            const OcclusionMethod* method, std::optional<double> tolerance);
 

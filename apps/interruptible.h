@@ -8,10 +8,10 @@
 
 namespace penumbra {
 
-// Calls work(context). If standard error is a terminal, the context shows the progress of the work as a line
-// there. An interrupt (Ctrl-C) cancels the context; a second interrupt kills the program. Throws Interrupted
-// if the work was cancelled; passes on other exceptions of the work. The progress line is erased in all
-// cases.
+// Calls work(context) so that the user can interrupt the work. If standard error is a terminal, a line on the
+// terminal shows the progress. An interrupt (Ctrl-C) cancels the context; a second interrupt kills the
+// program. Throws Interrupted if `work` was cancelled; other exceptions of `work` are passed on. The progress
+// line is erased in all cases.
 void RunInterruptible(const std::function<void(const ExecutionContext&)>& work);
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // apps/load_scene.h
 //
-// Reads the scene, or the solution including its scene, that the user names as the input of a command.
+// Reads the input of a command: a scene, or a solution file, which includes its scene.
 
 #pragma once
 
@@ -17,33 +17,33 @@ namespace penumbra {
 
 // The contents of a solution file.
 struct StoredSolve {
-  PipelineState state;             // unspecified after a SolveRun took it
+  PipelineState state;             // unspecified after a SolveRun has taken over the state
   PipelineOptions solving;         // the options of the solve
-  nlohmann::ordered_json options;  // the same in the format of OptionsUsed(), without `threads`
-  std::string version;             // of the program that wrote the file
-  int schema = 0;                  // of the file
+  nlohmann::ordered_json options;  // all options in the format of OptionsUsed(), without `threads`
+  std::string version;             // version of the program that wrote the solution file
+  int schema = 0;                  // schema number of the solution file
 };
 
 struct LoadedScene {
   std::unique_ptr<const Scene> owner;
   const Scene& scene = *owner;
-  double seconds = 0;                                // duration of reading
-  std::optional<StoredSolve> stored = std::nullopt;  // from a solution file
-  // The solution that the user names with --restart: its geometry is that of `scene`, and its links are used
-  // to solve `scene` (LoadToSolve).
+  double seconds = 0;                                // time for reading the scene [s]
+  std::optional<StoredSolve> stored = std::nullopt;  // set if the scene is from a solution file
+  // The solution that the user names with --restart. The solution given with --restart has the same geometry
+  // as `scene`, and its links are used to solve `scene` (LoadToSolve).
   std::optional<StoredSolve> restart = std::nullopt;
 };
 
-// Sets the number of threads, and reads the scene, or the solution including its scene. Multiplies the light
-// of emitters by the factors of --dim: a scene is read with other emittances, and a solution gets the sum of
-// the lights of its emitters. Throws UsageError if --dim names no emitter; throws InputError if a solution
-// does not keep the light of each emitter. Prints warnings about the scene to standard error. Throws
-// InputError if the file cannot be used. Throws UsageError if options of reading or solving are given
-// together with a solution.
+// Sets the number of threads, and reads the scene, or the solution including its scene. The light of emitters
+// is multiplied by the factors of --dim: in a scene, the emittances change; in a solution, the stored lights
+// of all emitters are scaled and added. Throws UsageError if --dim names no emitter; throws InputError if a
+// solution does not store the light of each emitter. Prints warnings about the scene to standard error.
+// Throws InputError if the scene or solution file cannot be used. Throws UsageError if the user gives options
+// for reading or solving a scene together with a solution.
 LoadedScene LoadScene(const SceneArguments& arguments);
-// LoadWithoutWarnings() does the same as LoadScene(), but prints no warnings; TellWarnings() prints them. Use
-// LoadWithoutWarnings() and TellWarnings() if the scene may still be rejected, so that only the error is
-// printed.
+// LoadWithoutWarnings() does the same as LoadScene(), but prints no warnings; TellWarnings() prints these
+// warnings. Use LoadWithoutWarnings() and TellWarnings() if a scene may be rejected after loading, so that in
+// this case only the error is printed.
 LoadedScene LoadWithoutWarnings(const SceneArguments& arguments);
 void TellWarnings(const LoadedScene& loaded);
 // Reads a solution file. Throws InputError if the file is not a solution.

@@ -1,6 +1,6 @@
 // apps/material_change.h
 //
-// Emittances and reflectances on the command line, which replace those of the scene file.
+// Emittances and reflectances given on the command line, which replace those in the scene file.
 
 #pragma once
 
@@ -19,16 +19,18 @@ struct MaterialChange {
   Rgb value = Rgb::Zero();
 };
 
-// Adds the option `NAME MATERIAL=r,g,b`, which may be given several times. Each number must satisfy the rule.
+// Adds an option `NAME MATERIAL=r,g,b` to the command line; the option may be given several times. Each of
+// the three numbers must satisfy `rule`.
 CLI::Option* AddMaterialChange(CLI::App& app, const std::string& name, std::vector<MaterialChange>* changes,
                                const NumberRule& rule, const std::string& help);
 
-// The text `MATERIAL=r,g,b` that a user would give for this change.
+// The option value `MATERIAL=r,g,b` by which a user would set the material's emittance or reflectance to
+// `value`.
 std::string MaterialChangeText(const std::string& material, const Rgb& value);
 
-// Sets `member`, emittance or reflectance, of the materials to the new values. If several changes concern the
-// same material, the last change determines the value. Throws UsageError for a material that the scene does
-// not have.
+// Sets the emittance or the reflectance of materials, selected by `member`, to the values in `changes`. If
+// several changes name the same material, the last change determines the value. Throws UsageError for a
+// material that the scene does not have.
 void ChangeMaterials(const std::vector<MaterialChange>& changes, Rgb Material::*member,
                      std::vector<Material>& materials);
 

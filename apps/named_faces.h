@@ -10,9 +10,10 @@
 
 namespace penumbra {
 
-// The faces of the objects and groups called `name`; if there are none, the face whose number `name` is.
-// Sorted, each once. Throws InputError, which begins with `scene_name` and lists what there is, if nothing is
-// called so.
+// The numbers of the faces of all objects and groups called `name`, sorted and without repetition. If no
+// object or group is called `name`, `name` must be the number of a face, and the result is this face. If
+// `name` names neither an object, a group nor a face, throws InputError; the message begins with `scene_name`
+// and lists the existing names.
 std::vector<std::int32_t> FacesNamed(const Scene& scene, const std::string& scene_name,
                                      const std::string& name);
 

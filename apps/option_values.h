@@ -1,8 +1,8 @@
 // apps/option_values.h
 //
-// Parses values on the command line. The whole text of a value must be valid; numbers are rounded correctly
-// and checked against their range. If a value is outside its range, parsing ends with a one-line message that
-// describes the range.
+// Parses values on the command line. A value is accepted only if its whole text is valid. Numbers are
+// converted to the nearest double and checked against the permitted range. If a value is outside the range,
+// parsing ends with a one-line message that describes the range.
 
 #pragma once
 
@@ -26,10 +26,10 @@ namespace penumbra {
 // Converts the complete text to a number; returns nullopt if the text is not a finite number.
 std::optional<double> ParseNumber(std::string_view text);
 
-// Converts the text `x,y,z` to three numbers; returns nullopt if the text does not have this form.
+// Converts a text of the form `x,y,z` to three numbers; returns nullopt if the text does not have this form.
 std::optional<Vec3> ParseVector(std::string_view text);
 
-// The range of a number, and its description.
+// A rule for a number: the permitted range, and a description of the range for messages.
 struct NumberRule {
   bool (*holds)(double);
   const char* words;
@@ -39,24 +39,24 @@ inline constexpr NumberRule kPositive{[](double x) { return x >= kTiniestOption 
 inline constexpr NumberRule kEmittance{[](double x) { return x >= 0 && x <= kLargestEmittance; },
                                        "a number, 0 or more, up to 1e100"};
 
-// The names as a phrase "a, b and c". For long lists, the phrase contains only the first names and the number
-// of the others.
+// Joins names to a phrase "a, b and c". For long lists, the phrase contains only the first names and the
+// number of the other names.
 std::string NameList(const std::vector<std::string>& names);
 
-// Adds the option `NAME X`, where X is a number. The help shows the value of `target` as the default; if
-// `target` is optional, the text `help` must describe the default.
+// Adds an option `NAME X` to the command line, where X is a number. The help shows the value of `target` as
+// the default; if `target` is a std::optional, the text `help` must describe the default.
 CLI::Option* AddNumber(CLI::App& app, const std::string& name, double* target, const NumberRule& rule,
                        const std::string& help);
 CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<double>* target,
                        const NumberRule& rule, const std::string& help);
 
-// Adds the option `NAME N`, where N is an integer in [low, high]. The template is instantiated for int and
-// std::uint64_t.
+// Adds an option `NAME N` to the command line, where N is an integer in [low, high]. AddInteger() is
+// instantiated for int and std::uint64_t.
 template <class Integer>
 CLI::Option* AddInteger(CLI::App& app, const std::string& name, Integer* target, Integer low, Integer high,
                         const std::string& help);
 
-// A name and its value.
+// One of the permitted values of an option, with the name that the user gives for it.
 template <class Value>
 struct Choice {
   const char* name;
@@ -69,8 +69,8 @@ const char* ChoiceName(const Choice<Value> (&choices)[kCount], Value value) {
   return "";
 }
 
-// Adds the option `NAME A|B|...`, whose value is one of the choices. The help shows the value of `target` as
-// the default.
+// Adds an option `NAME A|B|...` to the command line, whose value is one of `choices`. The help shows the
+// value of `target` as the default.
 template <class Value, std::size_t kCount>
 CLI::Option* AddChoice(CLI::App& app, const std::string& name, Value* target,
                        const Choice<Value> (&choices)[kCount], const std::string& help) {
@@ -90,13 +90,14 @@ struct VectorRule {
   bool (*holds)(const Vec3&);
   const char* words;
 };
-// The range of coordinates in scenes: squares must not overflow in floats, nor cubes in doubles.
+// The permitted range of coordinates: squares of coordinates must not overflow in floats, nor cubes in
+// doubles.
 inline constexpr VectorRule kPoint{[](const Vec3& v) { return MaxAbs(v) <= 1e36; },
                                    "three numbers, x,y,z, each up to 1e36"};
 inline constexpr VectorRule kDirection{[](const Vec3& v) { return MaxAbs(v) <= 1e36 && !v.isZero(0); },
                                        "a direction, x,y,z, of any length but 0"};
 
-// Adds the option `NAME x,y,z`, where x, y and z are numbers.
+// Adds an option `NAME x,y,z` to the command line, where x, y and z are numbers.
 CLI::Option* AddVector(CLI::App& app, const std::string& name, std::optional<Vec3>* target,
                        const VectorRule& rule, const std::string& help);
 

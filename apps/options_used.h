@@ -1,7 +1,7 @@
 // apps/options_used.h
 //
-// The options of a command as JSON: they are printed in reports and with -v, and are stored in solution files
-// and read from these.
+// Converts the options of a command to JSON, and back. The JSON is part of reports and of solution files, and
+// the option -v prints it.
 
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace penumbra {
 
-// All options that a user can set, with the values that are used. The key of an option is its name with '_'
-// instead of '-'. If `resolved` is null, no scene is solved, and the result contains only the options for
-// reading the scene.
+// All options that a user can set, with the values that are used, as JSON. The key of an option is the
+// option's name with '_' instead of '-'. If `resolved` is null, no scene is solved, and the JSON contains
+// only the options for reading the scene.
 nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const ResolvedOptions* resolved);
-// The inverse of OptionsUsed(): if the result is resolved and passed to OptionsUsed(), the output equals
-// `options`. Throws nlohmann::json::exception if a value has the wrong type. Throws InputError if an option
-// is missing, or if its value is a name that does not exist.
+// The inverse of OptionsUsed(): if the returned options are resolved and passed to OptionsUsed(), the result
+// equals `options`. Throws nlohmann::json::exception if a value has the wrong type. Throws InputError if an
+// option is missing, or if the value of an option is an unknown name.
 PipelineOptions SolvingFrom(const nlohmann::ordered_json& options);
 // Prints the section "Options used:" to standard error. A user who gives the printed options obtains the same
 // result.

@@ -11,41 +11,42 @@
 
 namespace penumbra {
 
-// Thrown if standard output is a pipe that its reader has closed. A program that throws PipeClosed ends
-// without a message.
+// The exception thrown if standard output is a pipe whose reader has closed it. After PipeClosed, the program
+// ends without a message.
 class PipeClosed : public std::runtime_error {
  public:
   PipeClosed() : std::runtime_error("the pipe was closed") {}
 };
 
-// Prepares the standard streams: after the call, writing to a closed, full or limited stream is an error with
-// a message, and the descriptor of a closed standard stream is not reused for another file. Must be called
-// before any file is opened.
+// Prepares the standard streams. After PrepareStreams(), writing to a closed, full or limited stream is an
+// error with a message, and the descriptor of a closed standard stream is not reused for another file.
+// PrepareStreams() must be called before any file is opened.
 void PrepareStreams();
 
 // True if all output to standard output and all messages to standard error have been written without error.
 // If writing has failed, prints the reason, unless the reason is a closed pipe.
 bool OutputArrived();
 
-// True if both paths lead to the same file, or would lead to the same file if it existed. False for devices.
+// True if both paths lead to the same file, or would lead to the same file if the file existed. IsSameFile()
+// returns false for devices.
 bool IsSameFile(const std::string& a, const std::string& b);
 
-// Throws InputError unless a file can be written at `path`. The function is called before long computations,
-// so that a misspelt folder is detected at once. No file is left behind.
+// Throws InputError unless a file can be written at `path`. CheckWritable() is called before long
+// computations, so that a misspelt folder is detected at once. CheckWritable() leaves no file behind.
 void CheckWritable(const std::string& path);
 
-// The output files of a command. An output file may not be an input file, nor the output file of another
-// option.
+// The list of the output files of a command. An output file must not be an input file, nor the output file of
+// another option.
 class OutputFiles {
  public:
-  // Adds the file `path`, which the user has given with the option `option`. Checks that the file can be
-  // written (CheckWritable). Throws UsageError if another option names the same file.
+  // Adds the output file `path`, which the user has given with the option `option`, after checking that the
+  // file can be written (CheckWritable). Throws UsageError if another option names the same file.
   void Add(const std::string& option, const std::string& path);
   void Add(const std::string& option, const std::optional<std::string>& path) {
     if (path) Add(option, *path);
   }
 
-  // Throws UsageError if `path`, an input file, is one of the output files.
+  // Throws UsageError if the input file `path` is also one of the output files.
   void RefuseInput(const std::string& path) const;
 
  private:
@@ -55,8 +56,9 @@ class OutputFiles {
   std::vector<Output> outputs_;
 };
 
-// Writes the text to the file (WriteWholeFile), or to standard output if there is no path. On failure, throws
-// InputError and leaves no file behind. Throws PipeClosed if standard output is a closed pipe.
+// Writes the text to the file `path` (WriteWholeFile), or to standard output if `path` is nullopt. On
+// failure, throws InputError and leaves no file behind. Throws PipeClosed if standard output is a closed
+// pipe.
 void WriteResult(const std::optional<std::string>& path, const std::string& text);
 
 }  // namespace penumbra

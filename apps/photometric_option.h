@@ -8,7 +8,7 @@
 
 namespace penumbra {
 
-// Adds the flag --photometric, which sets the unit to LightUnit::kLux.
+// Adds the flag --photometric to the command line, which sets `unit` to LightUnit::kLux.
 CLI::Option* AddPhotometricOption(CLI::App& app, LightUnit* unit);
 
 }  // namespace penumbra

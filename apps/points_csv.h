@@ -10,26 +10,27 @@
 
 namespace penumbra {
 
-// A point at which irradiance is measured, as the user gave it.
+// A point that the user gave, at which irradiance is measured.
 struct ProbePoint {
   Vec3 position = Vec3::Zero();  // [m]
-  Vec3 normal = Vec3::Zero();    // any length; zero if it was left out
-  bool has_normal = true;        // false if it was left out
-  int line = 0;                  // of the file, from 1
+  Vec3 normal = Vec3::Zero();    // normal of any length; zero if the normal was left out
+  bool has_normal = true;        // false if the normal was left out
+  int line = 0;                  // line number in the file, from 1
 };
 
-// Given as the path of a file of points, this means standard input.
+// If the path of the file of points is "-", the points are read from standard input.
 inline constexpr const char* kPointsFromInput = "-";
-// The name of the file in messages: the path, or words for standard input.
+// The name of the file of points in messages: the path, or words for standard input.
 std::string NameOfPoints(const std::string& path);
 
-// The points of a CSV file with the header x,y,z,nx,ny,nz, or x,y,z without normals; of standard input if the
-// path is kPointsFromInput. A row may leave the normal out by ending after z or by three empty fields. Blanks
-// around values, blank lines, and the line ends of all operating systems are accepted. Throws InputError,
-// "FILE:LINE: error: …", or "FILE: error: …" if the file cannot be read.
+// Reads the points of a CSV file with the header x,y,z,nx,ny,nz, or with the header x,y,z for points without
+// normals. Reads standard input if the path is kPointsFromInput. A row of the CSV file without a normal ends
+// after z or has three empty fields. Blanks around values, blank lines, and the line ends of all operating
+// systems are accepted. Throws InputError with the message "FILE:LINE: error: …", or "FILE: error: …" if the
+// file cannot be read.
 std::vector<ProbePoint> ReadPointsCsv(const std::string& path);
 
-// Reads points from a text instead of a file. In messages, `path` is the name of the text.
+// Reads points from a text in the CSV format instead of a file. `path` is the name of the text in messages.
 std::vector<ProbePoint> ReadPointsText(std::string_view text, const std::string& path);
 
 }  // namespace penumbra

@@ -22,8 +22,8 @@ namespace penumbra {
 // The methods by which the colour of a pixel is computed.
 enum class RenderMethod {
   kTwoPass,
-  kRayShade,   // rays, exact irradiance
-  kLerpShade,  // rays, interpolants
+  kRayShade,   // rays, with exact irradiance at their hits
+  kLerpShade,  // rays, with interpolated irradiance at their hits
 };
 
 struct RenderMode {
@@ -47,7 +47,7 @@ inline constexpr std::array<RenderMode, 7> kRenderModes = {
       "the interpolant, found by rays (LerpShade)"},
      {"rho", RenderMethod::kTwoPass, MeshKind::kFlat, ShadingMode::kReflectance, "reflectance alone"}}};
 
-// The back ends that draw the two passes.
+// The back ends that draw the two passes of the display.
 enum class Backend { kSoftware, kOpenGl };
 
 struct RenderArguments {
@@ -58,13 +58,14 @@ struct RenderArguments {
   Backend backend = Backend::kSoftware;
   OpenGlCoordinates coordinates = OpenGlCoordinates::kFloat;
   int width = 1280, height = 960;
-  std::optional<double> exposure;   // [m^2/W]; metered without a value
-  bool false_colour = false;        // a PNG shows false colours
-  std::optional<double> scale_max;  // end of the scale [W/m^2]; default: what the exposure makes white
-  bool split = false;               // a PNG also shows the scratch images
-  int benchmark_frames = 0;         // 0: no benchmark
-  int supersampling = 2;            // of PNG pictures: samples per side of a pixel
-  int samples = 1;                  // rays per pixel, in modes that cast rays
+  std::optional<double> exposure;  // exposure [m^2/W]; if not set, it is metered
+  bool false_colour = false;       // true if PNG pictures show false colours
+  // The end of the false colour scale [W/m^2]; by default, the irradiance that the exposure shows as white.
+  std::optional<double> scale_max;
+  bool split = false;        // true if PNG pictures also show the scratch images
+  int benchmark_frames = 0;  // number of benchmark frames; 0 for no benchmark
+  int supersampling = 2;     // PNG pictures have supersampling^2 samples for each pixel
+  int samples = 1;           // number of rays for each pixel, in modes that cast rays
 
   bool ByRays() const { return mode.method != RenderMethod::kTwoPass; }
 };
@@ -73,15 +74,15 @@ struct RenderArguments {
 bool HasOneSample(const RenderArguments& arguments);
 
 void AddPictureOptions(CLI::App& app, RenderArguments* arguments);
-// Adds those options of the picture that serve only to compare methods, to the group OptionGroup::kStudies of
-// the help. REQUIRES: AddSolveOptions() was called.
+// Adds the picture options that serve only to compare methods; the help lists them in the group
+// OptionGroup::kStudies. REQUIRES: AddSolveOptions() was called.
 void AddPictureStudies(CLI::App& app, RenderArguments* arguments);
 
-// Checks everything that can be checked before the work starts. Throws UsageError if arguments contradict
-// each other. Throws InputError if an output file cannot be written.
+// Checks the arguments of the command `render` as far as possible before the computation starts. Throws
+// UsageError if arguments contradict each other. Throws InputError if an output file cannot be written.
 void CheckRenderArguments(const RenderArguments& arguments);
 
-// The options of the picture, in the format of OptionsUsed().
+// The picture options of the command `render` as JSON, in the format of OptionsUsed().
 nlohmann::ordered_json RenderOptionsUsed(const RenderArguments& arguments);
 
 }  // namespace penumbra

@@ -10,11 +10,11 @@
 
 namespace penumbra {
 
-// Like LoadScene(), for commands that solve. If the user gives --restart FILE, the function also reads the
-// solution FILE into LoadedScene::restart, and sets the link options (IsLinkOption) to the values of this
-// solution. Throws InputError if FILE is not a solution, has no links, or has another geometry. Throws
-// UsageError if, together with --restart, the input of the command is a solution instead of a scene, or link
-// options are given.
+// Like LoadScene(), but for commands that solve the scene. If the user gives --restart FILE, LoadToSolve()
+// also reads the solution FILE into LoadedScene::restart, and sets the link options (IsLinkOption) to the
+// values of this solution. Throws InputError if FILE is not a solution, has no links, or has another
+// geometry. Throws UsageError if --restart is given and the input of the command is a solution instead of a
+// scene, or link options are given.
 LoadedScene LoadToSolve(SceneArguments& arguments);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // apps/scene_arguments.h
 //
-// The arguments of all commands that take a SCENE: the scene, and the options for reading and solving the
-// scene.
+// The arguments of all commands that take a scene: the scene's name, and the options for reading and solving
+// the scene.
 
 #pragma once
 
@@ -21,37 +21,40 @@
 namespace penumbra {
 
 struct SceneArguments {
-  const CLI::App* app = nullptr;    // knows which options were given; null: none
-  std::string scene;                // a path, or the name of a built-in scene
-  std::vector<std::string> scenes;  // of commands that take several, which work on one after the other
+  const CLI::App* app = nullptr;    // command that knows which options were given; null if none was given
+  std::string scene;                // path of a file, or name of a built-in scene
+  std::vector<std::string> scenes;  // scenes of commands that process several scenes
   SceneOptions reading;
   std::vector<MaterialChange> emittance, reflectance;
   std::vector<Dimming> dims;  // factors on the light of emitters (AddDimOption)
   PipelineOptions solving;
-  int threads = 0;  // 0: all processors
+  int threads = 0;  // number of threads; 0 for all processors
   bool verbose = false;
-  std::optional<std::string> report;   // path of the report
-  std::optional<std::string> restart;  // the solution whose links the solve uses: LoadToSolve()
-  OutputFiles outputs;                 // files that the command writes; no input file may be one of them
-  bool lit = true;                     // the command computes light, not only geometry
+  std::optional<std::string> report;   // path of the report file
+  std::optional<std::string> restart;  // path of the solution whose links are used (LoadToSolve)
+  OutputFiles outputs;                 // output files; must differ from all input files
+  bool lit = true;                     // true if the command computes light, not only geometry
 };
 
-// The heading in the help for the options that concern the reading of scenes.
+// The heading, in the help, of the options for reading scenes.
 inline constexpr const char* kSceneGroup = "Scene";
 
-// Adds the options for threads, seed and verbosity, which all commands with long computations have.
+// Adds the options for threads, seed and verbosity, which all commands with long computations have, to the
+// command line.
 void AddRunningOptions(CLI::App& app, int* threads, std::uint64_t* seed, bool* verbose);
-// Adds the positional argument, SCENE or SOLUTION, and the options for reading, threads, seed and verbosity.
+// Adds the positional argument, a scene or a solution, and the options for reading scenes, threads, seed and
+// verbosity.
 void AddSceneArguments(CLI::App& app, SceneArguments* arguments);
-// The same for commands that take several scenes: they stand in SceneArguments::scenes, and `scene` is empty.
+// Like AddSceneArguments(), but for commands that take several scenes. The names of the scenes are stored in
+// SceneArguments::scenes, and SceneArguments::scene is empty.
 void AddSeveralScenesArguments(CLI::App& app, SceneArguments* arguments);
-// Throws UsageError if a file, which the option `name` would write, is given beside several scenes.
+// Throws UsageError if several scenes are given together with the option `name`, which names an output file.
 void RefuseForSeveralScenes(const SceneArguments& arguments, const std::string& name,
                             const std::optional<std::string>& file);
 CLI::Option* AddReportOption(CLI::App& app, SceneArguments* arguments);
 CLI::Option* AddRestartOption(CLI::App& app, SceneArguments* arguments);
 
-// True if the user has given the option `name`, for example `--eps`.
+// True if the user has given the option called `name`, for example `--eps`.
 bool IsGiven(const SceneArguments& arguments, const std::string& name);
 
 }  // namespace penumbra

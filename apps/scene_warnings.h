@@ -1,7 +1,7 @@
 // apps/scene_warnings.h
 //
-// Warnings about likely mistakes in a scene that can be solved in spite of the mistakes. Every command that
-// reads a scene prints these warnings.
+// Warnings about likely mistakes in a scene that do not prevent solving the scene. Every command that reads a
+// scene prints the warnings about the scene.
 
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace penumbra {
 
-// The warnings, one sentence each. If `lit` is false, warnings about light are omitted; for commands that do
-// not compute light.
+// Returns the warnings about a scene, one sentence for each. If `lit` is false, warnings about light are
+// omitted, as for commands that do not compute light.
 std::vector<std::string> SceneWarnings(const Scene& scene, bool lit);
 
 }  // namespace penumbra

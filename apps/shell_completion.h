@@ -1,6 +1,6 @@
 // apps/shell_completion.h
 //
-// Scripts that complete commands, options and their values in a shell.
+// Makes scripts by which a shell completes the program's commands, options and values of options.
 
 #pragma once
 
@@ -11,14 +11,15 @@
 
 namespace penumbra {
 
-// The names that an option takes, if its value is one of a few; otherwise empty.
+// The permitted values of an option whose value is one of a fixed list of names; an empty list for other
+// options.
 std::vector<std::string> ChoicesOf(const CLI::Option& option);
-// True if a value follows the option.
+// True if the option is followed by a value on the command line.
 bool TakesValue(const CLI::Option& option);
 
-// The script for bash, to be sourced, or put where bash-completion looks.
+// Returns the completion script for bash, which the user can source or put in a folder of bash-completion.
 std::string BashCompletion(const CLI::App& program);
-// The script for zsh, as the file _penumbra in a folder of $fpath.
+// Returns the completion script for zsh, to be stored as the file _penumbra in a folder of $fpath.
 std::string ZshCompletion(const CLI::App& program);
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // apps/solve_options.h
 //
-// Adds the options of a solve to the command line. OptionTable() lists these options.
+// Adds the options of a solve to the command line. OptionTable() lists all options of a solve.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace penumbra {
 
-// Adds all options of OptionTable() to `app`. The help of `app` also lists the values
+// Adds all options of OptionTable() to the command `app`. The help of the command `app` also lists the values
 // SolveOption::study_choices. REQUIRES: AddSceneArguments() was called.
 void AddSolveOptions(CLI::App& app, SceneArguments* arguments);
 

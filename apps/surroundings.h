@@ -1,6 +1,7 @@
 // apps/surroundings.h
 //
-// Looks around at points of the user's choice: what light cannot reach, and on which face a point lies.
+// Examines the surroundings of points that the user gives: the face on which a point lies, and whether light
+// can reach the point.
 
 #pragma once
 
@@ -15,8 +16,8 @@
 
 namespace penumbra {
 
-// A point lies on a patch if its distance is at most kOnPatchDistance times the scene's diagonal, and its
-// normal deviates by at most kOnPatchDegrees degrees.
+// A point lies on a patch if (distance of the point from the patch) / (length of the scene's diagonal) is at
+// most kOnPatchDistance, and the normals of point and patch differ by at most kOnPatchDegrees degrees.
 inline constexpr double kOnPatchDistance = 1e-6;
 inline constexpr double kOnPatchDegrees = 1;
 
@@ -26,38 +27,42 @@ inline constexpr double kFarDiagonals = 10;
 
 // The face and the patch on whose front a point lies.
 struct PointFace {
-  std::int32_t face = -1;  // its number in outputs; -1: none
+  std::int32_t face = -1;  // number of the face in outputs; -1 if the point lies on no face
   PatchId patch = kNoPatch;
 };
 
-// The distance within which a point lies on a patch of the scene [m].
+// The distance from a patch of the scene within which a point counts as lying on the patch [m].
 double PatchReach(const Scene& scene);
 
-// The face on whose front the point lies; if the point lies on several fronts, the face with the lowest
-// index. `normal` is a unit vector; without it, any front at the position counts.
+// Finds the face on whose front the point lies; if the point lies on several fronts, the face with the lowest
+// index. `normal` is the unit normal at the point; if it is nullopt, fronts of all orientations are accepted.
 PointFace FindFace(const Scene& scene, const Vec3& position, const std::optional<Vec3>& normal);
 
-// Gives each point without a normal that of the face on which it lies (FindFace). Throws InputError,
-// "NAME:LINE: error: …", for a point that lies on no face.
+// Sets the normal of each point without a normal to the normal of the face on which the point lies
+// (FindFace). Throws InputError with the message "NAME:LINE: error: …" if a point without a normal lies on no
+// face.
 void TakeNormalsOfFaces(const Scene& scene, const std::string& name, std::vector<ProbePoint>* points);
 
 class Surroundings {
  public:
-  explicit Surroundings(const Scene& scene);  // which must outlive this object
+  explicit Surroundings(const Scene& scene);  // the scene must outlive the object
 
-  // True if the point lies far outside the scene.
+  // True if the point lies far outside the scene's bounding box (kFarDiagonals).
   bool IsFar(const Vec3& position) const;
-  // The two faces of a thin wall lie in one plane, but for the rounding of their corners: a foot on the plane
-  // of one may lie behind the other. Returns the foot on the side of both where its own face looks.
+  // The two patches of a thin wall lie in one plane, except for rounding errors of their corners. Because of
+  // rounding errors, the patch on the back of a thin wall may lie in front of the point `foot` on the front
+  // patch `id`, and hide light. Returns the point `foot`, moved along the normal of patch `id` so that no
+  // patch of the wall's back lies in front of it.
   Vec3 BeforeBacks(PatchId id, const Vec3& foot) const;
-  // True if a point with this unit normal lies inside a solid or behind faces: it sees only backs.
+  // True if only backs of patches are visible from the point with unit normal `normal`, which then lies
+  // inside a solid or behind faces.
   bool SeesOnlyBacks(const Vec3& position, const Vec3& normal) const;
 
  private:
   const Scene& scene_;
   RayCaster rays_;
-  double reach_;     // [m]
-  Vec3 low_, high_;  // of the scene's bounding box [m]
+  double reach_;     // distance within which a point lies on a patch [m]
+  Vec3 low_, high_;  // corners of the scene's bounding box [m]
 };
 
 }  // namespace penumbra

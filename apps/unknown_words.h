@@ -11,8 +11,9 @@
 
 namespace penumbra {
 
-// A sentence about the first command or option of the command line that does not exist, with what was
-// probably meant; empty if all exist. `arguments` are the words behind the program's name.
+// Returns a sentence about the first command or option on the command line that does not exist, with the name
+// that the user probably meant; empty if all commands and options exist. `arguments` are the words of the
+// command line behind the program's name.
 std::string UnknownWord(const CLI::App& program, std::span<const std::string> arguments);
 
 }  // namespace penumbra

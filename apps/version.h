@@ -6,11 +6,13 @@
 
 namespace penumbra {
 
-// What `--version` prints: the version and, where it is known, the commit that the program was built from,
-// for example "penumbra 1.2.3 (1a2b3c4)". "+" behind the commit says that files had been changed.
+// The text that `--version` prints: the version and, if known, the commit from which the program was built,
+// for example "penumbra 1.2.3 (1a2b3c4)". A "+" behind the commit in the text of `--version` means that
+// source files had been changed after the commit.
 std::string VersionLine();
 
-// The commit; empty if it is not known. The build writes this function (cmake/WriteCommit.cmake).
+// The commit from which the program was built; empty if the commit is not known. The build script
+// cmake/WriteCommit.cmake generates the definition of CommitOfBuild().
 const char* CommitOfBuild();
 
 }  // namespace penumbra

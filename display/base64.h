@@ -7,7 +7,7 @@
 
 namespace penumbra {
 
-// The bytes as text (RFC 4648, section 4), filled up with `=` to a multiple of four characters.
+// The bytes in Base64 encoding (RFC 4648, section 4), padded with `=` to a multiple of four characters.
 std::string Base64(std::string_view bytes);
 
 }  // namespace penumbra

@@ -9,7 +9,7 @@
 
 namespace penumbra {
 
-// Values on a regular grid: value [row * columns + column]; nan where there is none.
+// Values on a regular grid, stored as values[row * columns + column]; grid points without a value hold nan.
 struct ValueGrid {
   int columns = 0, rows = 0;
   std::vector<double> values;
@@ -20,9 +20,10 @@ struct ValueGrid {
   }
 };
 
-// The places where the values, linear between neighbours, equal `level`: segments between points (column,
-// row). Squares without a value at a corner are left out. The mean of a square's corners decides how two
-// lines pass its middle (marching squares, Lorensen and Cline 1987 in two dimensions).
+// The contour lines of a grid at the value `level`, as segments between points (column, row). Values are
+// interpolated linearly between neighbouring grid points. Grid squares with a corner without a value get no
+// contour line. If two contour lines cross a grid square, the mean of the square's corner values decides how
+// the lines pass the centre (marching squares, Lorensen and Cline 1987 in two dimensions).
 std::vector<std::array<Vec2, 2>> ContourLines(const ValueGrid& grid, double level);
 
 }  // namespace penumbra

@@ -8,14 +8,14 @@
 
 namespace penumbra {
 
-// Writes an EXR file with linear RGB values as 32-bit floats, ZIP-compressed without loss. The function
-// writes a temporary file in the same folder and renames it, so that an interrupted program leaves the old
-// file intact. Equal pixels give equal bytes. Throws InputError, and leaves no file behind, if the file
-// cannot be written.
+// Writes an EXR file with linear RGB values as 32-bit floats, ZIP-compressed without loss. WriteExr() writes
+// a temporary file in the same folder and renames the temporary file, so that an interrupted program leaves
+// an old file intact. Pictures with equal pixels give EXR files with equal bytes. WriteExr() throws
+// InputError, and leaves no file behind, if the file cannot be written.
 void WriteExr(const std::string& path, const RgbImage& image);
 
-// The channels R, G and B of an EXR file of any pixel type. Throws InputError if the file cannot be read or
-// lacks one of the channels R, G and B.
+// Reads the channels R, G and B of an EXR file of any pixel type. Throws InputError if the file cannot be
+// read or lacks one of the channels R, G and B.
 RgbImage ReadExr(const std::string& path);
 
 ImageWriterRegistry::Method ExrImageMethod();

@@ -6,7 +6,8 @@
 
 namespace penumbra {
 
-// A binary glTF 2.0 file of a JSON text and, unless it is empty, one buffer.
+// The bytes of a binary glTF 2.0 file with the given JSON text and, unless `buffer` is empty, one binary
+// buffer.
 std::string GlbFile(const std::string& json, const std::string& buffer);
 
 }  // namespace penumbra

@@ -12,7 +12,7 @@
 
 namespace penumbra {
 
-// The same numbers.
+// Conversions between the vector types of Eigen and GLM, without rounding.
 inline glm::dvec3 ToGlm(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 inline Vec3 ToEigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
@@ -25,7 +25,8 @@ inline glm::vec4 ToFloats(const glm::dvec4& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(v.w)};
 }
 
-// Rounds each channel to the nearest float. x, y and z of the result are red, green and blue, as in pixels.
+// Rounds each channel to the nearest float. The components x, y and z of a pixel vector are red, green and
+// blue.
 inline glm::vec3 ToPixel(const Rgb& colour) {
   return {static_cast<float>(colour[0]), static_cast<float>(colour[1]), static_cast<float>(colour[2])};
 }

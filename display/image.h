@@ -1,6 +1,7 @@
 // display/image.h
 //
-// Pictures in memory. Rows are stored from top to bottom, pixels from left to right.
+// Pictures in memory. The rows of a picture are stored from top to bottom, the pixels of a row from left to
+// right.
 
 #pragma once
 
@@ -12,17 +13,17 @@
 
 namespace penumbra {
 
-// A picture in linear RGB, one array per channel: radiosity [W/m^2], reflectance [1] or exposed values in [0,
-// 1].
+// A picture in linear RGB, with one array per channel. The values of an RgbImage are radiosity [W/m^2],
+// reflectance [1], or exposed values in [0, 1].
 struct RgbImage {
   int width = 0, height = 0;
-  std::array<std::vector<float>, 3> channel;  // width * height values each
+  std::array<std::vector<float>, 3> channel;  // width * height values for each channel
 
   RgbImage() = default;
   RgbImage(int w, int h) { Resize(w, h); }
 
-  // Changes the size of the picture. If the size differs from the old one, all values are unspecified
-  // afterwards. Memory is allocated only if the size grows.
+  // Changes the size of the picture. If the new size differs from the old size, all pixel values are
+  // unspecified afterwards. Memory is allocated only if the number of pixels grows.
   void Resize(int w, int h) {
     width = w;
     height = h;
@@ -34,8 +35,8 @@ struct RgbImage {
   std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
-  // The values of a pixel, given by its index or by its coordinates: x, y and z of the result are red, green
-  // and blue.
+  // At() returns the values of a pixel, given by index or by coordinates: x, y and z of the vector are red,
+  // green and blue.
   glm::vec3 At(std::size_t i) const { return {channel[0][i], channel[1][i], channel[2][i]}; }
   glm::vec3 At(int x, int y) const { return At(Index(x, y)); }
   void Set(std::size_t i, const glm::vec3& rgb) {
@@ -56,7 +57,7 @@ struct Srgb8Image {
     height = h;
     pixels.resize(3 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
   }
-  // The index of a pixel. The bytes of the pixel begin at pixels[3 * Index(x, y)].
+  // The index of pixel (x, y). The three bytes of the pixel begin at pixels[3 * Index(x, y)].
   std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
@@ -72,11 +73,11 @@ inline void SetPixel(Srgb8Image* image, std::size_t i, ScreenColour c) {
   image->pixels[3 * i + 2] = c.blue;
 }
 
-// The kind of object that a pixel shows. Tone mapping treats each kind differently.
+// The kind of object that a pixel shows. Tone mapping treats each kind of pixel differently.
 enum class PixelKind : std::uint8_t { kBackground, kSurface, kEmitter };
 
-// Replaces each block of `across` x `down` pixels by one pixel, the mean of the block: the box filter of
-// supersampling. REQUIRES: across > 0 divides the width, down > 0 divides the height.
+// Replaces each block of `across` x `down` pixels by one pixel with the block's mean value (box filter for
+// supersampling). REQUIRES: across > 0 divides the width, down > 0 divides the height.
 RgbImage Downsample(const RgbImage& image, int across, int down);
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // display/image_difference.h
 //
-// The difference of two pictures: relative errors, and the visible difference.
+// The difference of two pictures: relative errors per channel, and the visible difference (FLIP).
 
 #pragma once
 
@@ -20,32 +20,34 @@ struct ChannelError {
 };
 inline constexpr double kDarkest = 0.01;
 
-// The errors of each channel. REQUIRES: the pictures have equal sizes, at least one pixel, and finite values.
+// The relative errors of each channel of a picture. REQUIRES: the pictures have equal sizes, at least one
+// pixel, and finite values.
 std::array<ChannelError, 3> RelativeErrors(const RgbImage& reference, const RgbImage& test);
 
-// The number of pixels per degree of the field of view, for a screen of 3840 pixels and 0.7 m width at a
-// distance of 0.7 m, as in Andersson et al.
+// The number of pixels per degree of the field of view, for a screen that is 3840 pixels and 0.7 m wide, at a
+// distance of 0.7 m (Andersson et al. 2020).
 inline constexpr double kPixelsPerDegree = 67.0206;
 
 // The visible difference of two pictures on a screen, a value from 0 (no difference) to 1 for each pixel:
 // FLIP (Andersson, Nilsson, Akenine-Moeller, Oskarsson, Astroem and Fairchild 2020, sections 4 and 5). Both
-// pictures are exposed and have linear values in [0, 1]. The result is symmetric in a and b. REQUIRES: the
-// pictures have equal sizes.
+// pictures must be exposed, with linear values in [0, 1]. FlipOfExposed(a, b) equals FlipOfExposed(b, a).
+// REQUIRES: the pictures have equal sizes.
 std::vector<float> FlipOfExposed(const RgbImage& a, const RgbImage& b,
                                  double pixels_per_degree = kPixelsPerDegree);
 
 struct VisibleDifference {
-  std::vector<float> map;  // per pixel, rows from the top: the maximum over the exposures
+  // the visible difference of each pixel, rows from the top: the maximum over all exposures
+  std::vector<float> map;
   double mean = 0, max = 0;
-  // The exposures that were used: factors by which the pictures' values are multiplied. Successive factors
-  // differ by at most one stop, a factor of 2.
+  // The exposures at which the pictures were compared: factors by which the pictures' values are multiplied.
+  // Successive exposures differ by at most one stop, a factor of 2.
   std::vector<double> exposures;
 };
 
 // The visible difference of pictures of any range, after HDR-FLIP (Andersson, Nilsson, Shirley and
 // Akenine-Moeller 2021). With the lowest exposure, the brightest pixel of the reference is just below white;
 // with the highest exposure, the median pixel is just below white. Each exposed picture is clipped at white,
-// as on the display. If the context is cancelled, the result is unspecified.
+// as on a screen. If the computation is cancelled (ExecutionContext), the VisibleDifference is unspecified.
 VisibleDifference FindVisibleDifference(const RgbImage& reference, const RgbImage& test,
                                         double pixels_per_degree = kPixelsPerDegree,
                                         const ExecutionContext& context = {});

@@ -1,6 +1,6 @@
 // display/image_writer.h
 //
-// The interface of writers of pictures. Each file format has its own writer.
+// The interface of writers of pictures. Each picture format has its own writer.
 
 #pragma once
 
@@ -11,23 +11,25 @@
 
 namespace penumbra {
 
-// A file format stores either screen colours or linear radiosity. The writer of a format overrides that
-// function Bytes() whose parameter has the corresponding type.
+// The base class of writers of pictures. A picture format stores either screen colours or linear radiosity. A
+// writer of screen colours overrides Bytes(Srgb8Image), a writer of linear radiosity Bytes(RgbImage).
 class ImageWriter {
  public:
   virtual ~ImageWriter() = default;
 
   virtual bool IsLinear() const = 0;
 
-  // The contents of the file. Equal pixels give equal bytes. Throws InputError if the picture cannot be
-  // encoded. REQUIRES: the picture has at least one pixel, and the format is not linear.
+  // The contents of a picture file with screen colours. Pictures with equal pixels give files with equal
+  // bytes. Throws InputError if the picture cannot be encoded. REQUIRES: the picture has at least one pixel,
+  // and IsLinear() is false.
   virtual std::string Bytes(const Srgb8Image& image) const;
-  // The contents of a file with linear values. REQUIRES: the picture has at least one pixel, and the format
-  // is linear.
+  // The contents of a picture file with linear radiosity. REQUIRES: the picture has at least one pixel, and
+  // IsLinear() is true.
   virtual std::string Bytes(const RgbImage& image) const;
 };
 
-// The type of ImageWriters(). The name of a writer is the ending of its files, without the dot.
+// The type of the registry ImageWriters(). The name of a picture writer in the registry is the ending of its
+// files, without the dot.
 using ImageWriterRegistry = Registry<const ImageWriter>;
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // display/mesh_bytes.h
 //
-// Functions that the writers of meshes share.
+// Functions that the writers of mesh files (PLY, glTF and others) share.
 
 #pragma once
 
@@ -28,14 +28,16 @@ void AppendTriple(std::string& bytes, const auto& triple) {
   for (int i = 0; i < 3; ++i) AppendBytes(bytes, static_cast<Scalar>(triple[i]));
 }
 
-// The nodes of the mesh. `most` is the largest number that the file format can represent. Throws InputError
-// if a value of a node exceeds `most`.
+// The nodes of the mesh with their light (FindMeshNodes). `most` is the largest number that the file format
+// can represent. Throws InputError if a value of a mesh node exceeds `most`.
 MeshNodes NodesToWrite(const Scene& scene, const IrradianceMesh& mesh, double most);
 
-// The exposure of the colours [m^2/W]: the one that was asked for, else the result of MeterMesh().
+// The exposure of the exported colours [m^2/W]: MeshExport::exposure if set, otherwise the result of
+// MeterMesh().
 double ExposureOf(const MeshExport& from);
 
-// The linear colour of a node on a screen: exposure * radiosity, or white if the node lies on an emitter.
+// The linear colour of a mesh node on a screen: exposure * radiosity, or white if the node lies on an
+// emitter.
 Rgb ExposedAt(const Scene& scene, const MeshNodes::Node& node, double exposure);
 
 }  // namespace penumbra

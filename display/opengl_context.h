@@ -1,7 +1,7 @@
 // display/opengl_context.h
 //
-// An OpenGL context without a window, made with EGL. The library EGL is loaded when the first context is
-// made, so that the program also runs on machines without EGL.
+// An OpenGL context without a window, made with EGL. The library EGL is loaded when the first OpenGL context
+// is made, so that the program also runs on machines without EGL.
 
 #pragma once
 
@@ -12,15 +12,16 @@ namespace penumbra {
 
 class OpenGlContext {
  public:
-  // Makes an OpenGL 3.3 context, core profile. Throws InputError if the system cannot provide such a context.
+  // Makes an OpenGL 3.3 context, core profile. Throws InputError if the system cannot provide an OpenGL 3.3
+  // context.
   OpenGlContext();
-  // Destroys the context and all objects in it.
+  // Destroys the OpenGL context and all OpenGL objects in the context.
   ~OpenGlContext();
   OpenGlContext(const OpenGlContext&) = delete;
   OpenGlContext& operator=(const OpenGlContext&) = delete;
 
-  // Makes the context current in the calling thread during the lifetime of this object; afterwards no context
-  // is current.
+  // A Current object makes the OpenGL context current in the calling thread. When the Current object is
+  // destroyed, no OpenGL context is current any more.
   class Current {
    public:
     explicit Current(const OpenGlContext& context);
@@ -32,7 +33,8 @@ class OpenGlContext {
     const OpenGlContext& context_;
   };
 
-  // Sets `function` to the OpenGL function called `name`. Throws InputError if there is no such function.
+  // Sets `function` to the OpenGL function called `name`. Throws InputError if OpenGL has no function of this
+  // name.
   template <class Function>
   void Load(const char* name, Function* function) const {
     static_assert(std::is_pointer_v<Function>);

@@ -1,6 +1,7 @@
 // display/passes.h
 //
-// The interface of the two passes, which draw the two scratch images of a picture (thesis 3.4.1 and 3.4.2).
+// The interface of the two passes of the display, which draw triangle ids and barycentric coordinates for
+// each pixel (thesis 3.4.1 and 3.4.2).
 
 #pragma once
 
@@ -13,7 +14,7 @@
 namespace penumbra {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
-inline constexpr int kMaxPictureSize = 32768;  // pixels a side
+inline constexpr int kMaxPictureSize = 32768;  // largest width and height of a picture [pixels]
 
 using VertexIndices = std::array<std::uint32_t, 3>;
 
@@ -27,9 +28,9 @@ class Passes {
                                std::span<std::uint32_t> ids) = 0;
 
   // Pass 2: sets (s, t) of each pixel to the perspective-correct barycentric coordinates for vertices 1 and 2
-  // of the triangle that pass 1 found, with s, t >= 0 and s + t <= 1 up to rounding. Entries for pixels
-  // without a triangle are not changed. REQUIRES: `ids` is the result of the last DrawTriangleIds(); the
-  // three spans have equal sizes.
+  // of the triangle that pass 1 found, with s, t >= 0 and s + t <= 1 up to rounding. Pass 2 does not change
+  // the entries of s and t for pixels without a triangle. REQUIRES: `ids` is the result of the last
+  // DrawTriangleIds(); `ids`, `s` and `t` have equal sizes.
   virtual void DrawBarycentrics(std::span<const std::uint32_t> ids, std::span<float> s,
                                 std::span<float> t) = 0;
 

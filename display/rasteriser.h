@@ -1,19 +1,19 @@
 // display/rasteriser.h
 //
-// Draws the two scratch images of the two-pass display in software (thesis 3.4.1 and 3.4.2): for every pixel,
-// the triangle that is visible at its centre, and the barycentric coordinates of the visible point.
+// The software rasteriser of the two-pass display (thesis 3.4.1 and 3.4.2) finds, for each pixel, the
+// triangle that is visible at the pixel's centre, and the barycentric coordinates of the visible point.
 //
-// A triangle is drawn by the homogeneous edge functions of Olano and Greer (1997): the plane through the eye
-// and an edge corresponds to an affine function of the picture coordinates, even if vertices lie behind the
-// eye. With homogeneous edge functions, triangles need not be clipped, and a triangle that extends behind the
-// eye covers exactly the pixels whose rays intersect it. Each edge function is computed in binary64. The
-// picture is divided into tiles of 64 x 64 pixels, in which edge functions are evaluated in floats relative
-// to the tile's corner.
+// A triangle is drawn by the homogeneous edge functions of Olano and Greer (1997). The plane through the eye
+// and an edge of the triangle corresponds to an affine function of the picture coordinates, even if vertices
+// lie behind the eye. With homogeneous edge functions, triangles need not be clipped, and a triangle that
+// extends behind the eye covers exactly the pixels whose rays intersect it. Each edge function is computed in
+// binary64. The picture is divided into tiles of 64 x 64 pixels, in which edge functions are evaluated in
+// floats relative to the tile's corner.
 //
 // The rasteriser differs from the thesis in two ways. Barycentric coordinates are computed from the
 // triangle's edge functions, with the precision of floats, instead of from a texture of 256^2 texels. Gaps at
-// all T-vertices are closed, including case C (3.6): every triangle is enlarged by kFringe pixels, and the
-// additional pixels are drawn slightly deeper.
+// all T-vertices are closed, including case C of the thesis (3.6): every triangle is enlarged by kFringe
+// pixels, and the additional pixels are drawn slightly deeper.
 
 #pragma once
 
@@ -30,9 +30,9 @@
 
 namespace penumbra {
 
-// Draws one set of triangles for any camera. Back faces are culled (thesis 3.6, footnote 1): a triangle is
-// visible only if its vertices are counter-clockwise in the picture. Memory is reused from picture to
-// picture.
+// Draws a fixed set of triangles for any camera. Back faces are culled (thesis 3.6, footnote 1): a triangle
+// is visible only if its vertices are counter-clockwise in the picture. The rasteriser reuses its memory from
+// picture to picture.
 class Rasteriser : public Passes {
  public:
   // REQUIRES: all indices are valid in `positions`; there are fewer than kNoTriangle triangles; all positions
@@ -42,13 +42,13 @@ class Rasteriser : public Passes {
   Rasteriser(Rasteriser&&) noexcept;
   Rasteriser& operator=(Rasteriser&&) noexcept;
 
-  //  (1) Between two triangles that share an edge, or a part of an edge, no pixel is left empty.
-  //  (2) If the depths of two triangles at a pixel differ only by rounding, either triangle may be drawn. If
-  //  the depths are equal, the triangle with the lower index is drawn.
-  //  (3) The ids do not depend on the number of threads.
+  // Between two triangles that share an edge, or a part of an edge, no pixel is left empty. If the depths of
+  // two triangles at a pixel differ only by rounding, either triangle may be drawn. If the depths of two
+  // triangles at a pixel are equal, the triangle with the lower index is drawn. The triangle ids do not
+  // depend on the number of threads.
   void DrawTriangleIds(const PixelRays& rays, int width, int height, std::span<std::uint32_t> ids) override;
-  // For triangles larger than a pixel, the error of the coordinates of the intersection of ray and triangle
-  // is at most kBarycentricError.
+  // For triangles larger than a pixel, the error of the barycentric coordinates of the intersection of ray
+  // and triangle is at most kBarycentricError.
   void DrawBarycentrics(std::span<const std::uint32_t> ids, std::span<float> s, std::span<float> t) override;
 
   std::size_t TriangleCount() const;
@@ -58,8 +58,8 @@ class Rasteriser : public Passes {
   // TileGrid(width, height). After Prepare(), several threads may call DrawTileIds() and
   // DrawRowBarycentrics(), each thread for its own tile.
   void Prepare(const PixelRays& rays, int width, int height);
-  void DrawTileIds(std::size_t index, Tile* tile) const;  // clears the tile first
-  void DrawRowBarycentrics(BlockRow* row) const;          // REQUIRES: FindRuns(row)
+  void DrawTileIds(std::size_t index, Tile* tile) const;  // DrawTileIds() clears the tile first
+  void DrawRowBarycentrics(BlockRow* row) const;          // REQUIRES: FindRuns(row) was called
 
  private:
   struct Impl;

@@ -2,8 +2,8 @@
 //
 // Pictures by ray casting (thesis B.3.3): one or several rays are cast through each pixel, and the irradiance
 // is computed where a ray hits a front. Ray casting is slow and serves as a reference for the two-pass
-// display. RayShade() shows exact irradiance; LerpShade() shows the interpolants, which are located without
-// the two passes.
+// display. RayShade() shows exact irradiance. LerpShade() shows the interpolants of the irradiance mesh,
+// without the two passes of the rasteriser.
 
 #pragma once
 
@@ -23,46 +23,48 @@ namespace penumbra {
 // The intersection of a ray with the front of a patch.
 struct RayPoint {
   PatchId patch = kNoPatch;
-  Vec3 position = Vec3::Zero();  // [m], in the patch's plane
-  double uncertainty = 0;        // of the position [m]: rounding of the ray and of the intersection
+  Vec3 position = Vec3::Zero();  // point of intersection [m], in the patch's plane
+  // uncertainty of the position [m], from rounding of the ray and of the intersection
+  double uncertainty = 0;
 };
 
-// A function that returns the irradiance that a picture shows at a point [W/m^2]. Several threads call the
-// function at once.
+// A function that returns the irradiance that a picture shows at a point [W/m^2]. Several threads call a
+// RayShader at once.
 using RayShader = std::function<Rgb(const RayPoint&)>;
 
-// A shader that shows exact irradiance. The arguments must outlive the shader.
+// A shader that shows exact irradiance. The arguments of RayShade() must outlive the shader.
 RayShader RayShade(const Scene& scene, const PointIrradiance& irradiance);
-// A shader that shows the interpolants of the mesh, clamped to values >= 0 as in the two-pass display. The
-// arguments must outlive the shader.
+// A shader that shows the interpolants of the irradiance mesh, clamped to values >= 0 as in the two-pass
+// display. The arguments of LerpShade() must outlive the shader.
 RayShader LerpShade(const Scene& scene, const IrradianceMesh& mesh);
 
 // A picture with several samples per pixel.
 struct SampledPicture {
-  int samples = 1;              // per pixel; the samples of a pixel are neighbours in a row
+  int samples = 1;              // number of samples per pixel; the samples of a pixel are neighbours in a row
   RgbImage linear;              // radiosity with emittance [W/m^2]; 0 where a ray meets no front
-  std::vector<PixelKind> kind;  // per sample
+  std::vector<PixelKind> kind;  // kind of object per sample
 };
 
-// The result of one ray.
+// The radiosity that one ray of a picture finds, and the kind of object that the ray hits.
 struct RaySample {
-  Rgb radiosity = Rgb::Zero();  // [W/m^2], emittance included
+  Rgb radiosity = Rgb::Zero();  // including emittance [W/m^2]
   PixelKind kind = PixelKind::kBackground;
 };
 
 class RayDisplay {
  public:
-  // The scene must outlive the display.
+  // The scene must outlive the RayDisplay.
   RayDisplay(const Scene& scene, RayShader shader, int samples);
 
   // Casts `samples` rays through each pixel: the first ray through the pixel's centre, the others evenly
-  // distributed over the pixel. If the context is cancelled, the rest of the picture is not computed. The
-  // bytes do not depend on the number of threads. Throws InputError for an invalid camera (ValidateCamera).
+  // distributed over the pixel. If the computation is cancelled (ExecutionContext), the rest of the picture
+  // is not computed. The picture does not depend on the number of threads. Throws InputError if
+  // ValidateCamera() rejects the camera.
   const SampledPicture& Render(const Camera& camera, int width, int height, const ExecutionContext& context);
 
   const SampledPicture& picture() const { return picture_; }
 
-  // Casts the ray through the point (x, y) of a picture. Several threads may call the function at once.
+  // Casts the ray through the point (x, y) of a picture. Several threads may call Sample() at once.
   RaySample Sample(const PixelRays& rays, double x, double y) const;
 
  private:

@@ -1,7 +1,7 @@
 // display/split_view.h
 //
-// Shows the scratch images of the two-pass display next to the picture that is computed from them (thesis
-// B.3.2).
+// Shows the intermediate images of the two-pass display (triangle ids, barycentric coordinates, depths) next
+// to the final picture (thesis B.3.2).
 
 #pragma once
 

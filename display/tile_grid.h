@@ -1,6 +1,7 @@
 // display/tile_grid.h
 //
-// The tiles of a picture, and the conversion between tiles and images stored in rows.
+// The tiles of a picture (64 x 64 pixels), and the conversion between the order of pixels in tiles and in
+// rows of an image.
 
 #pragma once
 
@@ -12,7 +13,7 @@
 namespace penumbra {
 
 struct TileGrid {
-  int width = 0, height = 0;  // of the picture [pixels]
+  int width = 0, height = 0;  // size of the picture [pixels]
   int across = 0, down = 0;   // tiles
 
   TileGrid() = default;
@@ -25,8 +26,8 @@ struct TileGrid {
 };
 
 // Divides the pixels in the first `height` rows of the tile at (x0, y0) that lie in the picture into runs of
-// n <= 4 pixels of one row. Calls body(index in the tile, index in the picture, n) for each run. The function
-// can be used for a row of blocks instead of a whole tile.
+// n <= 4 pixels of one row. Calls body(index in the tile, index in the picture, n) for each run of n pixels.
+// With `height` 4, ForEachPart() treats one row of blocks instead of a whole tile.
 template <class Body>
 void ForEachPart(const TileGrid& grid, int x0, int y0, int height, const Body& body) {
   const int rows = std::min(height, grid.height - y0), columns = std::min(kTileSize, grid.width - x0);
@@ -39,16 +40,16 @@ void ForEachPart(const TileGrid& grid, int x0, int y0, int height, const Body& b
   }
 }
 
-// Calls body(x, y) for each row of blocks of the tile that lies in the picture; (x, y) is the row's upper
-// left pixel.
+// Calls body(x, y) for each row of 4 x 4 blocks of the tile that lies in the picture; (x, y) is the upper
+// left pixel of the row of blocks.
 template <class Body>
 void ForEachBlockRow(const TileGrid& grid, std::size_t tile, const Body& body) {
   const int end = std::min(grid.Y(tile) + kTileSize, grid.height);
   for (int y = grid.Y(tile); y < end; y += kBlockSize) body(grid.X(tile), y);
 }
 
-// Copies n values. The common case n == kBlockSize is a separate branch, so that the compiler can copy the
-// values as one word.
+// Copies n values of a part of a pixel row. The common case n == kBlockSize is a separate branch, so that the
+// compiler can copy the values as one word.
 template <class T>
 void CopyPart(const T* from, std::size_t n, T* to) {
   if (n == kBlockSize)

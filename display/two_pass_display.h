@@ -1,8 +1,8 @@
 // display/two_pass_display.h
 //
-// The online half of the thesis's method (3.4). For every pixel, the display finds the visible triangle and
-// the barycentric coordinates of the visible point, and evaluates the radiosity: interpolant * reflectance +
-// emittance.
+// The two-pass display, the interactive half of the thesis's method (3.4). For every pixel, the display finds
+// the visible triangle and the barycentric coordinates of the visible point, and evaluates the radiosity:
+// (interpolated irradiance) * reflectance + emittance.
 
 #pragma once
 
@@ -20,13 +20,13 @@
 namespace penumbra {
 
 enum class ShadingMode {
-  kRadiosity,    // [W/m^2], emittance included
-  kReflectance,  // [1]; emitters are treated as surfaces
+  kRadiosity,    // radiosity including emittance [W/m^2]
+  kReflectance,  // reflectance [1]; emitters are treated as surfaces
 };
 
-// The times of the last frame, in milliseconds of wall clock. If a frame is drawn tile by tile, the times of
-// the steps are estimated: the total time is divided in proportion to the times that threads spend in each
-// step, measured for a sample of the rows of blocks.
+// The times of the last frame, in milliseconds of wall clock. If a frame is drawn tile by tile, the time of
+// each step is estimated: the total time is divided in proportion to the times that threads spend in each
+// step. The times that threads spend in each step are measured only for a sample of the rows of 4 x 4 blocks.
 struct FrameTimes {
   double triangle_ids = 0, barycentric = 0, evaluate = 0, tone_map = 0;
 
@@ -47,38 +47,40 @@ struct FrameTimes {
   }
 };
 
-// A picture with its intermediate results. Arrays have width * height values, rows from the top.
+// A picture of the two-pass display with its intermediate results. Each array has width * height values, rows
+// from the top.
 struct RenderedFrame {
   int width = 0, height = 0;
   std::vector<std::uint32_t> triangle;  // index in IrradianceMesh::triangles, or kNoTriangle
   std::vector<float> s, t;              // barycentric coordinates; unspecified without a triangle
-  RgbImage linear;                      // radiosity or reflectance, unexposed; 0 without a triangle
-  std::vector<PixelKind> kind;          // kEmitter occurs in mode kRadiosity only
-  Srgb8Image screen;                    // result of ToneMap()
+  RgbImage linear;              // unexposed radiosity [W/m^2] or reflectance [1]; 0 without a triangle
+  std::vector<PixelKind> kind;  // kEmitter occurs in mode kRadiosity only
+  Srgb8Image screen;            // the picture for the screen, made by ToneMap()
   FrameTimes ms;
 };
 
-// Draws an irradiance mesh for any camera. Memory is allocated for the first frame of each size and reused
-// for later frames.
+// Draws an irradiance mesh for any camera. A TwoPassDisplay allocates memory for the first frame of each size
+// and reuses the memory for later frames.
 class TwoPassDisplay {
  public:
-  // Copies the required data from scene and mesh. The software rasteriser draws the passes. REQUIRES: the
+  // Copies the required data from scene and mesh. The software rasteriser draws the two passes. REQUIRES: the
   // mesh has an interpolant for each triangle, and its patches are patches of the scene.
   TwoPassDisplay(const Scene& scene, const IrradianceMesh& mesh);
-  // Draws with the given passes. REQUIRES: `passes` draws the triangles of the mesh.
+  // Makes a display that draws with the given passes, for example by OpenGL. REQUIRES: `passes` draws the
+  // triangles of the mesh.
   TwoPassDisplay(const Scene& scene, const IrradianceMesh& mesh, std::unique_ptr<Passes> passes);
 
-  // Computes all of the frame except `screen`. The bytes do not depend on the number of threads. Throws
-  // InputError for an invalid camera (ValidateCamera).
+  // Computes all members of the RenderedFrame except `screen`. The frame does not depend on the number of
+  // threads. Throws InputError if ValidateCamera() rejects the camera.
   const RenderedFrame& Render(const Camera& camera, int width, int height,
                               ShadingMode mode = ShadingMode::kRadiosity);
 
-  // Computes `screen` from the last Render().
+  // Computes RenderedFrame::screen from the frame of the last Render().
   const RenderedFrame& ToneMap(const ToneMapping& settings);
 
-  // Computes only `screen`, with the same bytes as Render() and ToneMap(). All steps are applied to one tile
-  // before the next tile, so that the tile's data remain in the caches. Use RenderScreen() for frames whose
-  // intermediate results are not needed.
+  // Computes only RenderedFrame::screen, with the same bytes as Render() and ToneMap(). All steps are applied
+  // to one tile before the next tile, so that the data of a tile remain in the processor's caches. Use
+  // RenderScreen() for frames whose intermediate results are not needed.
   const RenderedFrame& RenderScreen(const Camera& camera, int width, int height, ShadingMode mode,
                                     const ToneMapping& settings);
 
@@ -92,9 +94,9 @@ class TwoPassDisplay {
                  const Finish& finish);
 
   std::unique_ptr<Passes> passes_;
-  Rasteriser* rasteriser_;                  // passes_ if they can draw tile by tile, else null
+  Rasteriser* rasteriser_;  // passes_ if it is a Rasteriser, which can draw tile by tile; otherwise null
   std::vector<TriangleShade> radiosity_;    // per triangle
-  std::vector<TriangleShade> screen_;       // the same, with emitters above any white
+  std::vector<TriangleShade> screen_;       // like radiosity_, but emitters have values above any white
   std::vector<TriangleShade> reflectance_;  // per triangle: constants that evaluate to the reflectance
   std::vector<PixelKind> kind_;             // per triangle
   std::vector<FrameTimes> tile_times_;

@@ -1,7 +1,7 @@
 // display/unit_vectors.h
 //
-// Functions that return unit vectors. The functions replace glm::normalize(), which multiplies by the inverse
-// of the length and thus rounds once more than a division, and which returns NaN for a zero vector.
+// Functions that return unit vectors, in place of glm::normalize(). glm::normalize() multiplies by the
+// inverse of the length and thus rounds once more than a division, and returns NaN for a zero vector.
 
 #pragma once
 
@@ -26,10 +26,11 @@ inline glm::dvec3 StableNormalized(const glm::dvec3& v) {
   return square > 0 ? v / (std::sqrt(square) * largest) : v;
 }
 
-// A unit vector perpendicular to v. The result lies in the plane z = 0, or, if v is parallel to the z axis,
-// in the plane x = 0. REQUIRES: v is not zero.
+// A unit vector perpendicular to v. The perpendicular vector lies in the plane z = 0, or, if v is parallel to
+// the z axis, in the plane x = 0. REQUIRES: v is not zero.
 inline glm::dvec3 Perpendicular(const glm::dvec3& v) {
-  constexpr double kAlong = 1e-12;  // below this ratio, the direction of the other two is rounding
+  // below this ratio of x and y to z, the direction of (x, y) is rounding error
+  constexpr double kAlong = 1e-12;
   const bool along_z = std::max(std::abs(v.x), std::abs(v.y)) <= kAlong * std::abs(v.z);
   return StableNormalized(along_z ? glm::dvec3(0, -v.z, v.y) : glm::dvec3(-v.y, v.x, 0));
 }

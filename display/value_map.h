@@ -1,7 +1,7 @@
 // display/value_map.h
 //
-// A drawing of values on a horizontal grid: false colours, contour lines at round values, a scale, and axes
-// in metres.
+// A drawing of the values on a horizontal grid, with false colours, contour lines at round values, a colour
+// scale, and axes in metres.
 
 #pragma once
 
@@ -13,16 +13,16 @@
 namespace penumbra {
 
 struct ValueMap {
-  ValueGrid grid;             // values of 0 or more
+  ValueGrid grid;             // grid of values >= 0
   Vec2 first = Vec2::Zero();  // x and y of column 0 and row 0 [m]
-  double spacing = 1;         // between columns, and rows [m]
-  std::string title;          // one line
-  std::string unit;           // of the values
+  double spacing = 1;         // distance between columns, and between rows [m]
+  std::string title;          // a title of one line
+  std::string unit;           // unit of the values
 };
 
-// The drawing as an SVG file: x to the right, y upwards. Each value is a square of one spacing. The scale
-// begins at 0 and ends at the largest value. Equal maps give equal bytes. REQUIRES: the grid has a value that
-// is not nan.
+// The drawing of the map as an SVG file, with x to the right and y upwards. Each value fills a square whose
+// side is ValueMap::spacing. The colour scale begins at 0 and ends at the largest value of the map. Equal
+// maps give SVG files with equal bytes. REQUIRES: the grid has a value that is not nan.
 std::string ValueMapSvg(const ValueMap& map);
 
 }  // namespace penumbra

@@ -14,18 +14,19 @@
 namespace penumbra {
 
 struct ApproximateRequest {
-  std::string method;  // in ApproximateMethods()
+  std::string method;  // one of the names of ApproximateMethods()
   std::optional<std::uint64_t> rays, resolution;
   std::uint64_t seed = 1;
 };
 
-// The names of the methods that approximate form factors between areas.
+// The names of the methods by which form factors between areas can be approximated.
 std::vector<std::string> ApproximateMethods();
-// Whether the method has this parameter, such as "rays" or "resolution".
+// True if the method has the parameter called `parameter`, such as "rays" or "resolution".
 bool Takes(const std::string& method, const std::string& parameter);
 
-// The form factor by one of these methods. Throws InputError if the method finds form factors of links only.
-// REQUIRES: ApproximateMethods() has the method.
+// Computes the form factor from `from` to `to` by the approximate method `request.method`. Throws InputError
+// if the method can compute only the form factors of links in a hierarchy of elements. REQUIRES:
+// `request.method` is one of ApproximateMethods().
 FormFactorEstimate ApproximateFormFactor(const Scene& scene, std::span<const AreaPart> from,
                                          std::span<const AreaPart> to, const ApproximateRequest& request,
                                          const ExecutionContext& context);

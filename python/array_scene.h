@@ -1,6 +1,6 @@
 // python/array_scene.h
 //
-// Scenes from arrays of vertices and faces.
+// Makes scenes from arrays of vertices and faces.
 
 #pragma once
 
@@ -17,14 +17,15 @@ namespace penumbra {
 struct SceneArrays {
   std::string name = "scene";
   std::vector<Vec3> vertices;                    // [m]
-  std::vector<std::vector<std::int64_t>> faces;  // the vertices of each face, from 0, counter-clockwise
-  std::vector<Rgb> reflectance, emittance;       // of each face; in [0, 1), and in W/m^2
-  std::vector<std::string> objects;              // the object of each face; empty: all are of one
+  std::vector<std::vector<std::int64_t>> faces;  // vertex indices of each face, from 0, counter-clockwise
+  std::vector<Rgb> reflectance, emittance;       // one per face; reflectance in [0, 1), emittance in W/m^2
+  std::vector<std::string> objects;  // object name of each face; empty if all faces form one object
 };
 
-// The scene, including its patches. The arrays are read as the OBJ file that holds them with all digits, so
-// that they are checked, repaired and rounded as a file is, and solve to the bit as the file does. Throws
-// InputError that names the face or vertex, counted from 0.
+// Returns the scene of the arrays, including its patches. The arrays are processed like an OBJ file that
+// holds the same numbers with all digits: faces are checked, repaired and rounded in the same way, and the
+// solution is the same to the bit. Throws InputError, whose message names the wrong face or vertex, counted
+// from 0.
 Scene SceneFromArrays(const SceneArrays& arrays, const SceneOptions& options);
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // python/arrays.h
 //
-// NumPy arrays to and from the types of the library.
+// Converts NumPy arrays to types of the C++ library, and back.
 
 #pragma once
 
@@ -18,27 +18,29 @@
 
 namespace penumbra {
 
-// An array of doubles, rows one after another; numbers of other types are converted.
+// A NumPy array of doubles, stored row by row; numbers of other types are converted.
 using NumberArray = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
-// The rows of an array of shape (n, 3), or of one row of shape (3,). Throws InputError for another shape;
-// `name` says in the message what it is.
+// Returns the rows of an array of the shape (n, 3), or the only row of an array of the shape (3,). Throws
+// InputError if the array has another shape; `name` is the name of the array in the message.
 std::vector<Vec3> RowsOf(const pybind11::object& array, const std::string& name);
 
-// One vector of three numbers. Throws InputError unless `value` is one.
+// Converts `value` to a vector of three numbers. Throws InputError if `value` is no such vector; `name` is
+// its name in the message.
 Vec3 VectorOf(const pybind11::object& value, const std::string& name);
 
-// Three channels: three numbers, or one for all. Throws InputError unless each is finite.
+// Converts `value`, three numbers or one number for all channels, to an RGB colour. Throws InputError unless
+// each number is finite.
 Rgb ColourOf(const pybind11::object& value, const std::string& name);
 
-// Points and their normals: a normal for each point, or one for all. Throws InputError for other shapes, and
-// for coordinates that are no numbers.
+// Converts two arrays to points with normals; `normals` has one normal for each point, or one normal for all
+// points. Throws InputError if an array has another shape, or if a coordinate is no number.
 std::vector<ProbePoint> ProbePointsOf(const pybind11::object& points, const pybind11::object& normals);
 
-// A new array of shape (count, 3), whose row i is row(i).
+// Makes a new array of the shape (count, 3), whose row i is row(i).
 pybind11::array_t<double> ArrayOfRows(std::size_t count, const std::function<Rgb(std::size_t)>& row);
 
-// An array that shows memory of `owner`, and keeps it alive. The array cannot be written to.
+// Makes a read-only array over memory that belongs to `owner`; the array keeps `owner` alive.
 template <class Number>
 pybind11::array_t<Number> ViewOf(std::shared_ptr<const void> owner, const Number* first,
                                  std::vector<pybind11::ssize_t> shape,

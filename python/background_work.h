@@ -1,7 +1,7 @@
 // python/background_work.h
 //
-// Long work for a caller in Python: other threads of Python run meanwhile, progress is told, and Ctrl-C ends
-// it.
+// Runs a long computation for a caller in Python. During the computation, other Python threads run, progress
+// is reported, and Ctrl-C cancels the computation.
 
 #pragma once
 
@@ -14,15 +14,17 @@
 
 namespace penumbra {
 
-// Calls work(context) in another thread, without Python's lock, and waits for its end. Meanwhile, in the
-// calling thread, passes progress on to `progress`, None or a function (phase: str, fraction: float), and
-// looks for signals. If a signal or `progress` raises an exception, for example KeyboardInterrupt, cancels
-// the context, and raises the exception when the work has ended. Rethrows what the work throws. The work may
-// not touch any object of Python. REQUIRES: the caller holds Python's lock.
+// Calls work(context) in another thread, without Python's global interpreter lock (GIL), and waits until
+// `work` has ended. While `work` runs, the calling thread reports progress to `progress`, which is None or a
+// function (phase: str, fraction: float), and checks for signals. If a signal handler or `progress` raises an
+// exception, for example KeyboardInterrupt, the context is cancelled, and the exception is raised after
+// `work` has ended. An exception of `work` is thrown again. `work` must not use Python objects. REQUIRES: the
+// caller holds the GIL.
 void RunInBackground(const pybind11::object& progress,
                      const std::function<void(const ExecutionContext&)>& work);
 
-// Locks the mutex. While it waits, other threads of Python run. REQUIRES: the caller holds Python's lock.
+// Locks the mutex; other Python threads can run while this function waits for the mutex. REQUIRES: the caller
+// holds Python's global interpreter lock (GIL).
 std::unique_lock<std::mutex> LockWithoutGil(std::mutex& mutex);
 
 }  // namespace penumbra

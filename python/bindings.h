@@ -1,6 +1,7 @@
 // python/bindings.h
 //
-// The parts of the module. Each function defines classes and functions of it, with their documentation.
+// The parts of the Python module. Each Bind function defines classes and functions of the module, with their
+// documentation.
 
 #pragma once
 
@@ -10,8 +11,8 @@ namespace penumbra {
 
 void BindScene(pybind11::module_& module);
 void BindMesh(pybind11::module_& module);
-void BindSolution(pybind11::module_& module);  // after BindScene() and BindMesh()
-void BindSolver(pybind11::module_& module);    // after BindSolution()
+void BindSolution(pybind11::module_& module);  // call after BindScene() and BindMesh()
+void BindSolver(pybind11::module_& module);    // call after BindSolution()
 void BindFormFactors(pybind11::module_& module);
 void BindPictures(pybind11::module_& module);
 

@@ -1,6 +1,6 @@
 // python/keywords.h
 //
-// Arguments that are given by name.
+// Keyword arguments of Python functions.
 
 #pragma once
 
@@ -12,30 +12,32 @@
 
 namespace penumbra {
 
-// An argument: its name, and a function that takes its value or throws.
+// A keyword argument: its name, and a function that stores the value or throws an exception.
 struct Keyword {
   std::string name;
   std::function<void(const pybind11::object& value)> take;
 };
 
-// Passes the values that were given to the keywords, in the order of `known`. Throws TypeError, which names
-// what is near, if a name is given that is not known.
+// Calls Keyword::take with the given value of each keyword argument, in the order of the list `known`. Throws
+// TypeError if a name is not in `known`; the message lists similar names.
 void TakeKeywords(const std::string& function, const pybind11::kwargs& given,
                   const std::vector<Keyword>& known);
 
-// Keywords that set a variable. None leaves it as it is.
+// Makes keyword arguments that set the variable `target`. The value None leaves the variable unchanged.
 Keyword ObjectKeyword(std::string name, pybind11::object* target);
 Keyword BoolKeyword(std::string name, bool* target);
 Keyword TextKeyword(std::string name, std::string* target);
 
-// The value as a scalar of Python, where it is one of NumPy.
+// Converts a NumPy scalar to a Python scalar; returns other values unchanged.
 pybind11::object PlainScalar(const pybind11::object& value);
 
-// A name or a path as Python's str, and back. Bytes that are no UTF-8 survive, as in file names of Python.
+// Converts a name or a path to a Python str, and back. Bytes that are not valid UTF-8 are preserved, as in
+// Python's file names.
 pybind11::object TextOfBytes(const std::string& bytes);
 std::string BytesOf(const pybind11::object& path_or_name);
 
-// A number in [0, 1). Throws TypeError or InputError for anything else.
+// Converts `value` to a number in [0, 1). Throws TypeError or InputError if `value` is not a number in [0,
+// 1).
 double ShareOf(const pybind11::object& value, const std::string& name);
 
 }  // namespace penumbra

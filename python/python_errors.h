@@ -1,6 +1,7 @@
 // python/python_errors.h
 //
-// Errors and warnings as Python has them, in the words of its users.
+// Converts errors and warnings of the C++ library to Python exceptions and warnings, in the terms of Python
+// users.
 
 #pragma once
 
@@ -11,24 +12,26 @@
 
 namespace penumbra {
 
-// The message as Python says it: `--max-reflectance` becomes `max_reflectance`, `--no-x` becomes `x=False`;
-// control characters and bytes that are no UTF-8 are escaped.
+// Replaces command line options in a message by Python's keyword arguments: `--max-reflectance` becomes
+// `max_reflectance`, `--no-x` becomes `x=False`. Control characters and bytes that are not valid UTF-8 are
+// escaped.
 std::string InPythonWords(const std::string& message);
 
-// Defines InputError and PenumbraWarning in the module. From then on, errors of the library arrive in Python
-// as InputError, errors of memory as MemoryError.
+// Defines the Python classes InputError and PenumbraWarning in the module. After DefineErrors(), an
+// InputError in C++ becomes an InputError in Python, and exhausted memory becomes MemoryError.
 void DefineErrors(pybind11::module_& module);
 
-// Warns as warnings.warn(message, PenumbraWarning) does, of the line that called into the module. Throws if
-// the user has made errors of warnings.
+// Issues a warning like warnings.warn(message, PenumbraWarning), for the line of Python code that called the
+// module. Throws an exception if the user's warning filter turns warnings into errors.
 void Warn(const std::string& message);
 
-// Throws TypeError: `function` takes no argument called `name`; the message names those of `known` that are
-// nearest to it.
+// Throws TypeError with the message that `function` takes no argument called `name`; the message lists the
+// names in `known` that are similar to `name`.
 [[noreturn]] void ThrowUnknownKeyword(const std::string& function, const std::string& name,
                                       const std::vector<std::string>& known);
 
-// "'a', 'b' and 'c'", from the nearest to `name` on; empty if none is near.
+// Lists the names in `known` that are similar to `name`, the most similar first: "'a', 'b' and 'c'". The
+// returned text is empty if no name in `known` is similar to `name`.
 std::string NearNames(const std::string& name, const std::vector<std::string>& known);
 
 }  // namespace penumbra

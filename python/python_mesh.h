@@ -9,7 +9,7 @@
 
 namespace penumbra {
 
-// The class Mesh of Python. The mesh may be part of a larger object, which the pointer keeps alive.
+// The Python class Mesh. The mesh may be a member of a larger object, which the shared pointer keeps alive.
 struct PythonMesh {
   std::shared_ptr<const IrradianceMesh> mesh;
   std::shared_ptr<const Scene> scene;

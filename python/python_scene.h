@@ -10,10 +10,11 @@
 
 namespace penumbra {
 
-// The class Scene of Python: a scene, and how it was read. Copies share the scene.
+// The Python class Scene: a scene, and the options with which it was read. Copies of a PythonScene share the
+// scene.
 struct PythonScene {
   std::shared_ptr<const Scene> scene;
-  SceneArguments arguments;  // its name and how it was read, as a command keeps it in a solution file
+  SceneArguments arguments;  // name of the scene and reading options, as stored in solution files
 };
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // python/python_solution.h
 //
-// The classes Solution and Solver of Python.
+// The Python classes Solution and Solver.
 
 #pragma once
 
@@ -22,41 +22,45 @@
 
 namespace penumbra {
 
-// How points are measured.
+// How the irradiance at points is measured.
 struct ProbeRequest {
-  std::string method = "auto";  // in OcclusionMethods(), or "auto"
-  bool parts = false;           // direct light and gradients, too
+  std::string method = "auto";  // an occlusion method in OcclusionMethods(), or "auto"
+  bool parts = false;           // if true, direct light and gradients are measured, too
 };
 
-// A solved scene. Several threads may use it at once. No function touches an object of Python.
+// The Python class Solution: a solved scene. Several threads may use one PythonSolution at the same time. No
+// function of PythonSolution uses Python objects.
 class PythonSolution {
  public:
-  // Takes a pipeline that is solved and has a mesh. `options` are those of OptionsUsed(). If `measured`, its
-  // error has been measured.
+  // Takes over a pipeline that is solved and has a mesh. `options` has the format of OptionsUsed().
+  // `measured` is true if the error of the solution has been measured.
   PythonSolution(PythonScene scene, std::unique_ptr<Pipeline> pipeline, nlohmann::ordered_json options,
                  bool measured);
-  // The solution in a file. Throws InputError.
+  // Reads a solution from a solution file. Throws InputError if the file is not a solution.
   static std::shared_ptr<PythonSolution> Load(const std::string& path);
 
   const PythonScene& scene() const { return scene_; }
   const Pipeline& pipeline() const { return *pipeline_; }
   const nlohmann::ordered_json& options() const { return options_; }
 
-  // Measures irradiance as the command `probe` does. Unspecified if cancelled.
+  // Measures irradiance at points, as the command `probe` does. The result is unspecified if the context is
+  // cancelled.
   std::vector<Measurement> Probe(const std::vector<ProbePoint>& points, const ProbeRequest& request,
                                  const ExecutionContext& context) const;
 
-  // Held by whoever calls the functions below: the results of measuring may change, and meshes be added.
+  // A mutex that callers of Measure(), FileBytes() and MeshOfKind() must hold, because these functions may
+  // change the measured errors and add meshes.
   std::mutex& Busy() const { return busy_; }
-  // Measures the error, unless it has been measured.
+  // Measures the error of the solution, unless the error has already been measured.
   void Measure(const ExecutionContext& context);
-  // The bytes of a solution file. REQUIRES: Measure() was not cancelled.
+  // Returns the bytes of a solution file that holds this solution. REQUIRES: Measure() was not cancelled.
   std::string FileBytes() const;
-  // The mesh of this kind for the same light, made at the first call. Null if cancelled.
+  // Returns a mesh of the kind `kind` for the light of the solution; each mesh is made at the first call.
+  // Returns null if the context is cancelled.
   const IrradianceMesh* MeshOfKind(MeshKind kind, const ExecutionContext& context) const;
 
  private:
-  // With direct light and gradients if `parts`.
+  // If `parts` is true, the Prober also measures direct light and gradients.
   Prober MakeProber(const PointIrradiance& irradiance, bool parts) const {
     return Prober(*scene_.scene, irradiance, pipeline_.get(), parts);
   }
@@ -66,16 +70,16 @@ class PythonSolution {
   nlohmann::ordered_json options_;
   bool measured_ = false;
   mutable std::mutex busy_, probing_;
-  // For points in the usual way, made at the first call.
+  // For measurements with the default method, made at the first call of Probe().
   mutable std::unique_ptr<const PointIrradiance> irradiance_;
   mutable std::unique_ptr<const Prober> prober_;
   mutable std::map<MeshKind, IrradianceMesh> other_meshes_;
 };
 
-// A solve that is made step by step.
+// The Python class Solver, by which a scene is solved step by step.
 struct PythonSolver {
   PythonScene scene;
-  std::unique_ptr<Pipeline> pipeline;  // null once finished
+  std::unique_ptr<Pipeline> pipeline;  // null after the solve is finished
   nlohmann::ordered_json options;
   bool linked = false;
   std::mutex busy;

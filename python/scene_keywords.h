@@ -11,11 +11,11 @@
 
 namespace penumbra {
 
-// Keywords for all scenes: `two_sided`, `flip`, `strict`, `max_reflectance`.
+// The keyword arguments for all scenes: `two_sided`, `flip`, `strict`, `max_reflectance`.
 std::vector<Keyword> FaceKeywords(SceneOptions* reading);
 
-// Keywords for files: those of FaceKeywords(), `emission_is_radiance`, and the dictionaries `emittance` and
-// `reflectance` of materials.
+// The keyword arguments for scene files: those of FaceKeywords(), `emission_is_radiance`, and the
+// dictionaries `emittance` and `reflectance`, whose keys are names of materials.
 std::vector<Keyword> FileKeywords(SceneArguments* arguments);
 
 }  // namespace penumbra

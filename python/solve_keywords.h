@@ -1,7 +1,7 @@
 // python/solve_keywords.h
 //
-// The options of a solve as arguments by name, made from OptionTable(): an option has the name of its key in
-// reports, for example `min_area`.
+// The options of a solve as keyword arguments of Python functions, made from OptionTable(). A keyword
+// argument has the same name as the option's key in reports, for example `min_area`.
 
 #pragma once
 
@@ -15,19 +15,20 @@
 
 namespace penumbra {
 
-// Keywords that set the options; `solver` comes first, because others depend on it. They throw TypeError for
-// a value of another type, and InputError for a value that is not allowed, or that the chosen solver does not
-// obey.
+// The keyword arguments that set the options of a solve; `solver` comes first, because other options depend
+// on the solver. A keyword throws TypeError for a value of a wrong type. A keyword throws InputError for a
+// value that is not allowed or that the chosen solver does not use.
 std::vector<Keyword> SolveKeywords(PipelineOptions* solving);
 
-// Throws InputError if options contradict each other, or are distances that are too large for the scene.
+// Throws InputError if options of the solve contradict each other, or if a distance among the options is too
+// large for the scene.
 void CheckSolveKeywords(const pybind11::kwargs& given, const PipelineOptions& solving, const Scene& scene);
 
-// Every option with what is known of it: {name: {"kind", "unit", "default", "choices", "solver", "group",
-// "help"}}.
+// Returns a dictionary that describes every option of a solve: {name: {"kind", "unit", "default", "choices",
+// "solver", "group", "help"}}.
 pybind11::dict DescribeOptions();
 
-// A paragraph for each option, for docstrings.
+// Returns a text with a paragraph for each option of a solve, for docstrings.
 std::string OptionsText();
 
 }  // namespace penumbra

@@ -6,10 +6,10 @@
 
 namespace penumbra {
 
-// Runs the job in a thread that is kept for later jobs; a new one only if all are busy. Returns at once. Idle
-// threads end with the process. Threads are kept because oneTBB and the working memory of the solver
-// (Scratch) keep memory for each thread that calls them: a new thread for each job would make the process
-// grow. REQUIRES: the job does not throw.
+// Runs the job in an idle worker thread, or in a new one if all worker threads are busy; returns without
+// waiting for the job. After a job, its thread is kept for later jobs until the process ends. The library
+// oneTBB and the solver's working memory (Scratch) keep memory for each thread that calls them, so that a new
+// thread for each job would make the process grow. REQUIRES: the job does not throw.
 void RunInWorker(std::function<void()> job);
 
 }  // namespace penumbra

@@ -1,6 +1,7 @@
 // display/atlas/atlas_files.h
 //
-// Writes irradiance maps: pictures of all patches, and scenes that wear such a picture.
+// Writes irradiance maps: pictures with the irradiance of all patches, and scene files that use such a
+// picture as a texture.
 
 #pragma once
 
@@ -11,17 +12,17 @@
 
 namespace penumbra {
 
-// The endings of the files that AtlasBytes() makes, without the dot.
+// The file endings, without the dot, of the formats that AtlasBytes() can write.
 std::vector<std::string> AtlasEndings();
 
-// The bytes of a file whose map is `size` pixels a side, by the ending of its name:
-//   exr  irradiance [W/m^2], linear
-//   png  exposure * irradiance, as a screen shows it
-//   glb  glTF 2.0, y up: two triangles or one a patch, unlit, with the radiosity on a screen as the texture;
-//   its
-//        coordinates stand in TEXCOORD_0 and in TEXCOORD_1, where programs look for those of light maps
-// An exposure that is not given is that of MeterMesh(). Throws InputError if the charts have no room
-// (LayOutCharts) or a value exceeds floats. REQUIRES: the ending is one of AtlasEndings().
+// The bytes of an irradiance map of size x size pixels, in the format that belongs to the ending of the file.
+// An `exr` file stores the linear irradiance [W/m^2]. A `png` file stores exposure * irradiance as colours
+// for a screen. A `glb` file is a glTF 2.0 scene, y up, with one or two unlit triangles per patch; its
+// texture is the radiosity as colours for a screen. A `glb` file stores texture coordinates in TEXCOORD_0 and
+// again in TEXCOORD_1, where programs look for the coordinates of light maps. If MeshExport::exposure is not
+// set, MeterMesh() determines the exposure. Throws InputError if the picture has no room for the charts of
+// all patches (LayOutCharts), or if a value exceeds the range of floats. REQUIRES: the ending is one of
+// AtlasEndings().
 std::string AtlasBytes(const std::string& ending, const MeshExport& from, int size);
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // display/atlas/light_atlas.h
 //
-// The light of a mesh as one picture, for programs that show textures.
+// The irradiance of a mesh as one picture (texture atlas), for programs that show textures.
 
 #pragma once
 
@@ -12,19 +12,22 @@ namespace penumbra {
 
 struct LightAtlas {
   ChartLayout layout;
-  // Irradiance [W/m^2] at the centre of every pixel of a chart, at least 0: the interpolant's value there,
-  // or, outside the patch, at the nearest point of the patch. 0 between charts.
+  // The irradiance [W/m^2] at the centre of each pixel of a chart (rectangle around one patch), clamped to
+  // values >= 0. Pixels of a chart outside its patch have the irradiance at the nearest point of the patch.
+  // Pixels between charts have irradiance 0.
   RgbImage irradiance;
-  std::vector<PatchId> patch;  // of each pixel; kNoPatch between charts
+  std::vector<PatchId> patch;  // the patch of each pixel; kNoPatch between charts
 };
 
-// Throws InputError if the charts have no room (LayOutCharts).
+// Makes a light atlas of size x size pixels. Throws InputError if the picture has no room for the charts of
+// all patches (LayOutCharts).
 LightAtlas MakeLightAtlas(const Scene& scene, const IrradianceMesh& mesh, int size);
 
-// The irradiance as colours for a screen: exposure [m^2/W] * irradiance [W/m^2], encoded as sRGB.
+// The irradiance of the atlas as colours for a screen: exposure [m^2/W] * irradiance [W/m^2], encoded as
+// sRGB.
 Srgb8Image IrradianceOnScreen(const LightAtlas& atlas, double exposure);
-// The radiosity as colours for a screen: exposure [m^2/W] * reflectance * irradiance [W/m^2], encoded as
-// sRGB. Emitters are white.
+// The radiosity of the atlas as colours for a screen: exposure [m^2/W] * reflectance * irradiance [W/m^2],
+// encoded as sRGB. In the picture of radiosity, emitters are white.
 Srgb8Image RadiosityOnScreen(const Scene& scene, const LightAtlas& atlas, double exposure);
 
 }  // namespace penumbra

@@ -1,6 +1,7 @@
 // display/viewer/analyses.h
 //
-// Computes in the background those results that the present view needs and that take a long time.
+// Computes in the background those analysis results (error maps, probes, graphs and others) that the present
+// view needs and that take a long time.
 
 #pragma once
 
@@ -16,14 +17,14 @@ class Analyses {
  public:
   Analyses();
 
-  // Returns the results that the view needs, as far as they are complete, and starts the missing
-  // computations. `tools` is the mesh on which the user's tools (selection, graphs, probes) work.
+  // Returns those results that the view needs and that are complete, and starts the computation of missing
+  // results. `tools` is the mesh on which the user's tools (selection, graphs, probes) work.
   AnalysisResults Update(const Snapshot& snapshot, const std::shared_ptr<const MeshState>& tools,
                          const ViewState& view);
-  // True if a computation is running.
+  // True if the computation of an analysis is running.
   bool Busy();
-  // True if a computation has failed because of too little memory since the last call of this function. A
-  // computation that failed has no result.
+  // True if the computation of an analysis has run out of memory since the last call of RanOutOfMemory(). A
+  // computation that has run out of memory has no result.
   bool RanOutOfMemory();
 
  private:

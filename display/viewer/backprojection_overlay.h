@@ -6,7 +6,8 @@
 
 namespace penumbra::viewer {
 
-// The backprojections of the sources from a probed point (thesis B.4.10).
+// An overlay that shows backprojections: the visible parts of the sources as seen from a probed point (thesis
+// B.4.10).
 OverlayRegistry::Method BackprojectionOverlayMethod();
 
 }  // namespace penumbra::viewer

@@ -1,7 +1,7 @@
 // display/viewer/deferred.h
 //
-// Manages a value that takes a long time to compute: a thread computes the value in the background, and the
-// view shows the value when it is complete.
+// Deferred manages a value that takes a long time to compute: a thread computes the value in the background,
+// and the view shows the value as soon as the computation is complete.
 
 #pragma once
 
@@ -16,12 +16,12 @@
 
 namespace penumbra::viewer {
 
-// Holds the value of one key at a time. A request for another key cancels the running computation. Only the
-// thread of the view may call the functions. Keys are compared by ==.
+// A Deferred holds the value of one key at a time. A request for the value of another key cancels the running
+// computation. Only the thread of the view may call the functions of Deferred. Deferred compares keys by ==.
 template <class Key, class Value>
 class Deferred {
  public:
-  // The function that computes the value of a key, in a separate thread. The result of a cancelled
+  // The function that computes the value of a key, in a separate thread. The value from a cancelled
   // computation is discarded.
   using Compute = std::function<Value(const Key&, const ExecutionContext&)>;
 
@@ -30,20 +30,21 @@ class Deferred {
   Deferred(const Deferred&) = delete;
   Deferred& operator=(const Deferred&) = delete;
 
-  // Returns the value of the key, or null if the value is not complete. Starts the computation if necessary.
+  // Returns the value of the key, or null if the computation is not complete. Get() starts the computation if
+  // necessary.
   std::shared_ptr<const Value> Get(const Key& key) {
     Collect();
     if (key_ && *key_ == key) return value_;
     if (!running_) {
       Start(key);
     } else {
-      // The thread will end soon; a later call of Get() starts the new computation.
+      // The thread of the old computation ends soon; a later call of Get() starts the new computation.
       context_->Cancel();
     }
     return nullptr;
   }
 
-  // Discards the value, and cancels the running computation.
+  // Discards the stored value, and cancels the running computation.
   void Clear() {
     if (running_) context_->Cancel();
     Collect();
@@ -101,7 +102,7 @@ class Deferred {
   std::optional<Key> key_;
   std::shared_ptr<const Value> value_;
   std::shared_ptr<ExecutionContext> context_;
-  std::shared_ptr<const Value> result_;  // written by the thread until done_
+  std::shared_ptr<const Value> result_;  // written by the computing thread until done_ is true
   std::atomic<bool> done_{false}, no_memory_{false};
   bool running_ = false;
   std::thread thread_;

@@ -6,7 +6,8 @@
 
 namespace penumbra::viewer {
 
-// All potential discontinuities, in violet (thesis B.4.4).
+// An overlay that shows all potential discontinuities of the irradiance (shadow lines), in violet (thesis
+// B.4.4).
 OverlayRegistry::Method DiscontinuityOverlayMethod();
 
 }  // namespace penumbra::viewer

@@ -6,7 +6,8 @@
 
 namespace penumbra::viewer {
 
-// The elements of the global solution, down to a chosen level (thesis B.4.2).
+// An overlay that shows the quadtree elements of the radiosity solution, down to a chosen level (thesis
+// B.4.2).
 OverlayRegistry::Method ElementMeshOverlayMethod();
 
 }  // namespace penumbra::viewer

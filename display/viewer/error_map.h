@@ -9,11 +9,13 @@
 
 namespace penumbra::viewer {
 
-// The representation error of each triangle: the maximum of |shown - true| / max(true, 1 % of the channel's
-// mean), over the channels and over kErrorPoints interior points that are not nodes of the interpolant.
+// The representation error of each triangle of the mesh: the maximum of |shown - true| / max(true, 1 % of the
+// channel's mean), where `shown` is the interpolated and `true` the exact irradiance. The maximum error of a
+// triangle is taken over the channels and over kErrorPoints interior points that are not nodes of the
+// interpolant.
 struct ErrorMap {
-  std::vector<float> error;  // per triangle [1]
-  double p99 = 0;            // 99 % of the area has an error of at most this
+  std::vector<float> error;  // representation error of each triangle [1]
+  double p99 = 0;            // representation error that 99 % of the mesh's area does not exceed
 };
 ErrorMap MapRepresentationError(const LightState& light, const IrradianceMesh& mesh,
                                 const ExecutionContext& context);

@@ -6,8 +6,8 @@
 
 namespace penumbra::viewer {
 
-// Graphs of the irradiance over triangles: exact irradiance in white, interpolated irradiance in blue, and
-// the difference in red (thesis B.4.7).
+// An overlay that shows graphs of the irradiance over triangles: exact irradiance in white, interpolated
+// irradiance in blue, and their difference in red (thesis B.4.7).
 OverlayRegistry::Method GraphOverlayMethod();
 
 }  // namespace penumbra::viewer

@@ -1,6 +1,7 @@
 // display/viewer/irradiance_graph.h
 //
-// The graphs of thesis B.4.7: surfaces whose height above the triangles is the irradiance.
+// Graphs of irradiance (thesis B.4.7): surfaces whose height above the triangles of the mesh is the
+// irradiance.
 
 #pragma once
 
@@ -14,13 +15,13 @@
 
 namespace penumbra::viewer {
 
-// Irradiance values at the points of a grid on a triangle, with `cells` cells per side. The points have the
-// barycentric coordinates (s, t) = (i, j) / cells, with 0 <= j <= cells and 0 <= i <= cells - j, and are
-// stored row by row: j is constant in a row.
+// Irradiance values at the points of a grid on a triangle, with `cells` cells per side. The grid points have
+// the barycentric coordinates (s, t) = (i, j) / cells, with 0 <= j <= cells and 0 <= i <= cells - j. Grid
+// points are stored row by row, with constant j in a row.
 struct GraphSheet {
   std::uint32_t triangle = 0;
   int cells = 1;
-  std::vector<Rgb> exact;  // [W/m^2]; empty if only the interpolant is needed
+  std::vector<Rgb> exact;  // exact irradiance [W/m^2]; empty if only the interpolant is needed
 
   static std::size_t Size(int cells) {
     return static_cast<std::size_t>(cells + 1) * static_cast<std::size_t>(cells + 2) / 2;
@@ -30,11 +31,11 @@ using IrradianceGraph = std::vector<GraphSheet>;
 
 struct GraphOptions {
   int density = 1;       // largest number of cells per side of a triangle
-  bool dynamic = false;  // fewer cells if the triangle fills a small part of its leaf
-  bool exact = false;    // with exact values, which take time
+  bool dynamic = false;  // use fewer grid cells if the triangle fills a small part of its quadtree leaf
+  bool exact = false;    // also compute exact irradiances, which takes time
 };
 
-// Computes one sheet for each triangle of the list `triangles`.
+// Computes the irradiance graph over each triangle of the list `triangles`.
 IrradianceGraph MakeGraph(const LightState& light, const IrradianceMesh& mesh,
                           std::span<const std::uint32_t> triangles, const GraphOptions& options,
                           const ExecutionContext& context);

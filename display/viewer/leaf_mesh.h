@@ -9,9 +9,10 @@
 
 namespace penumbra::viewer {
 
-// The leaves of a forest as triangles of constant irradiance [W/m^2]. `irradiance` is indexed by ElementId.
-// The mesh can be made after any step of the solver, because no irradiance is computed and the forest need
-// not be balanced. The mesh may have T-vertices; the display closes the gaps.
+// Makes a mesh of triangles of constant irradiance [W/m^2] from the leaves of all quadtrees. `irradiance` is
+// indexed by ElementId. A leaf mesh can be made after any step of the solver, because no irradiance is
+// computed and the quadtrees need not be balanced. A leaf mesh may have T-vertices; the display closes the
+// gaps at T-vertices.
 IrradianceMesh LeafMesh(const ElementForest& forest, std::span<const Rgb> irradiance);
 
 }  // namespace penumbra::viewer

@@ -1,6 +1,6 @@
 // display/viewer/links.h
 //
-// The links that the view shows, and their colours (thesis B.4.3).
+// The links between elements that the view shows, and the colours of links (thesis B.4.3).
 
 #pragma once
 
@@ -16,21 +16,21 @@ namespace penumbra::viewer {
 
 enum class LinkClass : std::uint8_t {
   kVisible,  // white
-  kSplit,    // pink: the plane of one end intersects the other
-  kPartial,  // green: something may lie between the ends
+  kSplit,    // pink: the plane of the source intersects the receiver, or the reverse
+  kPartial,  // green: blockers may lie between source and receiver
 };
 LinkClass ClassOf(const RadiositySolution& solution, const Link& link);
 Colour ColourOf(LinkClass link_class);
 const char* NameOf(LinkClass link_class);
-// The name of the OverlaySwitch that shows the links of the class.
+// The name of the OverlaySwitch that shows the links of a LinkClass.
 std::string SwitchOf(LinkClass link_class);
 
-// The irradiance that the link brings to its receiver, in the largest channel [W/m^2].
+// The irradiance that a link brings to its receiver element, in the largest channel [W/m^2].
 double LinkIrradiance(const RadiositySolution& solution, const Link& link);
 
-// The indices of the links to be shown according to the settings: at most settings.link_limit links, in order
-// of decreasing LinkIrradiance(). If an element is selected, only those links are included that have this
-// element, one of its ancestors or one of its descendants as receiver or source.
+// The indices of the links to be shown: at most settings.link_limit links, in order of decreasing
+// LinkIrradiance(). If an element is selected, only links of the selected element, of its ancestors and of
+// its descendants are shown.
 std::vector<std::uint32_t> ShownLinks(const RadiositySolution& solution, const OverlaySettings& settings,
                                       const Selection& selection);
 

@@ -1,6 +1,7 @@
 // display/viewer/menu.h
 //
-// The contents of the menus, as data. The window draws the menus; keys and scripts run the menu items.
+// The contents of the viewer's menus, as data. The window draws the menus; keys and scripts run the menu
+// items.
 
 #pragma once
 
@@ -13,21 +14,21 @@
 namespace penumbra::viewer {
 
 struct MenuItem {
-  std::string path;  // as in `menu PATH`: `Iteration/Iterate`
-  std::string key;   // a chord, or empty
-  std::string help;  // what the item does
+  std::string path;  // path of the item in the menus, such as `Iteration/Iterate`
+  std::string key;   // a key chord such as `ctrl+s`, or empty
+  std::string help;  // a text that says what the item does
   std::function<void()> run;
-  std::function<bool()> checked;  // empty: the item has no check mark
+  std::function<bool()> checked;  // tells whether the item has a check mark; empty if it never has one
 };
 
 class Menu {
  public:
   void Add(MenuItem item) { items_.push_back(std::move(item)); }
-  // Replaces all items of a submenu; for submenus whose items change.
+  // Replaces all items of a submenu, such as `File/Recent`.
   void Replace(const std::string& submenu, std::vector<MenuItem> items);
 
-  // Find() returns the item with this path, and FindKey() the item with this key; null if there is no such
-  // item.
+  // Find() returns the menu item with the given path, FindKey() the menu item with the given key; null if no
+  // item matches.
   const MenuItem* Find(const std::string& path) const;
   const MenuItem* FindKey(const KeyChord& chord) const;
   const std::vector<MenuItem>& items() const { return items_; }

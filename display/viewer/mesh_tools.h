@@ -1,6 +1,6 @@
 // display/viewer/mesh_tools.h
 //
-// Functions of the triangles of a mesh, which the viewer's tools use.
+// Functions on the triangles of a mesh, for the viewer's tools (selection, graphs, probes).
 
 #pragma once
 
@@ -16,7 +16,7 @@ namespace penumbra::viewer {
 std::array<Vec3, 3> TriangleVertices(const IrradianceMesh& mesh, std::uint32_t triangle);
 double TriangleArea(const IrradianceMesh& mesh, std::uint32_t triangle);  // [m^2]
 Vec3 NormalOf(const Scene& scene, const IrradianceMesh& mesh, std::uint32_t triangle);
-// The point at barycentric coordinates (s, t) [m].
+// The point of a triangle at barycentric coordinates (s, t) [m].
 Vec3 PointInTriangle(const IrradianceMesh& mesh, std::uint32_t triangle, double s, double t);
 
 // The leaf of the solution's quadtrees that contains the triangle.
@@ -25,7 +25,7 @@ ElementId LeafOf(const LightState& light, const IrradianceMesh& mesh, std::uint3
 // True if `element` is `top` or a descendant of `top`.
 bool IsBelow(const ElementForest& forest, ElementId element, ElementId top);
 
-// The indices, in ascending order, of the triangles that lie in one of the elements.
+// The indices, in ascending order, of the triangles that lie in one of the listed elements.
 std::vector<std::uint32_t> TrianglesOf(const LightState& light, const IrradianceMesh& mesh,
                                        std::span<const ElementId> elements);
 
@@ -33,7 +33,7 @@ std::vector<std::uint32_t> TrianglesOf(const LightState& light, const Irradiance
 IrradianceMesh SubMesh(const IrradianceMesh& mesh, std::span<const std::uint32_t> triangles);
 
 // The exact irradiance at the point with barycentric coordinates (s, t) of a triangle [W/m^2]. On the
-// triangle's border, the result is the limit from the interior.
+// triangle's border, ExactInTriangle() returns the limit from the triangle's interior.
 Rgb ExactInTriangle(const LightState& light, const IrradianceMesh& mesh, std::uint32_t triangle, double s,
                     double t);
 

@@ -1,7 +1,7 @@
 // display/viewer/opened_scene.h
 //
-// The functions by which the window opens and saves files. The program that opens the window provides the
-// functions of ViewerFiles.
+// The functions by which the viewer's window opens and saves files. The program that opens the window
+// provides the functions of ViewerFiles.
 
 #pragma once
 
@@ -21,37 +21,41 @@ struct OpenedScene {
   OpenedScene(std::shared_ptr<const Scene> the_scene) : scene(std::move(the_scene)) {}
 
   std::shared_ptr<const Scene> scene;
-  // The state from a solution file, which refers to `scene`; null if no solution was opened.
+  // The solver's state from a solution file, which refers to `scene`; null if no solution file was opened.
   std::shared_ptr<PipelineState> stored;
-  // If not null, the state of another solution of the same geometry, whose links are used to solve this
-  // scene. If null, new links are made.
+  // If not null, `restart` is the state of another solution of the same geometry, whose links between
+  // elements are used to solve `scene`. If `restart` is null, the solver makes new links.
   std::shared_ptr<const PipelineState> restart;
   PipelineOptions solving;  // the options of `stored` or `restart`
 };
 
-// An option that determines how a scene is read.
+// An option that determines how a scene file is read.
 struct ReadingOption {
   std::string name, help;
-  bool toggle = false;  // on or off; otherwise text
+  bool toggle = false;  // true if the option's value is on or off; false if the value is any text
   std::function<std::string()> value;
 };
 
-// Each function throws InputError with one line that describes the fault. Functions that write use a
-// temporary file beside the target, then rename it.
+// The file functions of the viewer. Each function of ViewerFiles throws InputError with one line that
+// describes the fault. Functions of ViewerFiles that write use a temporary file in the same folder, and then
+// rename the temporary file.
 struct ViewerFiles {
   using WriteSolved = std::function<void(const std::string& path, const Pipeline& pipeline)>;
 
   // Opens a scene or a solution by its path or name.
   std::function<OpenedScene(const std::string& name)> open;
-  // The function read_with() reads the last opened scene again, with another value of one of the options
-  // `reading`.
+  // `reading` lists the options for reading scene files. The function read_with() reads the last opened scene
+  // again, with another value of one option.
   std::vector<ReadingOption> reading;
   std::function<OpenedScene(const std::string& option, const std::string& value)> read_with;
-  // REQUIRES: the pipeline is solved, measured, and has a mesh of kind kInterpolant.
+  // Functions that write a solution or a report. REQUIRES: the pipeline is solved and measured, and has a
+  // mesh of kind kInterpolant.
   WriteSolved save_solution, save_report;
-  // True if the file format that belongs to the path's ending stores the mesh, not only the scene.
+  // The function exports_mesh() returns true if the file format that belongs to the path's ending stores the
+  // mesh, not only the scene.
   std::function<bool(const std::string& path)> exports_mesh;
-  // `mesh` is null if the format does not store the mesh.
+  // The function export_file() writes a scene, or a mesh with its light, to a file. The argument `mesh` is
+  // null if the file format does not store the mesh.
   std::function<void(const std::string& path, const Scene& scene, const IrradianceMesh* mesh,
                      const Camera& camera)>
       export_file;

@@ -1,6 +1,6 @@
 // display/viewer/overlay.h
 //
-// Visualisations of the solver's internal data (thesis B.4).
+// Overlays: visualisations of the solver's internal data, drawn over the picture (thesis B.4).
 
 #pragma once
 
@@ -23,7 +23,8 @@ namespace penumbra::viewer {
 class Menu;
 class Settings;
 
-// Results that take a long time to compute. Each pointer is null until the result is complete.
+// Results of analyses that take a long time to compute. Each pointer in AnalysisResults is null until the
+// result is complete.
 struct AnalysisResults {
   std::shared_ptr<const DiscontinuityList> discontinuities;
   std::shared_ptr<const IrradianceGraph> graph;
@@ -36,29 +37,29 @@ struct AnalysisResults {
 
 struct OverlayContext {
   const Snapshot& snapshot;
-  const MeshState& mesh;  // the mesh whose triangles the tools use
+  const MeshState& mesh;  // the mesh whose triangles selection, graphs and probes use
   const OverlaySettings& settings;
   const Selection& selection;
   const AnalysisResults& results;
-  bool isolated = false;  // the picture shows only the selection
+  bool isolated = false;  // true if the picture shows only the selected object
 
   bool Isolates(SelectionKind kind) const { return isolated && selection.kind == kind; }
 };
 
-// Says which results must be computed before an overlay can be drawn.
+// The results that must be computed before an overlay can be drawn.
 struct OverlayNeeds {
-  bool triangles = false;        // triangles of a mesh, even if the drawing mode has none
-  bool discontinuities = false;  // all discontinuities
-  bool graph = false;            // the graph of the irradiance over the selection
-  bool exact_graph = false;      // the graph of the exact irradiance as well
+  bool triangles = false;        // the triangles of a mesh, even if the drawing mode shows no mesh
+  bool discontinuities = false;  // the list of all discontinuities of the irradiance
+  bool graph = false;            // the graph of the irradiance over the selected object
+  bool exact_graph = false;      // the graph of the exact irradiance over the selected object
 };
 
 // A part of an overlay that the user can switch on and off.
 struct OverlaySwitch {
-  std::string name;  // as in `set NAME on`
-  std::string help;  // a few words: the label in panels
-  std::string menu;  // its item in the menu `Visualisation`
-  std::string key;   // a chord, or empty
+  std::string name;  // name of the switch, as in the script line `set NAME on`
+  std::string help;  // a few words, shown as the label in panels
+  std::string menu;  // the switch's item in the menu `Visualisation`
+  std::string key;   // a key chord such as `ctrl+s`, or empty
   OverlayNeeds needs;
 };
 
@@ -69,26 +70,28 @@ class Overlay {
  public:
   virtual ~Overlay() = default;
 
-  // The entry of kOverlayGroups to which the overlay's switches and settings belong.
+  // The name of the panel (entry of kOverlayGroups) that contains the overlay's switches and settings.
   virtual std::string Group() const { return "Visualisations"; }
-  // The overlay's switches. An overlay without switches shows what the user has selected or probed.
+  // The switches that turn parts of the overlay on and off. An overlay without switches shows the object that
+  // the user has selected, or the point that the user has probed.
   virtual std::vector<OverlaySwitch> Switches() const { return {}; }
-  // Adds those settings of the overlay to `settings` that are not switches. `values` outlives `settings`.
+  // Adds those settings of the overlay to `settings` that are not switches. REQUIRES: `values` outlives
+  // `settings`.
   virtual void AddSettings(OverlaySettings* /*values*/, Settings* /*settings*/) const {}
-  // Adds those menu items of the overlay to `menu` that are not switches. `values` outlives `menu`.
+  // Adds those menu items of the overlay to `menu` that are not switches. REQUIRES: `values` outlives `menu`.
   virtual void AddMenuItems(OverlaySettings* /*values*/, Menu* /*menu*/) const {}
 
-  // The overlay's layer. Overlays are drawn in ascending order of their layers, and within a layer in the
-  // order of the registry. The built-in overlays have layers 0 to 8.
+  // The number of the overlay's layer. Overlays are drawn in ascending order of their layers, and within a
+  // layer in the order of the registry Overlays(). The built-in overlays have layers 0 to 8.
   virtual int Layer() const { return kTopLayer; }
-  // Adds the parts of the overlay that are switched on to `drawing`.
+  // Adds those parts of the overlay that are switched on to `drawing`.
   virtual void Draw(const OverlayContext& context, OverlayDrawing* drawing) const = 0;
 
  protected:
   static constexpr int kTopLayer = 100;
 };
 
-// The type of Overlays().
+// The type of the registry Overlays(), which lists all overlays.
 using OverlayRegistry = Registry<const Overlay>;
 
 }  // namespace penumbra::viewer

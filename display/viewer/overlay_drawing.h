@@ -26,7 +26,7 @@ struct OverlayLine {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // [m]
   Colour colour;
   float width = 1.2F;  // [pixels]
-  Selection pick;      // selected by a click on the line
+  Selection pick;      // the object that a click on the line selects
 };
 
 struct OverlayPoint {
@@ -41,7 +41,8 @@ struct OverlayTriangle {
   float opacity = 1;
 };
 
-// The painter draws triangles first, then lines, then points, each in the order in which they were added.
+// PaintOverlay() draws all triangles first, then all lines, then all points; primitives of one kind are drawn
+// in the order in which they were added.
 struct OverlayDrawing {
   std::vector<OverlayTriangle> triangles;
   std::vector<OverlayLine> lines;
@@ -58,8 +59,8 @@ struct OverlayDrawing {
     for (std::size_t i = 2; i < convex.size(); ++i)
       triangles.push_back({{convex[0], convex[i - 1], convex[i]}, colour, opacity});
   }
-  // A line from a to b with an arrowhead at b. The arrowhead lies in the plane of the line and the direction
-  // `beside`.
+  // Adds a line from a to b with an arrowhead at b. The arrowhead lies in the plane that contains the line
+  // and the direction `beside`.
   void Arrow(const Vec3& a, const Vec3& b, const Vec3& beside, Colour colour, float width = 1.2F,
              Selection pick = {});
 };

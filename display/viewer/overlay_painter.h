@@ -1,7 +1,8 @@
 // display/viewer/overlay_painter.h
 //
-// Paints overlays into the display's picture. Parts of overlays behind surfaces are hidden. The painter works
-// in software, so that pictures have the same bytes with and without a window.
+// Paints overlays into the picture of the two-pass display. Surfaces hide the parts of overlays that lie
+// behind them. Overlays are painted in software, so that pictures have the same bytes with and without a
+// window.
 
 #pragma once
 
@@ -30,9 +31,10 @@ class DepthMap {
   int height() const { return height_; }
   const PixelRays& rays() const { return rays_; }
 
-  // A point is visible at the pixel if its 1 / depth is at least the threshold [1/m]. The threshold is 1 /
-  // depth of the surface, minus the change of 1 / depth over one pixel, so that points on the surface count
-  // as visible. The threshold is 0 where there is no surface.
+  // The visibility threshold of a pixel [1/m]: a point is visible at the pixel if 1 / (depth of the point) is
+  // at least the threshold. The threshold is 1 / (depth of the surface), minus the change of 1 / depth over
+  // one pixel, so that points on the surface count as visible. The threshold is 0 at pixels that show no
+  // surface.
   float Threshold(int x, int y) const { return inverse_[Index(x, y)]; }
 
  private:
@@ -45,7 +47,8 @@ class DepthMap {
   std::vector<float> inverse_;
 };
 
-// The position of a point in a picture: pixels, and 1 / depth [1/m], which is 0 or negative behind the eye.
+// The projection of a point: x and y in the picture [pixels], and 1 / depth [1/m], which is 0 or negative
+// behind the eye.
 struct ScreenPoint {
   double x = 0, y = 0, inverse_depth = 0;
 };
@@ -53,8 +56,8 @@ ScreenPoint Project(const PixelRays& rays, const Vec3& point);
 
 void PaintOverlay(const OverlayDrawing& drawing, const DepthMap& depth, Srgb8Image* picture);
 
-// The selection OverlayLine::pick of the visible line nearest to (x, y), if its distance is at most
-// kPickDistance; otherwise, an empty selection.
+// Selects the visible overlay line nearest to the picture point (x, y): returns its OverlayLine::pick if the
+// distance is at most kPickDistance, and an empty selection otherwise.
 Selection PickLine(const OverlayDrawing& drawing, const DepthMap& depth, double x, double y);
 inline constexpr double kPickDistance = 6;  // [pixels]
 

@@ -9,19 +9,19 @@
 
 namespace penumbra::viewer {
 
-// The registry of all overlays, in the order of menus.
+// The registry of all overlays, in the order in which menus list the overlays.
 OverlayRegistry& Overlays();
 
 // Makes one object of each overlay, in the order of Overlays().
 std::vector<std::unique_ptr<const Overlay>> MakeOverlays();
 
-// The union of the needs of all overlays that are switched on.
+// The results that all overlays that are switched on need together.
 OverlayNeeds NeedsOf(const OverlaySettings& settings);
 
-// The drawing of all overlays.
+// Draws all overlays into one OverlayDrawing.
 OverlayDrawing DrawOverlays(const OverlayContext& context);
 
-// Adds the switches and settings of all overlays of the group to `settings`.
+// Adds the switches and settings of all overlays of a group (panel name in kOverlayGroups) to `settings`.
 void AddOverlaySettings(std::string_view group, OverlaySettings* values, Settings* settings);
 
 }  // namespace penumbra::viewer

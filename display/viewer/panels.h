@@ -11,7 +11,8 @@
 
 namespace penumbra::viewer {
 
-// The font size on a screen without scaling [pixels]. The size of panels is proportional to the font size.
+// The font size of panels on a screen without scaling [pixels]. The size of panels is proportional to the
+// font size.
 inline constexpr float kPlainFontSize = 13;
 
 // The position and size of a panel [pixels].
@@ -20,14 +21,14 @@ struct PanelRect {
   bool operator==(const PanelRect&) const = default;
 };
 
-// Draws menus and panels with Dear ImGui, and runs the user's commands.
+// Draws the viewer's menus and panels with Dear ImGui, and runs the user's commands.
 class Panels {
  public:
-  // REQUIRES: a frame of ImGui has been started and not ended.
+  // Draws all menus and panels. REQUIRES: a frame of ImGui has been started and not ended.
   void Draw(Viewer& viewer);
 
-  // True while the user edits a text field that receives the keys. Typing() is used instead of ImGui's
-  // WantTextInput, which remains true for two frames after the end of the edit.
+  // True while the user edits a text field that receives the key presses. Typing() is used instead of ImGui's
+  // WantTextInput, because WantTextInput remains true for two frames after the end of the edit.
   static bool Typing();
 
  private:
@@ -48,20 +49,20 @@ class Panels {
   void Dialog(Viewer& viewer);
   void Message(Viewer& viewer);
   void Legend(Viewer& viewer);
-  // Runs the action. If the action throws an exception, shows the exception's message to the user.
+  // Runs the action. If the action throws an exception, Try() shows the exception's message to the user.
   template <class Action>
   void Try(Viewer& viewer, const Action& action);
 
   struct PanelPlace {
-    PanelRect wanted;                // as the user placed it
-    PanelRect shown;                 // as shown in the last frame
-    std::pair<float, float> window;  // the window's size at the time of placing; 0: not placed
+    PanelRect wanted;                // place and size that the user chose
+    PanelRect shown;                 // place and size in the last frame
+    std::pair<float, float> window;  // the window's size when the user placed the panel; 0: not placed
   };
-  std::map<std::string, PanelPlace> places_;  // by panel name
+  std::map<std::string, PanelPlace> places_;  // place of each panel, by the panel's name
   std::string asked_;                         // the open dialog
-  char text_[1024] = {};                      // text in the dialog's field
+  char text_[1024] = {};                      // text in the input field of the open dialog
   std::string edited_;                        // the setting whose field the user edits
-  char edit_[1024] = {};                      // text in this field, for example a path
+  char edit_[1024] = {};                      // text in the edited field, for example a path
   std::string unedited_;                      // the field's text before the edit
   std::string slid_;                          // the setting whose slider the user drags
   float slid_low_ = 0, slid_high_ = 1;

@@ -1,7 +1,8 @@
 // display/viewer/picture.h
 //
-// Makes the picture of a snapshot: the content of the window without panels. The picture depends only on the
-// snapshot, the view and the drawing of the overlays; the members of the class are caches that save time.
+// Makes the picture of a Snapshot (state of the solver): the content of the window without panels. The
+// picture depends only on the Snapshot, the view and the drawing of the overlays; the members of PictureMaker
+// are caches that save time.
 
 #pragma once
 
@@ -23,33 +24,36 @@ const char* UnitOf(ColourScale scale);
 
 class PictureMaker {
  public:
-  // Draws width x height pixels. REQUIRES: width, height > 0; ValidateCamera() accepts the view's camera.
+  // Draws a picture of width x height pixels. REQUIRES: width, height > 0; ValidateCamera() accepts the
+  // view's camera.
   const Srgb8Image& Make(const OverlayContext& context, const ViewState& view, const OverlayDrawing& drawing,
                          int width, int height);
 
-  // True if rays are still being cast, or if the picture does not yet contain all rays that have been cast.
+  // True if rays are still being cast for the picture, or if the picture does not yet contain all rays that
+  // have been cast.
   bool Busy() const { return rays_.Busy(); }
-  // True if the last picture was made by ray casting, as far as rays were complete.
+  // True if the last picture was made by ray casting, at least for the pixels whose rays were complete.
   bool by_rays() const { return by_rays_; }
   double RayFraction() const { return rays_.Fraction(); }
   void CancelRays() { rays_.Cancel(); }
 
-  // Properties of the last picture:
+  // The following functions return properties of the last picture.
   const Srgb8Image& screen() const { return screen_; }
   const RenderedFrame* frame() const { return display_ ? &display_->frame() : nullptr; }
   // The values from which the screen colours were computed: radiosity [W/m^2] or reflectance [1].
   const RgbImage& linear() const { return by_rays_ ? ray_linear_ : display_->frame().linear; }
   const DepthMap* depth() const { return depth_ ? &*depth_ : nullptr; }
-  // The mesh of frame().
+  // The mesh that frame() shows.
   const IrradianceMesh& drawn() const { return drawn_->mesh(); }
-  // The kind of the drawn mesh. The kind differs from MeshOf(view.mode) as long as the mesh of that kind does
-  // not exist.
+  // The kind of the drawn mesh. The kind of the drawn mesh differs from MeshOf(view.mode) until the mesh of
+  // kind MeshOf(view.mode) has been built.
   MeshKind drawn_kind() const { return kind_; }
-  double exposure() const { return exposure_; }  // screen value per W/m^2
+  double exposure() const { return exposure_; }  // exposure: linear screen value per W/m^2
   ColourScale scale() const { return scale_; }
-  double scale_top() const { return scale_top_; }  // of false colours
-  // If the chosen back end could not draw the picture, the reason; the software rasteriser has then drawn the
-  // picture instead. Empty if the chosen back end has drawn the picture.
+  double scale_top() const { return scale_top_; }  // value at the upper end of the false-colour scale
+  // The reason why the chosen back end (OpenGL) could not draw the picture, so that the software rasteriser
+  // has drawn the picture instead. The text backend_error() is empty if the chosen back end has drawn the
+  // picture.
   const std::string& backend_error() const { return backend_error_; }
   const FrameTimes& times() const { return times_; }
 
@@ -61,9 +65,10 @@ class PictureMaker {
   bool Shows(const ErrorMap* errors) const;
   void PaintErrors(const ErrorMap& errors, double top, Srgb8Image* out) const;
 
-  std::shared_ptr<const MeshState> whole_;  // the mesh for the mode
-  std::shared_ptr<const MeshState> drawn_;  // whole_, or a part of it when a selection is isolated
-  std::vector<std::uint32_t> left_;         // for a part: its triangles' indices in whole_
+  std::shared_ptr<const MeshState> whole_;  // the mesh for the drawing mode
+  // the drawn mesh: whole_, or its selected part if the picture shows only the selection
+  std::shared_ptr<const MeshState> drawn_;
+  std::vector<std::uint32_t> left_;  // if only the selection is drawn: the indices of its triangles in whole_
   Selection isolated_;
   AnalysisResults isolated_by_;
   std::optional<TwoPassDisplay> display_;
@@ -82,7 +87,8 @@ class PictureMaker {
   FrameTimes times_;
 };
 
-// The result of MeterExposure() for every kMeterStride-th pixel of every kMeterStride-th row.
+// The exposure that MeterExposure() finds from a subset of the pixels: every kMeterStride-th pixel of every
+// kMeterStride-th row.
 double MeterSparsely(const RgbImage& linear, const std::vector<PixelKind>& kinds);
 inline constexpr int kMeterStride = 4;
 

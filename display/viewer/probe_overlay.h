@@ -6,7 +6,7 @@
 
 namespace penumbra::viewer {
 
-// The irradiance at a probed point, as the length of a white stick (thesis B.4.9).
+// An overlay that shows the irradiance at a probed point as the length of a white stick (thesis B.4.9).
 OverlayRegistry::Method ProbeOverlayMethod();
 
 }  // namespace penumbra::viewer

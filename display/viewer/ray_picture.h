@@ -1,7 +1,7 @@
 // display/viewer/ray_picture.h
 //
 // Pictures by ray casting (RayShade, LerpShade), computed in the background from coarse to fine: first every
-// 16th pixel of every 16th row, then the pixels between these.
+// 16th pixel of every 16th row, then the pixels in between.
 
 #pragma once
 
@@ -15,16 +15,17 @@
 namespace penumbra::viewer {
 
 struct RayPictureKey {
-  std::shared_ptr<const LightState> light;  // the source of exact irradiance
-  std::shared_ptr<const MeshState> mesh;    // the mesh whose interpolants are shown; null: exact irradiance
+  std::shared_ptr<const LightState> light;  // the solution from which exact irradiance is computed
+  // the mesh whose interpolants the picture shows; null: the picture shows exact irradiance
+  std::shared_ptr<const MeshState> mesh;
   Camera camera;
   int width = 0, height = 0;
 
   bool operator==(const RayPictureKey& other) const;
 };
 
-// Computes one picture at a time. A request for another picture cancels the running computation. Only the
-// thread of the view may call the functions.
+// A RayPicture computes one picture at a time. A request for another picture cancels the computation of the
+// present picture. Only the thread of the view may call the functions of RayPicture.
 class RayPicture {
  public:
   RayPicture();
@@ -32,12 +33,14 @@ class RayPicture {
   RayPicture(const RayPicture&) = delete;
   RayPicture& operator=(const RayPicture&) = delete;
 
-  // Starts the computation of the picture, or continues it. If the computation of another picture has been
-  // cancelled but has not yet ended, the call has no effect, and a later call starts the computation.
+  // Starts or continues the computation of the picture `key`. If the computation of another picture has been
+  // cancelled but has not yet ended, the call of Show() has no effect, and a later call starts the
+  // computation.
   void Show(const RayPictureKey& key);
-  // Cancels the running computation. Show() with the same key does not restart the computation.
+  // Cancels the running computation of the picture. Show() with the same key does not restart a cancelled
+  // computation.
   void Cancel();
-  // Cancels the running computation and discards the picture.
+  // Cancels the running computation of the picture and discards the picture.
   void Clear();
 
   // True if a picture is being computed, or if Paint() has not yet copied all computed pixels.
@@ -45,9 +48,9 @@ class RayPicture {
   // The fraction of complete pixels of the last picture.
   double Fraction() const;
 
-  // Copies the complete pixels into a picture of the same size [W/m^2 of radiosity]. Pixels that a finer
-  // round has yet to compute get the value of a complete pixel in their neighbourhood. Other pixels remain
-  // unchanged.
+  // Copies the complete pixels of the ray picture into a picture of radiosity of the same size [W/m^2].
+  // Pixels that are not complete get the value of a complete pixel nearby, if a coarser round has computed
+  // one. Paint() leaves all other pixels of the target picture unchanged.
   void Paint(RgbImage* linear, std::vector<PixelKind>* kinds);
 
  private:
@@ -55,8 +58,8 @@ class RayPicture {
   void Collect();
 
   std::unique_ptr<Job> job_;
-  bool cancelled_ = false;  // by a call of Cancel()
-  bool painted_ = true;     // all complete pixels have been painted
+  bool cancelled_ = false;  // true after a call of Cancel()
+  bool painted_ = true;     // true if Paint() has copied all complete pixels
 };
 
 }  // namespace penumbra::viewer

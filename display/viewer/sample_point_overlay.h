@@ -6,7 +6,7 @@
 
 namespace penumbra::viewer {
 
-// Shows the sample points of the interpolants, in yellow (thesis B.4.8).
+// An overlay that shows the sample points of the irradiance interpolants, in yellow (thesis B.4.8).
 OverlayRegistry::Method SamplePointOverlayMethod();
 
 }  // namespace penumbra::viewer

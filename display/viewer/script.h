@@ -1,7 +1,7 @@
 // display/viewer/script.h
 //
-// Scripts that control the viewer in place of a user (`penumbra view --script FILE`). Each line of a script
-// is an action.
+// Scripts that control the viewer in place of a user (`penumbra view --script FILE`). Each line of a viewer
+// script is one action, such as a key press or a menu item.
 
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace penumbra::viewer {
 
-// One step of an action in a script. At most one step is run in each frame.
+// One step of an action in a viewer script. The viewer runs at most one script step in each frame.
 struct ScriptStep {
   enum class Kind {
     kInput,
@@ -29,8 +29,8 @@ struct ScriptStep {
   } kind = Kind::kInput;
   int line = 0;  // line number in the file
   InputEvent event;
-  std::string text, value;  // menu path; option and value; file
-  double amount = 0;        // frames or seconds
+  std::string text, value;  // the menu path, the option with its value, or the file name
+  double amount = 0;        // how long to wait: frames or seconds
   int width = 0, height = 0;
 };
 
@@ -42,12 +42,13 @@ struct Script {
 // The description of all script commands, which `--help` prints.
 extern const char* const kScriptHelp;
 
-// Parses the text. Throws InputError, `NAME:LINE: error: ...`, for the first line that is not an action.
+// Parses the text of a viewer script. Throws InputError, `NAME:LINE: error: ...`, for the first line that is
+// not an action.
 Script ParseScript(const std::string& name, const std::string& text);
-// Reads and parses the file. Throws InputError if the file cannot be read or is not a script.
+// Reads and parses a script file. Throws InputError if the file cannot be read or is not a viewer script.
 Script ReadScript(const std::string& path);
 
-// The functions that a script's player needs.
+// The functions of the window that a ScriptPlayer needs.
 class ScriptStage {
  public:
   virtual ~ScriptStage() = default;
@@ -61,8 +62,8 @@ class ScriptPlayer {
  public:
   explicit ScriptPlayer(Script script) : script_(std::move(script)) {}
 
-  // Runs the steps of one frame. Returns false when the script is finished. Throws InputError with file and
-  // line if a step fails.
+  // Runs the script's steps for one frame. Returns false when the script is finished. Throws InputError with
+  // file and line of the script if a step fails.
   bool Advance(Viewer& viewer, ScriptStage& stage, double seconds);
 
  private:

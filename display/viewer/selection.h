@@ -1,7 +1,7 @@
 // display/viewer/selection.h
 //
-// Functions on the selection (thesis B.4.6): selecting an object by a click, and describing the selected
-// object.
+// Functions on the viewer's selection (thesis B.4.6): selecting an object by a click, and describing the
+// selected object.
 
 #pragma once
 
@@ -20,20 +20,21 @@ namespace penumbra::viewer {
 std::optional<ProbedPoint> PointAt(const Scene& scene, const IrradianceMesh& drawn,
                                    const RenderedFrame& frame, const PixelRays& rays, double x, double y);
 
-// The new selection after a click on a point of a patch. If triangles are shown, or a triangle is already
-// selected, the triangle at the point is selected. If no triangle is to be selected, the click selects an
-// element: if an element that contains the point is already selected, its child at the point; otherwise, the
-// root element of the patch.
+// The new selection after a click on a point of a patch. If the viewer shows triangles, or if a triangle is
+// already selected, the click selects the triangle at the point. If no triangle is to be selected, the click
+// selects a quadtree element. If an element that contains the point is already selected, the click selects
+// this element's child at the point; otherwise, the root element of the patch.
 Selection SelectSurface(const OverlayContext& context, const ProbedPoint& at);
 
-// The new selection after a click on a line. `picked` is the line's link or discontinuity. If the picked link
-// is already selected, its tube is selected instead.
+// The new selection after a click on an overlay line. `picked` is the link or discontinuity that the line
+// shows. If the picked link is already selected, the link's tube (convex hull of source and receiver) is
+// selected instead.
 Selection SelectLine(const Selection& before, const Selection& picked);
 
-// True if the snapshot contains the selected object.
+// True if the current Snapshot (state of the solver) contains the selected object.
 bool IsValid(const OverlayContext& context, const Selection& selection);
 
-// The elements of the selected object; empty for a triangle.
+// The quadtree elements of the selected object; empty for a triangle.
 std::vector<ElementId> SelectedElements(const OverlayContext& context);
 
 // The indices of the triangles of `drawn` that are drawn if the picture shows only the selection.

@@ -6,8 +6,8 @@
 
 namespace penumbra::viewer {
 
-// Draws the selected object (thesis B.4.6): the outline of an element or triangle; a link; the tube of a
-// link, with the blockers; or a discontinuity with its source, blocker and receiver.
+// An overlay that draws the selected object (thesis B.4.6). The selected object is an element, a triangle, a
+// link, the tube of a link with its blockers, or a discontinuity with its source, blocker and receiver.
 OverlayRegistry::Method SelectionOverlayMethod();
 
 }  // namespace penumbra::viewer

@@ -1,7 +1,7 @@
 // display/viewer/settings.h
 //
-// All settings that the user can change. Each setting has a name, by which panels, menus and scripts access
-// it.
+// All settings of the viewer that the user can change. Panels, menus and scripts access a setting by its
+// name.
 
 #pragma once
 
@@ -18,34 +18,35 @@ namespace penumbra::viewer {
 
 enum class SettingKind {
   kToggle,   // on, off
-  kNumber,   // from `low` to `high`; the slider may be logarithmic
-  kInteger,  // the same for integers
+  kNumber,   // a number from `low` to `high`; the slider may be logarithmic
+  kInteger,  // an integer from `low` to `high`
   kChoice,   // one of `choices`
   kText,     // any text
 };
 
 struct Setting {
-  std::string name;   // as in `set NAME VALUE`
-  std::string group;  // the group of panels
-  std::string help;   // a few words: the label in panels
+  std::string name;   // name of the setting, as in the script line `set NAME VALUE`
+  std::string group;  // the name of the panel group that contains the setting
+  std::string help;   // a few words, shown as the label in panels
   SettingKind kind = SettingKind::kText;
   double low = 0, high = 1;
   bool logarithmic = false;
-  bool automatic = false;  // `auto` is also a value
+  bool automatic = false;  // if true, `auto` is also an allowed value
   std::vector<std::string> choices;
   std::function<std::string()> get;
-  // Sets the value. Throws InputError, with a few words about the allowed values, if the value is not
-  // allowed.
+  // Sets the value of the setting. Throws InputError, with a few words about the allowed values, if the value
+  // is not allowed.
   std::function<void(const std::string&)> set;
 };
 
-// The range of a number, and the scale of its slider.
+// The range of a number setting, and the scale (linear or logarithmic) of its slider.
 struct SliderRange {
   double low, high;
   bool logarithmic = false;
 };
 
-// A list of settings, in the order in which they were added. REQUIRES: all names are different.
+// A list of settings, in the order in which they were added. REQUIRES: all settings of the list have
+// different names.
 class Settings {
  public:
   Setting& Toggle(const std::string& name, const std::string& group, const std::string& help, bool* value);
@@ -55,11 +56,12 @@ class Settings {
                   const SliderRange& range);
   Setting& Integer(const std::string& name, const std::string& group, const std::string& help, int* value,
                    int low, int high);
-  // Pairs of a name and a value.
+  // A list of pairs: the name of a choice, and its value.
   template <class Value>
   using Named = std::vector<std::pair<std::string, Value>>;
 
-  // REQUIRES: `choices` has a name for every value that `value` may have.
+  // Adds a setting with a list of named choices. REQUIRES: `choices` has a name for every value that `value`
+  // may have.
   template <class Value>
   Setting& Choice(const std::string& name, const std::string& group, const std::string& help, Value* value,
                   const Named<std::type_identity_t<Value>>& choices) {
@@ -77,7 +79,7 @@ class Settings {
                   std::function<Vec3()> get, std::function<void(const Vec3&)> set);
   Setting& Add(Setting setting);
 
-  // The setting with this name; null if there is no such setting.
+  // The setting with the given name; null if no setting has this name.
   const Setting* Find(const std::string& name) const;
   const std::vector<Setting>& all() const { return all_; }
 
@@ -89,10 +91,10 @@ class Settings {
   std::vector<Setting> all_;
 };
 
-// The number that the complete text represents. Throws InputError unless the number is from `low` to `high`.
+// Converts the complete text to a number. Throws InputError unless the text is a number from `low` to `high`.
 double NumberFrom(const std::string& text, double low, double high);
 
-// The shortest text that converts back to the number.
+// The shortest text that converts back to exactly the same number.
 std::string TextOf(double number);
 
 }  // namespace penumbra::viewer

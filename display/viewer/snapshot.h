@@ -1,7 +1,7 @@
 // display/viewer/snapshot.h
 //
-// Immutable states that the solver's thread passes to the view. The view can therefore draw one state while
-// the solver computes the next.
+// Immutable states of the solution that the solver's thread passes to the view. The view can therefore draw
+// one state while the solver computes the next state.
 
 #pragma once
 
@@ -22,7 +22,7 @@
 
 namespace penumbra::viewer {
 
-// The global solution after a step of the solver, together with the objects that must live as long as the
+// The radiosity solution after a step of the solver, together with the objects that must live as long as the
 // solution.
 class LightState {
  public:
@@ -38,11 +38,11 @@ class LightState {
   const Scene& scene() const { return *scene_; }
   const PatchVisibility& visibility() const { return *visibility_; }
   const RadiositySolution& solution() const { return solution_; }
-  // The options by which discontinuities are chosen for a mesh of this solution.
+  // The options by which shadow discontinuities are chosen for a mesh of this solution.
   const DiscontinuityOptions& discontinuities() const { return discontinuities_; }
 
-  // The object that computes exact irradiance; it is created by the first call. Several threads may call the
-  // function at once.
+  // The object that computes exact irradiance; the first call of Exact() creates the object. Several threads
+  // may call Exact() at once.
   const PointIrradiance& Exact() const {
     std::call_once(made_, [this] { exact_.emplace(solution_, *visibility_, options_); });
     return *exact_;
@@ -58,7 +58,7 @@ class LightState {
   mutable std::optional<PointIrradiance> exact_;
 };
 
-// A mesh of a LightState.
+// A mesh of triangles with the light of a radiosity solution (LightState).
 class MeshState {
  public:
   MeshState(std::shared_ptr<const Scene> scene, IrradianceMesh mesh)
@@ -66,8 +66,8 @@ class MeshState {
 
   const Scene& scene() const { return *scene_; }
   const IrradianceMesh& mesh() const { return mesh_; }
-  // The object that finds the triangle at a point; it is created by the first call. Several threads may call
-  // the function at once.
+  // The object that finds the triangle at a point; the first call of Locator() creates the object. Several
+  // threads may call Locator() at once.
   const MeshLocator& Locator() const {
     std::call_once(made_, [this] { locator_.emplace(*scene_, mesh_); });
     return *locator_;
@@ -81,8 +81,8 @@ class MeshState {
 };
 
 inline constexpr std::size_t kMeshKinds = 4;
-// The name of the drawing mode that shows this kind of mesh. The switch statement has no default label, so
-// that the compiler warns of kinds without a name.
+// The name of the drawing mode that shows a kind of mesh. The switch statement has no default label, so that
+// the compiler warns of kinds of meshes without a name.
 inline const char* NameOf(MeshKind kind) {
   switch (kind) {
     case MeshKind::kFlat:
@@ -98,16 +98,17 @@ inline const char* NameOf(MeshKind kind) {
 }
 
 struct Snapshot {
-  std::uint64_t number = 0;  // ascending
+  std::uint64_t number = 0;  // each new Snapshot has a larger number
   std::shared_ptr<const Scene> scene;
-  std::shared_ptr<const LightState> light;  // null before the first links
-  // The meshes, indexed by MeshKind; null if a mesh has not been made. The mesh kFlat always exists, and has
-  // irradiance 0 before the first links.
+  std::shared_ptr<const LightState> light;  // null until the solver has made links between elements
+  // The meshes of the solution, indexed by MeshKind; null if a mesh has not been built. The mesh of kind
+  // kFlat always exists, and has irradiance 0 until the solver has made links.
   std::array<std::shared_ptr<const MeshState>, kMeshKinds> mesh;
   std::vector<IterationReport> iterations;
   std::size_t corrections = 0;
   bool converged = false;
-  std::optional<PipelineReport> measured;  // energy and errors, after a request
+  // energy balance and errors; set after the user has requested a measurement
+  std::optional<PipelineReport> measured;
 
   const std::shared_ptr<const MeshState>& Mesh(MeshKind kind) const {
     return mesh[static_cast<std::size_t>(kind)];

@@ -1,7 +1,7 @@
 // display/viewer/solver_session.h
 //
-// Runs the steps of the solver and of the mesh in a separate thread, so that the window never waits for the
-// solver.
+// A SolverSession runs the steps of the solver and the construction of meshes in a separate thread, so that
+// the window never waits for the solver.
 
 #pragma once
 
@@ -24,56 +24,59 @@ struct SessionStatus {
   bool busy = false;
   bool cancelling = false;
   std::string phase;    // the present task
-  double fraction = 0;  // complete fraction of the phase, in [0, 1]
-  std::string message;  // the last error; empty: none
+  double fraction = 0;  // complete fraction of the present task, in [0, 1]
+  std::string message;  // the last error message; empty if no error occurred
 };
 
-// All functions except the destructor may be called from any thread, and return without waiting for the
-// solver. Tasks, such as Iterate() and BuildMesh(), run one after another, in the order of the calls.
+// Any thread may call the functions of SolverSession, except the destructor; all functions return without
+// waiting for the solver. The session's tasks, such as Iterate() and BuildMesh(), run one after another, in
+// the order of the calls.
 class SolverSession {
  public:
-  // If `opened` is a solution, its options are used instead of `options`.
+  // If `opened` contains a solution, the options of this solution are used instead of `options`.
   SolverSession(const OpenedScene& opened, const PipelineOptions& options);
-  // Cancels all tasks, and waits for the end of the running step.
+  // Cancels all tasks of the session, and waits for the end of the running step.
   ~SolverSession();
   SolverSession(const SolverSession&) = delete;
   SolverSession& operator=(const SolverSession&) = delete;
 
-  // The latest state; never null. The state contains only complete steps.
+  // The latest state of the solution; never null. The state contains only complete steps of the solver.
   std::shared_ptr<const Snapshot> snapshot() const;
   SessionStatus status() const;
 
-  // Continues with another scene or solution. If OpenedScene::restart is given, its links are used, and
-  // linking and iterating only compute the light over these links; in this case, the link options
-  // (IsLinkOption) must equal the options by which these links were made.
+  // Continues the session with another scene or solution. If OpenedScene::restart is set, the links of
+  // `restart` are used, and the tasks Link() and Iterate() only compute the light over these links. With
+  // OpenedScene::restart, the link options (IsLinkOption) must equal the options by which the links of
+  // `restart` were made.
   void SetScene(const OpenedScene& opened);
-  // Sets the options of later tasks. If a link option (IsLinkOption) changes, the next iteration starts from
-  // the beginning.
+  // Sets the options of later tasks. If an option that affects links (IsLinkOption) changes, the next
+  // iteration makes new links and starts from the beginning.
   void SetOptions(const PipelineOptions& options);
-  // Sets PipelineOptions::error_points for later measurements. All results other than measurements remain
-  // valid.
+  // Sets the number of points for later measurements of errors (PipelineOptions::error_points). A change of
+  // the error points invalidates only earlier measurements.
   void SetErrorPoints(std::size_t points);
   PipelineOptions options() const;
 
-  void Link();      // from the beginning
-  void Iterate();   // links first if there are no links
-  void Converge();  // iterates until convergence, then corrects
-  void Correct();   // by exact irradiance
-  // Builds the mesh for a display mode, from the state at the start of the task. If the solver has converged
-  // and `kind` is kInterpolant, the light is refined first (Pipeline::RefineLight), and the snapshot shows
-  // the refined light.
+  void Link();      // discards the solution and makes links between the root elements
+  void Iterate();   // makes one iteration; makes links first if the solution has none
+  void Converge();  // iterates until convergence, then makes the deferred corrections
+  void Correct();   // makes one deferred correction by exact irradiance
+  // Builds a mesh of the given kind, from the state of the solution at the start of the task. If the solver
+  // has converged and `kind` is kInterpolant, the light is refined first (Pipeline::RefineLight), and the
+  // Snapshot shows the refined light.
   void BuildMesh(MeshKind kind);
-  // Measures the energy balance and the errors of the interpolants. Builds the interpolants if necessary. For
-  // a solution from a file, the measurements in the file are kept.
+  // Measures the energy balance and the errors of the irradiance interpolants. Measure() builds the
+  // interpolants if necessary. For a solution from a file, Measure() keeps the measurements that the file
+  // contains.
   void Measure();
-  // Runs Measure(), then `write`.
+  // Runs Measure(), then calls write(pipeline) to save the solution.
   void Save(std::function<void(const Pipeline&)> write);
-  // Runs another long task that reads the latest snapshot, for example to make a picture. If the task throws
-  // InputError, the text of the error becomes SessionStatus::message.
+  // Runs another long task `work` that reads the latest Snapshot, for example to make a picture. If `work`
+  // throws InputError, the text of the error becomes SessionStatus::message.
   void Run(const std::string& phase,
            std::function<void(const Snapshot&, const ExecutionContext& context)> work);
 
-  // Ends the running task after its last complete step, and removes waiting tasks.
+  // Cancels the running task, whose complete steps are kept, and removes all waiting tasks.
   void Cancel();
 
  private:
@@ -95,7 +98,7 @@ class SolverSession {
   void PublishLight(std::size_t corrections);
   void Publish(std::shared_ptr<Snapshot> next);
 
-  mutable std::mutex mutex_;  // guards the following members
+  mutable std::mutex mutex_;  // protects the members that several threads use, which follow
   std::condition_variable wake_;
   std::deque<std::pair<std::string, Task>> tasks_;
   std::shared_ptr<const Snapshot> snapshot_;
@@ -103,14 +106,15 @@ class SolverSession {
   PipelineOptions options_;
   std::shared_ptr<ExecutionContext> running_;
   bool stopping_ = false;
-  bool stale_links_ = false;  // options changed after linking
+  bool stale_links_ = false;  // true if options that affect links changed after the links were made
 
   // Only the solver's thread uses the following members.
   std::shared_ptr<const PatchVisibility> visibility_;
   std::unique_ptr<Pipeline> pipeline_;
-  std::shared_ptr<const PipelineState> restart_;  // its links transport the light; null: the scene's own
-  bool settled_ = false;                          // the iterations have ended
-  bool stored_ = false;  // pipeline_ shows the results from a file, from which it cannot continue
+  // the solution whose links transport the light; null: the scene has its own links
+  std::shared_ptr<const PipelineState> restart_;
+  bool settled_ = false;  // true if the iterations have ended
+  bool stored_ = false;   // pipeline_ shows the results from a file, from which it cannot continue
 
   std::thread thread_;
 };

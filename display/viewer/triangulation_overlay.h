@@ -8,11 +8,12 @@
 
 namespace penumbra::viewer {
 
-// The name of the switch that shows the triangles. While triangles are shown, a click selects a triangle.
+// The name of the overlay switch that shows the triangles of the mesh. While the triangles of the mesh are
+// shown, a click selects a triangle.
 inline constexpr std::string_view kTrianglesSwitch = "triangles";
 
-// Shows the triangles of the irradiance mesh, with edges on discontinuities in violet and all other edges in
-// green (thesis B.4.5).
+// An overlay that shows the triangles of the irradiance mesh, with edges on discontinuities in violet and all
+// other edges in green (thesis B.4.5).
 OverlayRegistry::Method TriangulationOverlayMethod();
 
 }  // namespace penumbra::viewer

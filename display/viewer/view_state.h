@@ -1,7 +1,7 @@
 // display/viewer/view_state.h
 //
-// All parameters of the window's picture except the snapshot. The picture is a function of the snapshot and
-// the ViewState.
+// All parameters of the window's picture except the state of the solution. The window's picture is a function
+// of the Snapshot (state of the solution) and the ViewState.
 
 #pragma once
 
@@ -22,13 +22,14 @@ namespace penumbra::viewer {
 // The modes in which faces are drawn, with the same meaning as in `penumbra render`.
 enum class DrawMode : std::uint8_t { kFlat, kGouraud, kGouraudMesh, kInterpolant, kExact, kLerp, kRho };
 
-// True for modes that cast rays. Until the rays are complete, the picture is drawn by the two-pass display.
+// True for drawing modes that cast rays. Until all rays of the picture have been cast, the two-pass display
+// draws the picture.
 inline bool CastsRays(DrawMode mode) { return mode == DrawMode::kExact || mode == DrawMode::kLerp; }
 
-// The kind of mesh that a mode draws.
+// The kind of mesh that a drawing mode shows.
 MeshKind MeshOf(DrawMode mode);
 
-// The back ends that draw the two passes.
+// The back ends that draw the two passes of the display.
 enum class Backend : std::uint8_t { kSoftware, kOpenGl };
 
 enum class Navigation : std::uint8_t { kArcball, kWalk };
@@ -45,7 +46,7 @@ struct Selection {
   explicit operator bool() const { return kind != SelectionKind::kNone; }
 };
 
-// A point on the front of a patch that a user probes.
+// A point on the front of a patch that the user probes.
 struct ProbedPoint {
   PatchId patch = kNoPatch;
   Vec3 position = Vec3::Zero();
@@ -57,14 +58,14 @@ struct ProbedPoint {
 
 // The settings of the overlays, which are drawn over the faces (thesis B.4).
 struct OverlaySettings {
-  std::set<std::string, std::less<>> shown;  // names of the switches that are on
-  int mesh_depth = 20;                       // deepest level of elements that is drawn
+  std::set<std::string, std::less<>> shown;  // names of the overlay switches that are on
+  int mesh_depth = 20;                       // deepest quadtree level of elements that is drawn
   double link_min_irradiance = 0;            // links with less irradiance are omitted [W/m^2]
-  int link_limit = 5000;                     // largest number of the other links: the strongest are shown
-  double graph_scale = 0.001;                // height of graphs and probes [m per W/m^2]
-  int grid_density = 12;                     // cells per side of a graph over a whole element
-  bool dynamic_grid = true;   // fewer cells for triangles that fill a small part of the element
-  bool hidden_lines = false;  // draw lines behind faces as well
+  int link_limit = 5000;       // largest number of links that are shown; stronger links come first
+  double graph_scale = 0.001;  // height of graphs and probes [m per W/m^2]
+  int grid_density = 12;       // grid cells per side of a graph over a whole element
+  bool dynamic_grid = true;    // use fewer grid cells for triangles that fill a small part of the element
+  bool hidden_lines = false;   // draw lines behind faces as well
 
   bool Shows(std::string_view name) const { return shown.contains(name); }
   bool operator==(const OverlaySettings&) const = default;
@@ -79,23 +80,25 @@ struct ViewState {
 
   DrawMode mode = DrawMode::kFlat;
   Backend backend = Backend::kSoftware;
-  OpenGlCoordinates coordinates = OpenGlCoordinates::kFloat;  // for the passes by OpenGL
+  // how the OpenGL passes compute barycentric coordinates
+  OpenGlCoordinates coordinates = OpenGlCoordinates::kFloat;
   bool faces = true;
-  bool trees_by_reflectance = false;  // flat faces in their reflectance (thesis B.4.1)
-  bool split = false;                 // ids, coordinates and picture side by side (thesis B.3.2)
+  bool trees_by_reflectance = false;  // show the reflectance of each face as a flat colour (thesis B.4.1)
+  bool split = false;  // show triangle ids, barycentric coordinates and picture side by side (thesis B.3.2)
   bool auto_exposure = true;
-  double exposure = 0.01;  // screen value per W/m^2: the thesis's Irradiance-2-Pixel
+  double exposure = 0.01;  // exposure: linear screen value per W/m^2, the thesis's Irradiance-2-Pixel
   bool false_colour = false;
-  double false_colour_max = 0;  // end of the scale [W/m^2]; 0: the value that the exposure makes white
+  // upper end of the false-colour scale [W/m^2]; 0: the value that the exposure makes white
+  double false_colour_max = 0;
   bool error_map = false;
-  double error_map_max = 0.1;  // end of the scale, relative
-  int supersampling = 2;       // of saved pictures: samples per side of a pixel
-  bool isolate = true;         // draw only the selection
+  double error_map_max = 0.1;  // upper end of the colour scale for relative errors [1]
+  int supersampling = 2;       // of saved pictures: number of samples along a side of a pixel
+  bool isolate = true;         // draw only the selected object
 
   OverlaySettings overlays;
   Selection selection;
-  std::optional<ProbedPoint> probe;           // of the irradiance
-  std::optional<ProbedPoint> backprojection;  // of the sources' backprojections
+  std::optional<ProbedPoint> probe;           // point at which the irradiance is probed
+  std::optional<ProbedPoint> backprojection;  // point from which backprojections are shown
 };
 
 }  // namespace penumbra::viewer

@@ -1,7 +1,7 @@
 // display/viewer/viewer.h
 //
-// The viewer without its window: it receives user input and makes pictures. A window, a script or a test
-// drives the viewer, one frame after another.
+// The class Viewer is the viewer without its window: a Viewer receives user input and makes pictures. A
+// window, a script or a test drives the viewer, one frame after another.
 
 #pragma once
 
@@ -26,19 +26,19 @@
 
 namespace penumbra::viewer {
 
-// The state of the panels and dialogs around the picture.
+// The state of the panels and dialogs around the viewer's picture.
 struct PanelState {
   bool control = false, help = false, details = true, report = false, parameters = false;
-  std::string dialog;  // the setting whose value a dialog requests; empty: no dialog
+  std::string dialog;  // the setting whose value the open dialog requests; empty: no dialog is open
   bool quit = false;
 };
 
 struct ViewerOptions {
-  std::string scene_name;  // as the user gave it
+  std::string scene_name;  // name of the scene as the user gave it
   ViewerFiles files;
   PipelineOptions solving;
-  bool solve = true;  // start to solve at once
-  // A function that receives the output line of each probe.
+  bool solve = true;  // if true, solving starts when the scene is opened
+  // A function that receives the CSV line of each irradiance probe.
   std::function<void(const std::string&)> print;
   // A function that receives the name of each opened scene.
   std::function<void(const std::string&)> opened;
@@ -52,21 +52,22 @@ class Viewer {
  public:
   Viewer(const OpenedScene& opened, ViewerOptions options);
 
-  // Makes one frame: takes over new results of the solver and of analyses; in walk mode, moves the camera by
-  // the distance that the user walks in the time `seconds`; and draws width x height pixels. REQUIRES: no
-  // OpenGL context is current in this thread.
+  // Makes one frame of width x height pixels, with the newest results of the solver and of analyses. In walk
+  // mode, Frame() moves the camera by the distance that the user walks in the time `seconds`. REQUIRES: no
+  // OpenGL context is current in the calling thread.
   const Srgb8Image& Frame(int width, int height, double seconds);
 
-  // Processes one event of user input on the picture. Events must be passed in the order of time.
+  // Processes one event of user input on the picture. Input events must be passed to Handle() in the order of
+  // time.
   void Handle(const InputEvent& event);
 
-  // RunMenu() runs a menu item; Set() sets a setting. RunMenu() and Set() throw InputError if the item or
-  // setting does not exist, or if the action fails.
+  // RunMenu() runs a menu item; Set() changes the value of a setting. RunMenu() and Set() throw InputError if
+  // the menu item or setting does not exist, or if the action fails.
   void RunMenu(const std::string& path);
   void Set(const std::string& name, const std::string& value);
 
-  // True if no computation is running, none will start without user input, and the last frame shows all
-  // results.
+  // True if no computation is running, no computation will start without user input, and the last frame shows
+  // all results.
   bool Idle();
 
   const Menu& menu() const { return menu_; }
@@ -77,18 +78,18 @@ class Viewer {
   const PictureMaker& picture() const { return picture_; }
   const std::vector<Camera>& cameras() const { return cameras_; }
   SessionStatus status() const { return session_.status(); }
-  // A few words about running computations other than the solver's.
+  // A few words about the running computations, except those of the solver.
   std::string activity();
-  // The message for the user: the last error that occurred before the last frame; empty if there is no error.
+  // The message for the user: the last error that occurred before the last frame; empty if no error occurred.
   const std::string& message() const { return message_; }
   void Dismiss() { message_.clear(); }
   void Complain(const std::string& message) { message_ = message; }
-  // Descriptions of the selection and the probes, one string per line.
+  // Descriptions of the selected object and of the probed points, one string per line.
   std::vector<std::string> Details() const;
   const std::string& scene_name() const { return options_.scene_name; }
   const PipelineOptions& solving() const { return options_.solving; }
   double seconds_a_frame() const { return seconds_a_frame_; }
-  // True if the mouse only turns the view: in walk mode with mouse look, and without an open dialog.
+  // True if mouse movements only turn the view: in walk mode with mouse look, while no dialog is open.
   bool Looking() const {
     return view_.navigation == Navigation::kWalk && view_.mouse_look && panels_.dialog.empty();
   }
@@ -100,14 +101,14 @@ class Viewer {
   void GoTo(const Camera& camera);
 
  private:
-  // viewer_settings.cpp
+  // Defined in viewer_settings.cpp:
   void AddViewSettings();
   void AddVisualisationSettings();
   void AddViewingSettings();
   void AddSolveSettings();
   void AddSolveSetting(const SolveOption& option);
   void AddFileSettings();
-  // viewer_menu.cpp
+  // Defined in viewer_menu.cpp:
   void AddMenus();
   void AddFileMenu();
   void AddViewingMenu();
@@ -121,7 +122,7 @@ class Viewer {
                   const std::string& value);
   void AskItem(const std::string& path, const std::string& key, const std::string& name);
   void AddCameraMenu();
-  // viewer_input.cpp
+  // Defined in viewer_input.cpp:
   void KeyDown(const InputEvent& event);
   void ButtonDown(const InputEvent& event);
   void ButtonUp(const InputEvent& event);
@@ -132,7 +133,7 @@ class Viewer {
 
   void Home();
 
-  // viewer_files.cpp
+  // Defined in viewer_files.cpp:
   void AddSceneSettings();
   void Take(const OpenedScene& opened);
   void TakeOptions(const OpenedScene& opened);
@@ -153,13 +154,14 @@ class Viewer {
   void DrawOverlays();
   void HearSession();
   bool HasNews() const;
-  // Returns the session, for a task that the user requests. Begin() also discards older messages, so that the
-  // next message of the session is shown even if it equals the last one.
+  // Returns the solver session, for a task that the user requests. Begin() also discards older messages, so
+  // that the next message of the solver session is shown even if it equals the last shown message.
   SolverSession& Begin();
   void SolvingChanged() { session_.SetOptions(options_.solving); }
 
   ViewerOptions options_;
-  std::optional<PipelineOptions> own_links_;  // while links are given: the options of own links
+  // if links of another solution are in use: the options for the scene's own links
+  std::optional<PipelineOptions> own_links_;
   SolverSession session_;
   std::shared_ptr<const Snapshot> snapshot_;
   std::shared_ptr<const MeshState> tools_;
@@ -172,14 +174,15 @@ class Viewer {
   AnalysisResults results_;
   PictureMaker picture_;
   std::string message_;
-  std::string heard_;  // the last message of the session that was shown
+  std::string heard_;  // the last message of the solver session that was shown
   std::size_t printed_ = 0;
   std::shared_ptr<const ProbeResult> printed_probe_;
-  // The meshes that were requested, each with the number of its snapshot. A mesh is requested only once, even
-  // if its computation was cancelled.
+  // The kinds of meshes that were requested, each with the number of the Snapshot (state of the solution) to
+  // which the mesh belongs. The viewer requests a mesh only once per Snapshot, even if the computation was
+  // cancelled.
   std::set<std::pair<std::uint64_t, MeshKind>> asked_;
 
-  // The latest drawing of the overlays, and the data from which it was made.
+  // The latest drawing of the overlays, and the data from which the drawing was made.
   OverlayDrawing drawing_;
   struct DrawnOf {
     std::shared_ptr<const Snapshot> snapshot;
@@ -192,7 +195,7 @@ class Viewer {
   };
   std::optional<DrawnOf> drawn_of_;
 
-  // The state of the pointer.
+  // The state of the mouse pointer.
   PictureSize size_{640, 480};
   double x_ = 0, y_ = 0;
   struct Press {
@@ -208,8 +211,8 @@ class Viewer {
   double clock_ = 0;
   double last_click_ = -1, last_click_x_ = 0, last_click_y_ = 0;
   double seconds_a_frame_ = 0;
-  bool keep_camera_ = false;  // keep the camera when the next scene opens
-  bool fresh_ = false;        // nothing happened after the last frame
+  bool keep_camera_ = false;  // if true, the next opened scene keeps the present camera
+  bool fresh_ = false;        // true if no user input has arrived since the last frame
 };
 
 }  // namespace penumbra::viewer

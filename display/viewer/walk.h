@@ -10,11 +10,13 @@
 
 namespace penumbra::viewer {
 
-// Moves the camera by these distances [m]: along its view, to its right, and along `up`, a unit vector.
+// Moves the camera [m] by `forward` along its view, by `right` to its right, and by `upward` along the unit
+// vector `up`.
 Camera Fly(const Camera& camera, double forward, double right, double upward, const glm::dvec3& up);
 
-// Turns the view by these angles [radians]: to the right about `up`, a unit vector, and upwards. The angle of
-// elevation remains between -90 and 90 degrees. In the result, the camera is upright.
+// Turns the camera's view [radians] by `right` to the right about the unit vector `up`, and by `upward`
+// upwards. The angle of elevation of the view remains between -90 and 90 degrees. The turned camera is
+// upright.
 Camera Look(const Camera& camera, double right, double upward, const glm::dvec3& up);
 
 }  // namespace penumbra::viewer

@@ -6,8 +6,8 @@
 
 namespace penumbra {
 
-// The files of the page that shows a mesh in a browser, sorted by name. The build generates the definition of
-// this function.
+// The files of the HTML page that shows a mesh in a browser, sorted by name. The build generates the
+// definition of EmbeddedPageFiles().
 std::span<const EmbeddedFile> EmbeddedPageFiles();
 
 }  // namespace penumbra

@@ -6,10 +6,11 @@
 
 namespace penumbra {
 
-// The writer of a page that shows the mesh in a browser, by WebGL 2: one HTML file that loads nothing else.
-// The page evaluates the interpolants at every pixel, as the two-pass display does, and gives the same
-// colours. It begins at the camera of the export. Without an exposure, the page meters each camera as
-// MeterExposure() does.
+// The mesh writer for an HTML page that shows the mesh in a browser by WebGL 2; the page is a single file
+// that loads no other file. The HTML page evaluates the quadratic interpolants at every pixel, as the
+// two-pass display does, and gives the same colours. The first view of the HTML page is MeshExport::camera.
+// If MeshExport::exposure is not set, the HTML page determines an exposure for each camera as MeterExposure()
+// does.
 MeshWriterRegistry::Method HtmlWriterMethod();
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // display/walkthrough/page_data.h
 //
-// What the page for browsers knows of a scene and its light.
+// The data about a scene and its light in the HTML page that shows a mesh in a browser.
 
 #pragma once
 
@@ -11,23 +11,27 @@
 namespace penumbra {
 
 struct PageData {
-  // JSON: names, materials, cameras, exposure, and how many vertices and triangles there are. Contains no
-  // `<`, so that it may stand in HTML.
+  // A JSON text with names, materials, cameras, the exposure, and the numbers of vertices and triangles. The
+  // JSON text contains no `<`, so that it can be embedded in HTML.
   std::string description;
-  // Little-endian, one array after the other: positions of the vertices, from the centre of the scene (3
-  // floats each) [m]; three vertices a triangle (uint32); a scale a triangle (float) [W/m^2]; six samples a
-  // triangle of red, green and blue (int16), in the order of MeshNodes; a byte a triangle whose bit k says
-  // whether the edge from vertex k to the next is a discontinuity. The irradiance of a sample is scale *
-  // int16.
+  // Five little-endian arrays, one after the other. Array 1 of the page data has the position of each vertex
+  // relative to the centre of the scene (3 floats) [m]. Array 2 of the page data has the three vertex indices
+  // of each triangle (uint32). Array 3 of the page data has the scale of each triangle's irradiance samples
+  // (float) [W/m^2]. Array 4 of the page data has six samples of red, green and blue for each triangle
+  // (int16), in the order of MeshNodes; the irradiance of a sample is scale * int16. Array 5 of the page data
+  // has a byte for each triangle; bit k tells whether the edge from vertex k to the next vertex is a
+  // discontinuity.
   std::string arrays;
 };
 
-// The samples of a triangle are multiples of its scale: an irradiance is wrong by at most kSampleError of the
-// triangle's largest one, over all channels, and by kEqualIrradiance of the mesh's (FindMeshNodes).
+// The samples of a triangle are integer multiples of the triangle's scale. The error of a sample is at most
+// kSampleError * (largest irradiance of the triangle) + kEqualIrradiance * (largest irradiance of the mesh).
 inline constexpr int kLargestSample = 32767;
-inline constexpr double kSampleError = 0.51 / kLargestSample;  // half a step, and the rounding of the scale
+// half a quantisation step, and the rounding error of the scale
+inline constexpr double kSampleError = 0.51 / kLargestSample;
 
-// Throws InputError if a position or a value is larger than floats hold.
+// Makes the data of the HTML page. Throws InputError if a position or an irradiance exceeds the range of
+// floats.
 PageData MakePageData(const MeshExport& from);
 
 }  // namespace penumbra

@@ -44,8 +44,8 @@ inline void AddBox(Scene& scene, const Vec3& low, const Vec3& high, bool inwards
   }
 }
 
-// n by n closed rooms side by side, each with two lights and ten boxes: from inside one, the others are
-// hidden.
+// Makes n by n closed rooms side by side, each with two lights and ten boxes. From inside a room, all other
+// rooms are hidden.
 inline Scene Rooms(int n) {
   Scene scene;
   scene.materials = GreyAndLight();
@@ -69,8 +69,9 @@ inline Scene Rooms(int n) {
   return scene;
 }
 
-// A square light of side 1 over the origin at height 4, and `n` boards between them, none alone as large as
-// the light; together they hide about half of it.
+// Makes a scene with a square light of side 1 at height 4 above the origin, and `n` boards between light and
+// origin. Each board hides less than the whole light, and all boards together hide about half of the light
+// from the origin.
 inline Scene LightAndBoards(int n) {
   Scene scene;
   scene.materials = GreyAndLight();
@@ -87,7 +88,7 @@ inline Scene LightAndBoards(int n) {
   return scene;
 }
 
-// The form factor of a point to patch 0 past the given blockers.
+// Returns the form factor of a point to the part of patch 0 that the given blockers leave visible.
 inline double VisibleFactor(const Scene& scene, std::span<const PatchId> blockers, const ReceiverPoint& at,
                             const OcclusionMethod& method) {
   PointView view(scene, at, method);

@@ -1,6 +1,7 @@
 // experiments/reference/emitters.h
 //
-// Points on what shines, chosen so that their weights vary little (next-event estimation).
+// Chooses random points on emitters for next-event estimation, such that the weights of the points vary
+// little.
 
 #pragma once
 
@@ -14,19 +15,22 @@ namespace penumbra {
 struct EmitterSample {
   PatchId patch = kNoPatch;
   Vec3 position = Vec3::Zero();
-  Rgb irradiance = Rgb::Zero();  // what the sample counts for if nothing is in between [W/m^2]
+  Rgb irradiance = Rgb::Zero();  // irradiance that the sample stands for if nothing blocks it [W/m^2]
 };
 
 class Emitters {
  public:
-  explicit Emitters(const Scene& scene);  // the scene must outlive it
+  explicit Emitters(const Scene& scene);  // `scene` must outlive the object
 
   bool empty() const { return emitters_.empty(); }
 
-  // A point on the front of an emitter for (u, v, w) in the unit cube, seen from the front of a surface at
-  // `at`. For uniform (u, v, w) the mean of `irradiance`, where the two see each other, is the direct
-  // irradiance. kNoPatch: the sample counts nothing. u chooses among emitters, by a rough guess at what they
-  // bring; (v, w) a point: by area from afar, by solid angle (Arvo 1995) from near.
+  // Maps (u, v, w) in the unit cube to a point on the front of an emitter, for a receiver at `at` with the
+  // normal `normal`. If (u, v, w) is uniformly distributed, the mean of EmitterSample::irradiance over all
+  // samples is the direct irradiance. In the mean of EmitterSample::irradiance, samples that the receiver
+  // does not see count as zero. If the patch of a sample is kNoPatch, the sample contributes nothing. The
+  // number u chooses an emitter, with probabilities from a rough estimate of each emitter's contribution. The
+  // numbers (v, w) choose a point on the emitter, uniformly by area if the emitter is distant, and by solid
+  // angle (Arvo 1995) if it is near.
   EmitterSample Sample(const Vec3& at, const Vec3& normal, double u, double v, double w) const;
 
  private:
@@ -46,11 +50,13 @@ class Emitters {
   std::vector<Emitter> emitters_;
 };
 
-// The direction to a point of the spherical triangle with the unit vertices a, b, c, uniform in solid angle
-// for uniform (v, w) (Arvo, Stratified sampling of spherical triangles, 1995). `area` is its solid angle.
+// Returns the direction to a point of the spherical triangle with the unit vertices a, b and c. The direction
+// is uniformly distributed in solid angle if (v, w) is uniform (Arvo, Stratified sampling of spherical
+// triangles, 1995). `area` is the solid angle of the spherical triangle [sr].
 Vec3 OnSphericalTriangle(const Vec3& a, const Vec3& b, const Vec3& c, double area, double v, double w);
 
-// The solid angle of that triangle [sr] (Van Oosterom and Strackee 1983).
+// Returns the solid angle of the spherical triangle with the unit vertices a, b and c [sr] (Van Oosterom and
+// Strackee 1983).
 double SphericalTriangleArea(const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace penumbra

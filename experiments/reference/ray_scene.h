@@ -1,8 +1,8 @@
 // experiments/reference/ray_scene.h
 //
-// The scene as rays see it (Embree), and nothing of it from the solver. Patches that share a plane block
-// nothing that starts or ends in that plane, however floats round; where two patches lie on each other, one
-// looking either way, the one that looks towards the ray is met.
+// Intersects rays with the patches of a scene by Embree, without any code of the solver. A patch does not
+// block a ray that starts or ends in the patch's plane, whatever the rounding of floats. Where two patches
+// with opposite fronts lie on each other, a ray hits the patch whose front it meets.
 
 #pragma once
 
@@ -13,34 +13,36 @@
 
 namespace penumbra {
 
-// A number for each plane that holds patches, whichever way they look.
+// A number for each plane that contains patches. Patches with opposite fronts in one plane have the same
+// number.
 using PlaneId = std::int32_t;
 inline constexpr PlaneId kNoPlane = -1;
 
 class RayScene {
  public:
-  explicit RayScene(const Scene& scene);  // the scene must outlive it
+  explicit RayScene(const Scene& scene);  // `scene` must outlive the object
   ~RayScene();
 
   PlaneId PlaneOf(PatchId patch) const;
 
-  // The plane of the lowest patch that contains the point, to the resolution of the rays; kNoPlane if none
-  // does.
+  // Returns the plane of the patch with the lowest number that contains the point, within the resolution of
+  // rays. The result is kNoPlane if no patch contains the point.
   PlaneId PlaneAt(const Vec3& point) const;
 
-  // How far positions may be off in floats [m]: 2^-24 of half the scene's largest extent for a vertex and for
-  // the start of a ray each.
+  // Returns the largest error of positions because of rounding to floats [m]. Rounding to floats moves a
+  // vertex, and also the start of a ray, by at most 2^-24 * (half the scene's largest extent).
   double Resolution() const;
 
   struct Hit {
-    PatchId patch = kNoPatch;      // kNoPatch: the ray leaves the scene
-    bool front = false;            // whether the patch was met on its front
-    Vec3 position = Vec3::Zero();  // on the patch's plane, in doubles
+    PatchId patch = kNoPatch;      // patch that the ray hits; kNoPatch: the ray leaves the scene
+    bool front = false;            // true if the ray hits the patch's front
+    Vec3 position = Vec3::Zero();  // point on the patch's plane, computed in doubles
   };
-  // The first patch that a ray from a point of the plane meets. The direction is unit. Safe from any thread.
+  // Returns the first patch that a ray from a point of the plane `from_plane` hits. The direction of the ray
+  // has unit length. Trace() and Blocked() may be called from any thread.
   Hit Trace(const Vec3& from, PlaneId from_plane, const Vec3& direction) const;
 
-  // Whether something stands between a point of one plane and a point of another. Safe from any thread.
+  // Returns true if a patch blocks the segment from a point of one plane to a point of another plane.
   bool Blocked(const Vec3& from, PlaneId from_plane, const Vec3& to, PlaneId to_plane) const;
 
  private:

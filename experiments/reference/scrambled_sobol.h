@@ -1,9 +1,9 @@
 // experiments/reference/scrambled_sobol.h
 //
-// Points that fill the unit cube evenly and are random all the same: Sobol's sequence with the direction
-// numbers of Joe and Kuo (2008), scrambled by a random linear matrix and a digital shift (Matousek 1998).
-// Each point is uniformly distributed, so that a mean over them is unbiased; independent scrambles tell its
-// error.
+// Random points that fill the unit cube evenly: Sobol's sequence with the direction numbers of Joe and Kuo
+// (2008), scrambled by a random linear matrix and a digital shift (Matousek 1998). Each scrambled point is
+// uniformly distributed, so that a mean over the points is unbiased. The spread of the means of independent
+// scrambles gives the error of the mean.
 
 #pragma once
 
@@ -17,11 +17,13 @@ class ScrambledSobol {
   static constexpr int kDimensions = 16;
   using Point = std::array<double, kDimensions>;
 
-  // The same seed and sequence give the same points; two that differ are independent.
+  // The same seed and sequence number give the same points. Different seeds or sequence numbers give
+  // independent points.
   ScrambledSobol(std::uint64_t seed, std::uint64_t sequence);
 
-  // The next point, in (0, 1) in each dimension. Any 2^k points from a multiple of 2^k on, k <= 32, have one
-  // point in each of 2^k equal intervals of every dimension.
+  // Returns the next point of the sequence, in (0, 1) in each dimension. For k <= 32, consider 2^k successive
+  // points whose first index is a multiple of 2^k: each of 2^k equal intervals of every dimension contains
+  // exactly one of them.
   Point Next();
 
  private:

@@ -1,6 +1,7 @@
 // experiments/studies/reference_case.h
 //
-// Scenes with a committed reference, and what solutions of them are measured by.
+// Scenes with reference irradiances that are stored in the repository, and measures of the errors of
+// solutions of these scenes.
 
 #pragma once
 
@@ -16,7 +17,7 @@
 
 namespace penumbra {
 
-// The floor below which an error is no longer relative to a place's own light: of the channel's mean.
+// The smallest denominator of a relative error, as a fraction of the channel's mean irradiance.
 inline constexpr double kDark = 0.01;
 
 struct ReferenceCase {
@@ -25,27 +26,30 @@ struct ReferenceCase {
   std::vector<ReferencePoint> points;
 };
 
-// `name` is a built-in scene with a file in experiments/reference, or `box` or `box_grey` of
-// experiments/peers. Throws InputError where the files are missing.
+// Loads the scene `name` and its reference irradiances. `name` is a built-in scene with a file in
+// experiments/reference, or `box` or `box_grey` in experiments/peers. Throws InputError if the files of the
+// scene or of its reference are missing.
 ReferenceCase LoadReferenceCase(const std::string& name);
 
-// The relative errors of a value at every point and channel: |value - reference| beyond two standard errors
-// of the reference, over the reference or 1 % of the channel's mean, whichever is larger. Points without a
-// value are left out.
+// Returns the relative errors of `value` at every point of the reference and in every channel. An error is
+// max(0, |value - reference| - 2 * (standard error of the reference)) / max(reference, 1 % of the channel's
+// mean). Points where `value` returns nullopt are omitted from the errors.
 std::vector<double> ReferenceErrors(const ReferenceCase& test,
                                     const std::function<std::optional<Rgb>(const ReceiverPoint&)>& value);
 
-// The interpolant at a point, from the first patch that the point lies on the front of, as `probe` has it.
+// Returns the irradiance of the mesh's interpolant at a point. A point that lies on the fronts of several
+// patches belongs to the first of these patches, as in the command `probe`.
 std::optional<Rgb> ShownAt(const Pipeline& pipeline, const ReceiverPoint& at);
 
-// The settings that the thesis gives for its office (7.1), and no refinement that it had not.
+// Returns the settings that the thesis gives for its office scene (thesis 7.1), without refinements that are
+// newer than the thesis.
 PipelineOptions ThesisSettings();
 
-// A solve with its mesh: the median of the repeats' seconds of processors, counts, and the errors of what is
-// shown.
+// The measurements of a solve and its mesh: the median processor time of several repeats, counts, and the
+// errors of the displayed irradiance.
 struct Measured {
   StudyRow row;
-  std::unique_ptr<Pipeline> pipeline;  // the last of the repeats
+  std::unique_ptr<Pipeline> pipeline;  // pipeline of the last repeat
 };
 Measured MeasurePipeline(const ReferenceCase& test, const PipelineOptions& options, int repeats);
 

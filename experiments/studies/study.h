@@ -1,8 +1,8 @@
 // experiments/studies/study.h
 //
-// What a study is: a small program over the stages of the library that tests one claim, and writes rows of
-// speed against error in a form that all studies share. A new study is a file with one `extern const Study`,
-// and a line in studies.cpp.
+// A study is a small program that calls stages of the library to test one claim. All studies write rows with
+// running times and errors in the same form. To add a study, write a file with one `extern const Study`, and
+// add a line to studies.cpp.
 
 #pragma once
 
@@ -18,29 +18,31 @@
 
 namespace penumbra {
 
-// One measurement. What does not apply stays as it is, and is left empty in the CSV.
+// A StudyRow holds one measurement of a study. Members that do not apply to a measurement keep their default
+// values, and are empty in the CSV file.
 struct StudyRow {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-  std::string scene;         // what it was measured on
-  std::string method;        // a line in a plot
-  std::string setting;       // what was varied, in words ("error 0.02")
-  double parameter = kNone;  // the same as a number, where it is one
-  double seconds = kNone;  // the median of the repeats: wall clock, or of processors where the study says so
-  // Errors as the study's title says: relative, unless it says otherwise.
+  std::string scene;         // scene that was measured
+  std::string method;        // name of the line in a plot
+  std::string setting;       // quantity that was varied, in words ("error 0.02")
+  double parameter = kNone;  // varied quantity as a number, if it is one
+  // The median time of the repeats: wall-clock time, or processor time if the study says so [s].
+  double seconds = kNone;
+  // The errors of a StudyRow are relative, unless the study's title says otherwise.
   double error_rms = kNone, error_p95 = kNone, error_p99 = kNone, error_max = kNone;
   std::optional<std::size_t> elements, links, triangles, evaluations, bytes;
 };
 
-// What a study writes to while it runs.
+// A StudyLog receives the results of a study while the study runs.
 class StudyLog {
  public:
   explicit StudyLog(bool quick) : quick_(quick) {}
 
-  // Asks for a run of some seconds at most, which shows that the study works and no more.
+  // If quick() is true, the study should run for a few seconds at most, only to show that it works.
   bool quick() const { return quick_; }
   void Add(StudyRow row);
-  // A sentence on what came out, with its numbers, made from the rows.
+  // Adds a finding: a sentence on the results of the study, with numbers computed from the rows.
   void Find(std::string sentence);
 
   const std::vector<StudyRow>& rows() const { return rows_; }
@@ -53,44 +55,52 @@ class StudyLog {
 };
 
 struct Study {
-  const char* name;        // as `experiments/run` knows it
-  const char* title;       // one line
-  const char* hypothesis;  // what is claimed, and by whom
-  const char* x;           // columns of the plot: of one line the x axis ...
-  const char* y;           // ... and the y axis, both logarithmic
+  const char* name;        // name of the study for `experiments/run`
+  const char* title;       // title of the study, one line
+  const char* hypothesis;  // claim that the study tests, and who made the claim
+  // The columns of the plot: the CSV column for the x axis and the CSV column for the y axis, both
+  // logarithmic.
+  const char* x;
+  const char* y;
   void (*run)(StudyLog& log);
 };
 
-// All studies, in the order of the report.
+// Returns all studies, in the order of the report.
 const std::vector<const Study*>& Studies();
 
-// What a point of a committed reference knows (experiments/reference, experiments/peers).
+// One point of a stored reference solution (experiments/reference, experiments/peers).
 struct ReferencePoint {
-  Vec3 position, normal;      // [m]; unit
-  Rgb irradiance, deviation;  // [W/m^2]; the standard error
+  Vec3 position, normal;      // position [m], and unit normal
+  Rgb irradiance, deviation;  // irradiance and its standard error [W/m^2]
 };
 
-// The rows of a file with the header x,y,z,nx,ny,nz,Er,Eg,Eb,sr,sg,sb,... under the folder experiments/ of
-// the checkout, which is the working directory. Throws InputError where it cannot be read.
+// Reads the points of a reference from a CSV file with the header x,y,z,nx,ny,nz,Er,Eg,Eb,sr,sg,sb,... `name`
+// is a path relative to the folder experiments/ of the repository, whose root must be the working directory.
+// Throws InputError if the reference file cannot be read.
 std::vector<ReferencePoint> ReadReference(const std::string& name);
 
-// Of all threads of this process so far: differences do not depend on what else the machine does [s].
+// Returns the processor time of all threads of this process so far [s]. Differences of processor times depend
+// little on other work of the machine.
 double ProcessorSeconds();
 
-// The median of the wall-clock seconds of `repeats` calls, and the same of the processors' seconds.
+// MedianSeconds() returns the median wall-clock time of `repeats` calls of `work` [s], and
+// MedianProcessorSeconds() their median processor time [s].
 double MedianSeconds(int repeats, const std::function<void()>& work);
 double MedianProcessorSeconds(int repeats, const std::function<void()>& work);
 
-// The wall-clock seconds of one call, taken over as many calls as last at least `at_least` seconds.
+// Returns the mean wall-clock time of one call of `work` [s], measured over so many calls that they last at
+// least `at_least` seconds in total.
 double SecondsPerCall(double at_least, const std::function<void()>& work);
 
-// Fills the error columns from absolute values of errors; none leaves them empty.
+// Sets the error columns of `row` from absolute values of errors. If `errors` is empty, the error columns of
+// `row` remain empty.
 void SetErrors(std::vector<double> errors, StudyRow* row);
 
-// The same from errors that were measured at points.
+// Sets the error columns of `row` from the statistics of errors at random points.
 void CopyErrors(const RepresentationError& errors, StudyRow* row);
 
-// The slope of log y over log x by least squares; pairs that are not positive are left out.
+// Returns the slope of log y over log x by least squares. Pairs (x, y) with a value that is not positive are
+// left out of the fit.
 double LogSlope(const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace penumbra

@@ -6,9 +6,10 @@
 
 namespace penumbra {
 
-// Adaptive discontinuity meshing (Stuerzlinger 1994): chooses the discontinuities that cross a leaf whose
-// corners see different parts of the source, in order of decreasing weight. If a leaf has no room for a
-// discontinuity, other leaves may still use it as an edge.
+// Adaptive discontinuity meshing (Stuerzlinger 1994): chooses, in order of decreasing weight, the
+// discontinuities that cross a quadtree leaf from whose corners different parts of the light source are
+// visible. If a quadtree leaf has no room for a discontinuity, other leaves may still use the discontinuity
+// as an edge.
 DiscontinuityChoiceRegistry::Method AdaptiveChoiceMethod();
 
 }  // namespace penumbra

@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// Chooses all discontinuities, without a limit to the number in one leaf.
+// Chooses all discontinuities as edges of the mesh, without a limit to their number in one quadtree leaf.
 DiscontinuityChoiceRegistry::Method AllChoiceMethod();
 
 }  // namespace penumbra

@@ -1,11 +1,13 @@
 // mesh/discontinuities/discontinuity.h
 //
-// Discontinuities: the places on a patch where the irradiance is not smooth (thesis, chapter 5).
-// Discontinuities are the traces, on the patch, of the critical surfaces of sources and blockers.
+// Discontinuities: the lines on a patch where the irradiance is not smooth (thesis, chapter 5).
+// Discontinuities are the intersections of a patch with critical surfaces, across which the visible part of a
+// light source changes its topology.
 //
-// Notation: R is the receiver, S the source, b a point of a blocker, x the point where the line from S
-// through b meets R's plane, and h the height above R's plane. Discontinuities are straight segments. The
-// thesis omits triple-edge (EEE) events (5.2); options.triple_edge_tolerance adds them as polylines.
+// In comments on discontinuities, R is the receiver, S the source, b a point of a blocker, x the point where
+// the line from S through b meets R's plane, and h the height above R's plane. Each Discontinuity is a
+// straight segment. The thesis omits triple-edge discontinuities (EEE, thesis 5.2).
+// DiscontinuityOptions::triple_edge_tolerance adds the triple-edge discontinuities as polylines.
 
 #pragma once
 
@@ -25,19 +27,24 @@
 
 namespace penumbra {
 
-// kNear is no discontinuity in the strict sense: below the edge of a source that hangs closely above the
-// receiver, the irradiance falls within a few times the edge's height. Where the triangles of the mesh are
-// larger than a few times the edge's height, the mesh must follow the edge like a discontinuity.
+// A discontinuity of kind kNear is no discontinuity in the strict sense. Below the edge of a source that
+// hangs closely above the receiver, the irradiance falls within a few times the edge's height. If the
+// triangles of the mesh are larger than a few times the height of an edge that hangs closely above the
+// receiver, the mesh must follow the edge like a discontinuity.
 enum class DiscontinuityKind : std::uint8_t { kVE, kEV, kHorizon, kContact, kEEE, kNear };
 
-// The lowest derivative of the irradiance that jumps. Generic VE, EV and EEE events are D2. A horizon is D1,
-// and so is an event whose source edge and blocker edge lie in one plane. A contact is D0.
+// The order of the lowest derivative of the irradiance that jumps across a discontinuity. At generic VE
+// (vertex-edge), EV (edge-vertex) and EEE (three-edge) events, the second derivative of the irradiance jumps
+// (D2). At the horizon of a source (where the source's plane meets the receiver), the first derivative of the
+// irradiance jumps (D1). The first derivative also jumps if the source edge and the blocker edge of an event
+// lie in one plane. At a contact with another surface, the irradiance itself jumps (D0).
 enum class DiscontinuityDegree : std::uint8_t { kD0, kD1, kD2 };
 
 // The change of the irradiance across a discontinuity, along the normal of its line in the receiver, for a
-// source of 1 W/m^2. `gradient` and `curvature` are jumps of derivatives. `largest_gradient` and
-// `largest_value` are upper bounds of the total changes of gradient and irradiance that the event causes; the
-// changes are bounded because the effect of the event ends at some distance from the discontinuity.
+// source of 1 W/m^2. `gradient` and `curvature` are the jumps of the irradiance's first and second
+// derivatives. `largest_gradient` and `largest_value` are upper bounds of the total changes of gradient and
+// irradiance that the event causes. The total changes of gradient and irradiance are bounded because the
+// effect of an event ends at some distance from its discontinuity.
 struct IrradianceJump {
   double gradient = 0;          // jump of the first derivative, of D1 events [1/m]
   double curvature = 0;         // jump of the second derivative, of D2 events; infinite for D1 [1/m^2]
@@ -45,107 +52,123 @@ struct IrradianceJump {
   double largest_value = 0;     // [1]
 };
 
-// A segment of nonzero length on the receiver (thesis 5.5.3).
+// A discontinuity is a segment of nonzero length on the receiver (thesis 5.5.3).
 struct Discontinuity {
-  std::array<Vec2, 2> end = {Vec2::Zero(), Vec2::Zero()};  // in the frame PolygonFrame() of the receiver [m]
+  std::array<Vec2, 2> end = {Vec2::Zero(), Vec2::Zero()};  // ends in the receiver's PolygonFrame() [m]
   DiscontinuityKind kind = DiscontinuityKind::kVE;
   DiscontinuityDegree degree = DiscontinuityDegree::kD2;
   PatchId receiver = kNoPatch;
-  PatchId source = kNoPatch;   // kNoPatch for a contact
-  PatchId blocker = kNoPatch;  // kNoPatch for a horizon and a near edge; the touching patch for a contact
-  // source_part and blocker_part are the numbers of the vertices or edges that cause the event. For VE,
-  // source_part is a vertex of the source, and blocker_part an edge of the blocker. For EV, source_part is an
-  // edge, and blocker_part a vertex. For EEE, source_part and blocker_part are edges; source_part is -1 if no
-  // edge belongs to the source. For kNear, source_part is the edge of the source. An edge is numbered by the
-  // vertex where it starts.
+  PatchId source = kNoPatch;  // source of light; kNoPatch for a contact
+  // The blocker; kNoPatch for the horizon of a source and for kind kNear. For a contact, the blocker is the
+  // patch that touches the receiver.
+  PatchId blocker = kNoPatch;
+  // source_part and blocker_part are the numbers of the source's and the blocker's vertices or edges that
+  // cause the event. For a VE event, source_part is a vertex of the source, and blocker_part an edge of the
+  // blocker. For an EV event, source_part is an edge of the source, and blocker_part a vertex of the blocker.
+  // For an EEE event, source_part and blocker_part are edges; source_part is -1 if all three edges belong to
+  // blockers. For kind kNear (a line close below an edge of a source), source_part is the number of this
+  // edge. An edge of a patch has the number of the vertex where it starts.
   std::int32_t source_part = -1, blocker_part = -1;
-  PatchEdge second_blocker_edge, third_blocker_edge;  // EEE; the third if no edge is the source's
-  // For D1 events, the edge of the source and the edge of the blocker that lie in one plane.
+  // The second and third blocker edges of an EEE (three-edge) event. A three-edge event has a third blocker
+  // edge only if no edge of the event belongs to the source.
+  PatchEdge second_blocker_edge, third_blocker_edge;
+  // The source edge and the blocker edge that lie in one plane, for an event where the first derivative of
+  // the irradiance therefore jumps (D1).
   std::int32_t shared_source_edge = -1;
   PatchEdge shared_blocker_edge;
-  double geometric_weight = 0;  // max(d_sb / d_sr), at most 1; 1 for a horizon, infinite for a contact
+  // The geometric weight is the largest ratio d_sb / d_sr of the distances source-blocker and
+  // source-receiver, at most 1. The geometric weight of a horizon is 1, and that of a contact is infinite.
+  double geometric_weight = 0;
   static constexpr int kJumps = 3;
-  std::array<IrradianceJump, kJumps> jump;  // at points spread along the segment
-  double strength = 0;                      // the source's largest radiosity [W/m^2]
-  double weight = 0;                        // on the whole receiver [W/m^2], see Weight()
-  bool wanted = false;                      // refinement has requested it, whatever its weight
+  std::array<IrradianceJump, kJumps> jump;  // jumps at points spread along the segment
+  double strength = 0;                      // largest radiosity of the source [W/m^2]
+  double weight = 0;                        // result of Weight() for the whole receiver [W/m^2]
+  bool wanted = false;  // refinement of the mesh has requested this edge, whatever its weight
 };
 
-// True if `a` and `b` are the same trace of the same critical surface, even if they were found by separate
-// calls.
+// True if `a` and `b` are the same part of the same critical surface on the receiver, even if separate calls
+// found them.
 inline bool SameTrace(const Discontinuity& a, const Discontinuity& b) {
   return a.source == b.source && a.kind == b.kind && a.end[0] == b.end[0] && a.end[1] == b.end[1];
 }
 
 inline constexpr double kInfiniteWeight = std::numeric_limits<double>::infinity();
 
-// The weight [W/m^2] of the discontinuity on a piece of the mesh. `size` [m] is the extent of the piece
-// across the discontinuity; `margin` [m] is the smallest distance between the discontinuity and the piece's
-// borders.
-//  kThesis: geometric_weight * strength (thesis 5.3), independent of the piece.
-//  kIrradiance: strength * min(largest_value, KinkError() * max(|gradient|, largest_gradient), BendError() *
-//   |curvature|), with the members of the IrradianceJump: an estimate of the error of the quadratic through
-//   the piece's nodes if the piece has no edge along the discontinuity.
-//  With both kinds, the weight of a contact is kInfiniteWeight.
+// Returns the weight [W/m^2] of the discontinuity on a piece of the mesh, such as a quadtree leaf. `size` [m]
+// is the extent of the piece of the mesh across the discontinuity. `margin` [m] is the smallest distance
+// between the discontinuity and the borders of the piece.
+//  kThesis: the weight is geometric_weight * strength (thesis 5.3), independent of the piece of the mesh.
+//  kIrradiance: the weight is strength * min(largest_value, KinkError() * max(|gradient|, largest_gradient),
+//   BendError() * |curvature|), with the members of IrradianceJump. The weight kIrradiance estimates the
+//   error of the quadratic through the nodes of a piece of the mesh if no edge follows the discontinuity.
+//  With both kinds of weight, the weight of a contact with another surface is kInfiniteWeight.
 double Weight(const Discontinuity& d, DiscontinuityWeight kind, double size,
               double margin = std::numeric_limits<double>::infinity());
 
-// The maximum over x and c in [0, 1] of |f(x) - q(x)|, where q is the quadratic that interpolates f at 0, 1/2
-// and 1. f(x) = max(0, x - c) for kKinkError, and f(x) = max(0, x - c)^2 / 2 for kBendError.
+// kKinkError and kBendError are the maximum of |f(x) - q(x)| over x and c in [0, 1], where q is the quadratic
+// that interpolates f at 0, 1/2 and 1. For kKinkError, the interpolated function is f(x) = max(0, x - c). For
+// kBendError, the interpolated function is f(x) = max(0, x - c)^2 / 2.
 inline constexpr double kKinkError = 0.0962;
 inline constexpr double kBendError = 0.0188;
-// Let a quadratic interpolate a function on an interval of length `size` [m], in which c is at least `margin`
-// [m] from the ends. KinkError() bounds the error for max(0, x - c) by min(kKinkError * size, margin) [m].
-// BendError() bounds the error for max(0, x - c)^2 / 2 by min(kBendError * size^2, margin^2 / 2) [m^2].
+// For KinkError() and BendError(), a quadratic interpolates a function on an interval of length `size` [m],
+// and the function has a kink or bend at c, at least `margin` [m] from the ends. KinkError() bounds the
+// quadratic's error for the function max(0, x - c) by min(kKinkError * size, margin) [m]. BendError() bounds
+// the quadratic's error for the function max(0, x - c)^2 / 2 by min(kBendError * size^2, margin^2 / 2) [m^2].
 double KinkError(double size, double margin);
 double BendError(double size, double margin);
 
-// Finds the discontinuities of one receiver per call. The constructor finds the patches that share edges.
+// A DiscontinuityFinder finds the discontinuities of one receiver per call. The constructor of
+// DiscontinuityFinder finds which patches share edges.
 class DiscontinuityFinder {
  public:
-  // Scene and visibility must outlive the finder.
+  // Scene and visibility must outlive the DiscontinuityFinder.
   DiscontinuityFinder(const Scene& scene, const PatchVisibility& visibility);
   ~DiscontinuityFinder();
   DiscontinuityFinder(DiscontinuityFinder&&) noexcept;
 
-  // Returns all contacts on the receiver, and its other discontinuities whose weight on the whole receiver is
-  // at least options.min_weight. `source_strength` [W/m^2] holds for each patch the largest radiosity over
-  // the patch's leaves and the channels.
-  //  (1) Every segment lies on the receiver and is longer than SnapDistance().
-  //  (2) The same input gives the same list, in the same order. Equal segments may occur several times.
-  //  (3) An edge that two patches share causes a VE event only if the edge is a silhouette: not if both
-  //   patches face the source's vertex, or both face away. The event occurs once, not once per patch. A
-  //   corner causes an EV event only if at least two edges at the corner are silhouettes, and these edges do
-  //   not lie in one line.
-  //  (4) Unless options.keep_hidden is set, the list omits hidden parts of segments: at these parts, another
-  //   blocker of the pair intersects the lines from the receiver through vertex and edge.
+  // Find() returns all contacts (lines where surfaces touch the receiver), and all other discontinuities
+  // whose weight on the whole receiver is at least options.min_weight. `source_strength` [W/m^2] holds for
+  // each patch the largest radiosity over the patch's quadtree leaves and the channels.
+  //  (1) Every discontinuity lies on the receiver and is longer than SnapDistance().
+  //  (2) The same input gives the same list of discontinuities, in the same order. Equal segments may occur
+  //   several times in the list of discontinuities.
+  //  (3) An edge that two patches share causes a VE event only if the edge is a silhouette: the source's
+  //   vertex sees the front of exactly one of the two patches. The VE event of a shared edge occurs once in
+  //   the list, not once per patch. A corner of a blocker causes an EV event only if at least two edges at
+  //   the corner are silhouettes, and these edges do not lie in one line.
+  //  (4) Unless options.keep_hidden is set, the list omits the hidden parts of discontinuities. A part of a
+  //   discontinuity is hidden if another blocker cuts the lines from this part through the vertex and the
+  //   edge of the event.
   //  (5) Edges and vertices of blockers within ContactGap() of the receiver count as touching the receiver.
-  //   Edges and vertices that touch the receiver cause contacts, but no further discontinuities.
-  //  (6) If options.triple_edge_tolerance > 0, the list includes the pieces of EEE events.
-  //  (7) For an edge of a source whose height above the receiver is at most kMaxHangingHeight times the
-  //   edge's length, the list includes lines of kind kNear along the edge, at increasing distances from the
-  //   edge.
-  // May be called from several threads at once. If the context is cancelled, the result is incomplete.
+  //   Edges and vertices that touch the receiver cause contacts, but no other discontinuities.
+  //  (6) If options.triple_edge_tolerance > 0, the list includes the polylines of EEE (three-edge) events.
+  //  (7) The list includes lines of kind kNear for each source edge whose height above the receiver is at
+  //   most kMaxHangingHeight * (length of the edge). Lines of kind kNear are parallel to the edge of the
+  //   source, at increasing distances from the edge.
+  // Find() may be called from several threads at once. If the computation is cancelled, the list of
+  // discontinuities is incomplete.
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
                                   const DiscontinuityOptions& options,
                                   const ExecutionContext& context = ExecutionContext()) const;
 
-  // Two functions that compute the result of Find() in parts. FindContacts() returns the contacts. FindFrom()
-  // returns the discontinuities that one source causes; the source is an element of
-  // PatchVisibility::SourcesOf(receiver). `strength` is the largest radiosity of the source [W/m^2]; unless
-  // Counts(strength), the list is empty. If the context is cancelled, the result is incomplete.
+  // FindContacts() and FindFrom() compute the result of Find() in parts. FindContacts() returns the contacts
+  // on the receiver, the lines where other surfaces touch the receiver. FindFrom() returns the
+  // discontinuities that one source causes on the receiver; the source is an element of
+  // PatchVisibility::SourcesOf(receiver). `strength` is the largest radiosity of the source [W/m^2]. If
+  // Counts(strength, options) is false, the list of discontinuities is empty. If the computation is
+  // cancelled, the list of discontinuities is incomplete.
   std::vector<Discontinuity> FindContacts(PatchId receiver, const DiscontinuityOptions& options) const;
   std::vector<Discontinuity> FindFrom(PatchId receiver, const PatchPair& pair, double strength,
                                       const DiscontinuityOptions& options,
                                       const ExecutionContext& context = ExecutionContext()) const;
-  // True if a source of this strength can cause a discontinuity of the minimum weight: the geometric weight
-  // and the form factor of a source are at most 1.
+  // True if a source of radiosity `strength` can cause a discontinuity of the minimum weight. No weight of a
+  // discontinuity exceeds `strength`, because geometric weights and form factors are at most 1.
   static bool Counts(double strength, const DiscontinuityOptions& options) {
     return strength > 0 && strength >= options.min_weight;
   }
 
-  // The result of JumpAt() for a discontinuity of this scene at `at`, a point of its line in the receiver's
-  // frame [m].
+  // Returns the result of JumpAt() for a discontinuity of this scene. The point `at` lies on the line of the
+  // discontinuity, and is given in the receiver's frame [m].
   IrradianceJump Jump(const Discontinuity& d, const Vec2& at) const;
 
  private:

@@ -1,7 +1,8 @@
 // mesh/discontinuities/discontinuity_cache.h
 //
-// A cache of discontinuities (thesis 5.4). The weight of a discontinuity is the product of a geometric
-// factor, which the cache computes once together with the trace, and the source's current radiosity.
+// A cache of discontinuities (thesis 5.4). The weight of a discontinuity is the product of a geometric factor
+// and the source's current radiosity. The DiscontinuityCache computes the geometric factor of each
+// discontinuity only once.
 
 #pragma once
 
@@ -16,21 +17,21 @@ namespace penumbra {
 
 class DiscontinuityCache {
  public:
-  // Scene and visibility must outlive the cache.
+  // Scene and visibility must outlive the DiscontinuityCache.
   DiscontinuityCache(const Scene& scene, const PatchVisibility& visibility);
 
-  // Returns exactly the result of DiscontinuityFinder::Find(). The discontinuities of a source are traced
-  // when its strength first reaches the minimum. The discontinuities of a source are traced again only if
-  // options other than the strengths change, or if the source has become so bright that further
-  // discontinuities reach the minimum weight. Several threads may call the function at once for different
-  // receivers. If the context is cancelled, the result is incomplete; the cache keeps the sources that were
-  // traced completely.
+  // DiscontinuityCache::Find() returns exactly the result of DiscontinuityFinder::Find(). The discontinuities
+  // of a source are computed when the source's largest radiosity first reaches the minimum weight. The
+  // discontinuities of a source are computed again only if options other than the radiosities change, or if
+  // the source has become so bright that further discontinuities reach the minimum weight. Several threads
+  // may call Find() at once for different receivers. If the computation is cancelled, the result is
+  // incomplete, and the cache keeps the discontinuities of those sources that were completed.
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
                                   const DiscontinuityOptions& options,
                                   const ExecutionContext& context = ExecutionContext());
 
-  // The number of pairs of receiver and source that were traced since construction, and the number of pairs
-  // for which the cache already had the discontinuities.
+  // Counts the pairs of receiver and source whose discontinuities were computed since construction, and the
+  // pairs whose discontinuities were already in the cache.
   struct Counts {
     std::size_t traced = 0, kept = 0;
   };
@@ -39,14 +40,14 @@ class DiscontinuityCache {
  private:
   struct Source {
     bool traced = false;
-    double least = 0;  // smallest known weight for a source of 1 W/m^2
+    double least = 0;  // smallest weight, for a source of 1 W/m^2, that `edges` includes
     std::vector<Discontinuity> edges;
   };
   struct Receiver {
     bool known = false;
-    DiscontinuityOptions options;  // all entries were found with these options
+    DiscontinuityOptions options;  // options with which all entries were found
     std::vector<Discontinuity> contacts;
-    std::vector<Source> sources;  // in the order of PatchVisibility::SourcesOf()
+    std::vector<Source> sources;  // sources of the receiver, in the order of PatchVisibility::SourcesOf()
     Counts counts;
   };
 

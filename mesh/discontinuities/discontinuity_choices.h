@@ -6,7 +6,8 @@
 
 namespace penumbra {
 
-// The registry of all methods that choose discontinuities. The first is the default.
+// The registry of all methods that choose discontinuities. The first method in the registry is the default
+// choice of discontinuities.
 DiscontinuityChoiceRegistry& DiscontinuityChoices();
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // mesh/discontinuities/leaf_lines.h
 //
-// Records which lines cross which leaves of a patch while the patch's discontinuities are activated one by
-// one.
+// Records which discontinuity lines cross which quadtree leaves of a patch, while the patch's discontinuities
+// become edges one by one.
 
 #pragma once
 
@@ -18,41 +18,46 @@
 
 namespace penumbra {
 
-// The corners of a leaf in the plane of its patch, counter-clockwise [m].
+// The corners of a quadtree leaf in the plane of its patch, counter-clockwise [m].
 Polygon2 LeafOutline(const Element& leaf, const Frame& frame);
 
-// A leaf that a discontinuity meets.
+// A quadtree leaf that a discontinuity meets.
 struct Impinged {
-  std::size_t leaf;  // index in LeafLines::leaves()
+  std::size_t leaf;  // index of the leaf in LeafLines::leaves()
   bool inside;       // the discontinuity crosses the leaf's interior, not only its border
 };
 
 class LeafLines {
  public:
-  // At construction, no leaf has lines. At most `most` lines may cross the interior of a leaf.
+  // At construction, no quadtree leaf has discontinuity lines. At most `most` discontinuity lines may cross
+  // the interior of a leaf.
   LeafLines(const ElementForest& forest, PatchId patch, std::size_t most);
 
-  // The leaves of the patch, depth first.
+  // The quadtree leaves of the patch, depth first.
   std::span<const ElementId> leaves() const { return leaves_; }
 
-  // The leaves that the discontinuity meets. The result is valid until the next call of Meet().
+  // Returns the quadtree leaves that the discontinuity meets. The result of Meet() is valid until the next
+  // call of Meet().
   std::span<const Impinged> Meet(const Discontinuity& d);
-  // Adds to `cost` the parts of the discontinuity in the interiors of leaves, with their jumps. `number` is
-  // the index of `line` in `jumps`; scale[i] multiplies the errors on leaf i.
+  // Adds to `cost` the parts of the discontinuity in the interiors of leaves, with their jumps of irradiance.
+  // `number` is the index of the line in the LineJumps `jumps`. The errors on leaf i are multiplied by
+  // scale[i].
   void Describe(const Discontinuity& d, const LineJumps& jumps, const DirectedLine& line, std::int32_t number,
                 std::span<const double> scale, OmissionCost* cost);
 
-  // True if the line would cross the leaf's interior, but the leaf already has the largest number of lines.
+  // True if the line would cross the leaf's interior, but the leaf already has the largest number of
+  // discontinuity lines.
   bool Full(const Impinged& i, std::int32_t line) const;
-  // True if at least one leaf that the discontinuity crosses has no room for `line`, the number of the
-  // discontinuity's line; -1 stands for a line that no leaf has yet.
+  // True if at least one leaf that the discontinuity crosses has no room for the discontinuity's line. `line`
+  // is the number of the discontinuity's line, or -1 for a line that no leaf has yet.
   bool Crowds(const Discontinuity& d, std::int32_t line);
-  // Adds the line to the leaf, or, if the leaf has the line already, adds one more discontinuity to this
-  // line.
+  // Adds the discontinuity line to the leaf. If the leaf has the line already, Join() counts one more
+  // discontinuity on the line.
   void Join(const Impinged& i, std::int32_t line);
 
-  // inside()[i] lists the lines through the interior of leaf i, in the order of the calls of Join().
-  // touching()[i] lists these lines and the lines along the border of the leaf.
+  // inside()[i] lists the discontinuity lines through the interior of leaf i, in the order of the calls of
+  // Join(). touching()[i] lists the discontinuity lines through the interior of leaf i and those along the
+  // leaf's border.
   std::span<const std::vector<std::int32_t>> inside() const { return inside_; }
   std::span<const std::vector<std::int32_t>> touching() const { return touching_; }
   // The largest number of discontinuities that Join() has added to one line of one leaf.
@@ -61,8 +66,8 @@ class LeafLines {
  private:
   struct Node {
     Polygon2 outline;
-    std::int32_t first_child = -1;  // in nodes_; -1: a leaf
-    std::size_t leaf = 0;           // index in leaves_
+    std::int32_t first_child = -1;  // index of the first child in nodes_; -1: the node is a leaf
+    std::size_t leaf = 0;           // index in leaves_ if the node is a leaf
   };
 
   void FillNode(std::int32_t index, ElementId id);
@@ -72,11 +77,11 @@ class LeafLines {
   Frame frame_;
   double snap_;
   std::size_t most_;
-  std::vector<Node> nodes_;  // the root first
+  std::vector<Node> nodes_;  // quadtree of the patch, the root first
   std::vector<ElementId> leaves_;
   std::vector<std::int32_t> node_of_leaf_;
   std::vector<std::vector<std::int32_t>> inside_, touching_;
-  std::vector<std::vector<std::size_t>> merged_;  // discontinuities of each line of touching_
+  std::vector<std::vector<std::size_t>> merged_;  // number of discontinuities on each line of touching_
   std::size_t most_merged_ = 0;
   std::vector<Impinged> impinged_;
 };

@@ -1,9 +1,9 @@
 // mesh/discontinuities/line_jumps.h
 //
-// Jumps of the irradiance's derivatives across a line of a patch. Many discontinuities may lie along one
+// Jumps of the irradiance's derivatives across a line on a patch. Many discontinuities may lie along one
 // line, for example those of the parallel slats of a blind, or of the vertical edges of a row of boards.
-// Signed jumps at the same place are added up; many discontinuities of small weight may therefore have a
-// large sum.
+// Signed jumps of derivatives at the same place are added up, so that many discontinuities of small weight
+// may have a large sum.
 
 #pragma once
 
@@ -16,30 +16,33 @@
 
 namespace penumbra {
 
-// Sums over all sources of IrradianceJump * radiosity: `kink` is the sum for D1 discontinuities, `bend` the
-// sum for D2 discontinuities.
+// Sums of IrradianceJump * radiosity over all sources: `kink` is the sum for D1 discontinuities (jumps of the
+// first derivative), `bend` the sum for D2 discontinuities.
 struct LineJump {
   IrradianceJump kink, bend;
 
   void Add(const LineJump& other);
 };
 
-// An estimate [W/m^2] of the error of a quadratic interpolant on a piece of the mesh that has no edge along
-// the line. `size` [m] is the extent of the piece; `margin` [m] is the smallest distance of the line from the
-// piece's borders. The formula is that of Weight() with kIrradiance, except that largest_value is multiplied
-// by sqrt(2 margin / size): where largest_value is the smallest term, the change of the irradiance ends
-// within the piece, and an edge along the line improves only the smaller part of the piece.
+// Returns an estimate [W/m^2] of the error of a quadratic interpolant on a piece of the mesh that a
+// discontinuity line crosses without an edge along the line. `size` [m] is the extent of the piece of the
+// mesh across the line. `margin` [m] is the smallest distance of the line from the borders of the piece. The
+// error estimate is that of Weight() with kIrradiance, except that largest_value is multiplied by sqrt(2
+// margin / size). If largest_value is the smallest term of the error estimate, the change of the irradiance
+// ends within the piece of the mesh. If the change of the irradiance ends within a piece of the mesh, an edge
+// along the line improves only the smaller part of the piece.
 double ErrorWithout(const LineJump& jump, double size, double margin);
 
 class LineJumps {
  public:
-  // line_of[i] is the index in `lines` of the line on which found[i] lies. Contacts, which have no jumps, are
-  // ignored.
+  // line_of[i] is the index in `lines` of the line on which the discontinuity found[i] lies. Contacts are
+  // ignored, because they have no jumps of derivatives.
   LineJumps(std::span<const Discontinuity> found, std::span<const std::int32_t> line_of,
             std::span<const DiscontinuityLine> lines);
 
-  // The sum of the jumps across the line at parameter `t` [m]. If the same D1 event of a source was found
-  // twice, from both ends of the segment in which the two coplanar edges overlap, it is counted once.
+  // Returns the sum of the jumps of derivatives across the line at parameter `t` [m]. The same D1 event of a
+  // source may have been found twice, from both ends of the segment in which the two coplanar edges overlap.
+  // At() counts a D1 event only once, even if the event was found twice.
   LineJump At(std::int32_t line, double t) const;
 
  private:
@@ -47,10 +50,11 @@ class LineJumps {
     double t0, t1;
     LineJump jump;
   };
-  // A segment tree over the ends of pieces: each node holds the sum of the jumps that cover the node's whole
-  // range. At() adds up nodes and never subtracts, so that no rounding errors remain from jumps elsewhere.
+  // A segment tree over the ends of pieces of a line: each node holds the sum of the jumps that cover the
+  // node's whole range. At() adds up nodes of the segment tree and never subtracts, so that no rounding
+  // errors remain from jumps elsewhere.
   struct Line {
-    std::vector<double> place;  // ends of pieces, ascending
+    std::vector<double> place;  // ends of the pieces on the line, ascending
     std::vector<LineJump> node;
   };
 

@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// Chooses no discontinuity: only leaves form the mesh.
+// Chooses no discontinuity, so that the mesh has only the edges that its quadtree leaves require.
 DiscontinuityChoiceRegistry::Method NoneChoiceMethod();
 
 }  // namespace penumbra

@@ -1,8 +1,9 @@
 // mesh/discontinuities/omission_cost.h
 //
-// The cost of omitting a discontinuity from a mesh that already has other edges (thesis 8.2). The active
-// lines of a leaf bound a cell around the discontinuity. The cost is the error, on the cell around the
-// discontinuity, of a quadratic interpolant that does not follow the jumps along the discontinuity's line.
+// The cost of omission: the error that arises if a discontinuity is no edge of a mesh that already has other
+// edges (thesis 8.2). In a quadtree leaf, the lines that are already edges of the mesh enclose a cell around
+// the discontinuity. The cost of omission is the error of a quadratic interpolant on the cell around the
+// discontinuity, if the interpolant does not follow the jumps across the discontinuity.
 
 #pragma once
 
@@ -17,49 +18,51 @@
 
 namespace penumbra {
 
-// A segment of a discontinuity inside a leaf, with the jumps across the segment.
+// A segment of a discontinuity inside a quadtree leaf, with the jumps of irradiance across the segment.
 struct OmittedPart {
   std::size_t leaf = 0;
-  Vec2 from = Vec2::Zero(), to = Vec2::Zero();  // in the frame of the patch [m]
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();  // ends in the frame of the patch [m]
   LineJump jump;
 };
 
-// The result of ErrorWithout() for the segment's jumps on a convex piece of the mesh that the segment crosses
-// [W/m^2].
+// Returns the error estimate ErrorWithout() for the jumps of the segment `part` on a convex piece of the mesh
+// that the segment crosses [W/m^2].
 double ErrorOnPiece(const OmittedPart& part, std::span<const Vec2> piece);
 
 class OmissionCost {
  public:
-  // Starts a new discontinuity, to which subsequent calls of AddPart() add parts.
+  // Starts a new discontinuity, to which the following calls of AddPart() add segments.
   void Begin() { first_part_.push_back(parts_.size()); }
-  // Adds a part of the current discontinuity, in a leaf with this outline and this area [m^2]. Errors on the
-  // leaf are multiplied by `scale`.
+  // Adds a segment of the current discontinuity, in a quadtree leaf with the outline `outline` and the area
+  // `area` [m^2]. Errors of irradiance on the leaf are multiplied by `scale`.
   void AddPart(const OmittedPart& part, const Polygon2& outline, double area, double scale) {
     parts_.push_back({part, area, scale, scale, outline, 0});
   }
 
-  // Sets the error factor of every part to scale(part, error factor of the part's leaf).
+  // Sets the error factor of every segment to scale(segment, error factor of the segment's leaf).
   void Rescale(const std::function<double(const OmittedPart&, double)>& scale) {
     for (Part& part : parts_) part.scale = scale(part.segment, part.leaf_scale);
   }
 
-  // In the functions below, inside[k] holds the numbers of those lines of `active` that cross leaf k; between
-  // calls, lines may be added but not removed. `own` is the number of the discontinuity's own line, by which
-  // cells are not cut; -1 if this line is not active.
+  // In the following functions, inside[k] holds the numbers of those lines of `active` that cross leaf k.
+  // Between two calls of members of OmissionCost, lines may be added to inside[k] but not removed. `own` is
+  // the number of the line on which the discontinuity itself lies, or -1 if this line is not active. The line
+  // of the discontinuity itself does not bound the cell on which the cost of omission is measured.
 
   struct Cost {
-    double by_place = 0;  // with the factors of Rescale() [W/m^2]
-    double at_most = 0;   // with the larger of the part's and the leaf's factors [W/m^2]
+    double by_place = 0;  // cost if each error has the factor set by Rescale() [W/m^2]
+    double at_most = 0;   // cost if each error has the larger of the segment's and the leaf's factors [W/m^2]
   };
 
-  // The cost of omitting discontinuity i: the root mean square of the errors on the leaves that it crosses
-  // [W/m^2]. The costs by_place and at_most decrease as more lines become active.
+  // The cost of omitting discontinuity i: the root mean square of the errors on the leaves that the
+  // discontinuity crosses [W/m^2]. The costs by_place and at_most decrease as more lines become edges of the
+  // mesh.
   Cost Of(std::size_t i, std::int32_t own, std::span<const std::vector<std::int32_t>> inside,
           std::span<const DiscontinuityLine> active);
-  // The number of leaves whose interior discontinuity i crosses.
+  // The number of quadtree leaves whose interior discontinuity i crosses.
   std::size_t LeavesOf(std::size_t i) { return PartsOf(i).size(); }
-  // The parts of discontinuity i in leaves that are not crossed by its line, if the cost of omission on the
-  // leaf is at least `least` [W/m^2].
+  // Returns the segments of discontinuity i in leaves without an edge along its line, if the cost of omission
+  // on the leaf is at least `least` [W/m^2].
   std::vector<OmittedPart> PartsWithout(std::size_t i, std::int32_t own,
                                         std::span<const std::vector<std::int32_t>> inside,
                                         std::span<const DiscontinuityLine> active, double least);
@@ -68,8 +71,8 @@ class OmissionCost {
   struct Part {
     OmittedPart segment;
     double leaf_area, leaf_scale, scale;
-    Polygon2 cell;          // convex
-    std::size_t lines = 0;  // number of the leaf's lines that have cut the cell
+    Polygon2 cell;          // convex polygon
+    std::size_t lines = 0;  // number of the leaf's lines by which the cell has been cut
   };
 
   std::span<Part> PartsOf(std::size_t i);

@@ -6,9 +6,10 @@
 
 namespace penumbra {
 
-// Chooses first the contacts, then other discontinuities in random order, until leaves have no more room: a
-// baseline with which RankedChoiceMethod() is compared. Of the discontinuities that are no contacts, only the
-// fraction DiscontinuityOptions::random_share is considered.
+// Chooses first the contacts with other surfaces, then other discontinuities in random order, until quadtree
+// leaves have no more room. The random choice is a baseline for comparison with RankedChoiceMethod(). Of the
+// discontinuities that are no contacts with other surfaces, only the fraction
+// DiscontinuityOptions::random_share may become edges.
 DiscontinuityChoiceRegistry::Method RandomChoiceMethod();
 
 }  // namespace penumbra

@@ -1,8 +1,8 @@
 // mesh/discontinuities/shadow_crossing.h
 //
 // Adaptive discontinuity meshing (Stuerzlinger 1994) inserts the exact shadow boundaries of a source only in
-// elements that a boundary crosses. A boundary is assumed to cross an element if different parts of the
-// source are visible from the element's corners.
+// elements that a boundary crosses. A shadow boundary is assumed to cross an element if different parts of
+// the light source are visible from the element's corners.
 
 #pragma once
 
@@ -14,15 +14,15 @@
 
 namespace penumbra {
 
-// Tests whether shadow boundaries cross the leaves of one receiver, and caches the results.
+// Tests whether shadow boundaries cross the quadtree leaves of one receiver, and caches the results.
 class ShadowCrossing {
  public:
-  // All arguments must outlive the object; the forest must not change.
+  // All constructor arguments must outlive the ShadowCrossing, and the forest of quadtrees must not change.
   ShadowCrossing(const ElementForest& forest, const PatchVisibility& visibility, PatchId receiver);
 
-  // Tests the visibility of the source's corners and centre from the leaf's corners and centre. Returns false
-  // if the same points of the source are visible from all points of the leaf. As in the paper, the test
-  // misses shadows that lie between the tested points.
+  // Tests which of the source's corners and centre are visible from the leaf's corners and centre. Returns
+  // false if the same points of the light source are visible from all tested points of the leaf. As in the
+  // paper, the visibility test misses shadows that lie between the tested points.
   bool Crosses(PatchId source, ElementId leaf);
 
  private:

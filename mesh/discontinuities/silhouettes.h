@@ -1,8 +1,8 @@
 // mesh/discontinuities/silhouettes.h
 //
-// Finds the patches that meet in an edge or a corner, and the edges that are silhouettes. An edge is a
-// silhouette from a point if one of the edge's two faces faces the point and the other faces away, or if the
-// edge does not have exactly two faces.
+// Finds the patches that meet in an edge or a corner, and the edges that are silhouettes as seen from a
+// point. An edge is a silhouette from a point if one of its two faces faces the point and the other faces
+// away. An edge that does not have exactly two faces is always a silhouette.
 
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace penumbra {
 
-// The edge of a patch from its vertex k to vertex k + 1.
+// An edge of a patch, from the patch's vertex k to vertex k + 1.
 struct PatchEdge {
   PatchId patch = kNoPatch;
   std::int32_t k = 0;
@@ -27,7 +27,8 @@ class Silhouettes {
  public:
   explicit Silhouettes(const Scene& scene);
 
-  // The number of the corner at vertex k, and the number of the edge that starts there.
+  // CornerAt() returns the number of the corner at vertex k of the patch, and EdgeAt() the number of the edge
+  // that starts there.
   std::int32_t CornerAt(PatchId patch, std::int32_t k) const { return corner_at_[Index(patch, k)]; }
   std::int32_t EdgeAt(PatchId patch, std::int32_t k) const { return edge_at_[Index(patch, k)]; }
 
@@ -37,14 +38,15 @@ class Silhouettes {
   }
   std::span<const PatchId> PatchesAround(std::int32_t corner) const { return corners_[Size(corner)].patches; }
   std::span<const PatchEdge> Sharing(std::int32_t edge) const { return edges_[Size(edge)].sharing; }
-  // The vector from the given end of the edge to the other end [m]. REQUIRES: the corner is an end of the
-  // edge.
+  // Returns the vector from the given end of the edge to the other end [m]. REQUIRES: the corner is an end of
+  // the edge.
   Vec3 Away(std::int32_t edge, std::int32_t corner) const;
 
-  // False if exactly two faces meet in the edge and the point sees the fronts of both, or of neither. From a
-  // point in the plane of one face, the edge is a silhouette.
+  // Returns false if exactly two faces meet in the edge, and the point sees the fronts of both or of neither.
+  // Seen from a point in the plane of one of its faces, an edge counts as a silhouette.
   bool IsSilhouette(std::int32_t edge, const Vec3& from) const;
-  // A conservative test: returns false only if the edge is a silhouette from no point of the convex polygon.
+  // A conservative test for a convex polygon of viewpoints: returns false only if the edge is a silhouette
+  // from no point of the polygon.
   bool MayBeSilhouette(std::int32_t edge, std::span<const Vec3> polygon) const;
 
  private:
@@ -54,12 +56,13 @@ class Silhouettes {
     std::vector<PatchId> patches;
   };
   struct Edge {
-    std::int32_t a, b;  // corners
+    std::int32_t a, b;  // numbers of the end corners
     std::vector<PatchEdge> sharing;
   };
 
-  // The heights of the point above the two faces that meet in the edge [m], with the second face oriented
-  // like the first. The result is {0, 0} unless exactly two faces meet in the edge.
+  // Returns the heights of the point above the planes of the two faces that meet in the edge [m], with the
+  // second face oriented like the first. The heights returned by Sides() are {0, 0} unless exactly two faces
+  // meet in the edge.
   std::array<double, 2> Sides(std::int32_t edge, const Vec3& from) const;
 
   static std::size_t Size(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -68,7 +71,7 @@ class Silhouettes {
   const Scene& scene_;
   std::vector<Corner> corners_;
   std::vector<Edge> edges_;
-  std::vector<std::int32_t> corner_at_, edge_at_;  // four per patch
+  std::vector<std::int32_t> corner_at_, edge_at_;  // four entries per patch
 };
 
 }  // namespace penumbra

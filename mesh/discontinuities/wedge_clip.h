@@ -1,8 +1,8 @@
 // mesh/discontinuities/wedge_clip.h
 //
-// The visible parts of a wedge's trace. A wedge is the set of all lines of a VE or EV event from the receiver
-// through the event's vertex to the source; it is a part of the critical plane of the event. The trace of a
-// wedge is a segment on the receiver.
+// Finds the visible parts of the trace of a wedge, a part of the critical plane of a VE or EV event. A wedge
+// is the set of all lines from the receiver through the vertex and the edge of a VE or EV event to the
+// source. The trace of a wedge is the segment in which the wedge meets the receiver.
 
 #pragma once
 
@@ -15,26 +15,27 @@
 namespace penumbra {
 
 struct Wedge {
-  Vec3 apex;                  // the vertex through which all lines pass
-  Vec3 normal;                // unit normal of the critical plane
-  std::array<Vec3, 2> end;    // of the trace
-  double apex_height = 0;     // above the receiver's plane [m]
-  bool through_apex = false;  // EV: the lines continue beyond the apex, to the source
+  Vec3 apex;                // vertex through which all lines of the wedge pass
+  Vec3 normal;              // unit normal of the critical plane
+  std::array<Vec3, 2> end;  // ends of the trace
+  double apex_height = 0;   // height of the apex above the receiver's plane [m]
+  // True for an EV event: the lines of the wedge continue beyond the apex, to the source.
+  bool through_apex = false;
   Vec3 receiver_normal, source_normal;
-  Vec3 on_receiver, on_source;  // a point of each plane
+  Vec3 on_receiver, on_source;  // a point of the receiver's plane, and of the source's plane
   double rounding = 0;          // distances up to this count as zero [m]
 };
 
-// The visible parts of a wedge's trace: ascending disjoint intervals of the parameter t, where t = 0 is the
-// first end of the trace and t = 1 the second end.
+// The visible parts of a wedge's trace on the receiver: ascending disjoint intervals of the parameter t. The
+// first end of the trace is at t = 0, the second end at t = 1.
 class TraceParts {
  public:
   struct Part {
     double t0, t1;
   };
-  // Removes the parts that the blocker hides: those where the blocker intersects the wedge's lines strictly
-  // between source and receiver. A patch that lies in the critical plane, or only on one side of it, hides
-  // nothing.
+  // Removes the parts of the trace that the blocker hides: those where the blocker cuts the wedge's lines
+  // strictly between source and receiver. A patch that lies in the critical plane, or on only one side of
+  // this plane, hides nothing.
   void Hide(const Wedge& wedge, const Patch& blocker);
   const std::vector<Part>& parts() const { return parts_; }
 

@@ -1,9 +1,10 @@
 // mesh/interpolants/closer_sources.h
 //
-// Sources for a point in free space that is closer to a surface than other surfaces are. A leaf sends its
-// mean radiosity, which is right for those who see all of the leaf. A point within a few leaf sizes sees a
-// part of the leaf. CloserSources divides the leaves near the point into quarters, quarters of quarters, and
-// so on, whose radiosities follow from the irradiance that the interpolants show.
+// Light sources for a point in free space, which may be closer to a quadtree leaf of the solution than any
+// other surface is. In the radiosity solution, a quadtree leaf sends its mean radiosity, which is right for
+// receivers that see the whole leaf. A point within a distance of a few leaf sizes may see only a part of the
+// leaf. CloserSources divides the leaves near the point into quarters, quarters of quarters, and so on. The
+// radiosities of the parts of a leaf follow from the displayed irradiance, that of the mesh's interpolants.
 
 #pragma once
 
@@ -21,16 +22,17 @@ namespace penumbra {
 
 class CloserSources {
  public:
-  // The irradiance that is shown at a point of a patch [W/m^2]; nothing where none is shown.
+  // A function that returns the displayed irradiance at a point of a patch [W/m^2], or nullopt where none is
+  // displayed.
   using ShownLight = std::function<std::optional<Rgb>(PatchId, const Vec3&)>;
 
-  // `sources` are those of the solution. Parts are divided while the light on them varies so much that the
-  // point's irradiance may err by a fraction of `error` because of one part. All arguments must outlive the
-  // object.
+  // `sources` are the light sources of the solution. A part of a leaf is divided while the light on the part
+  // varies so much that the point's irradiance may err by more than a fixed fraction of `error` because of
+  // this part. All constructor arguments must outlive the CloserSources.
   CloserSources(const RadiositySolution& solution, const SourceSet& sources, ShownLight light, double error);
 
-  // The patches with leaves near the point, with these leaves divided; nothing if no leaf is near. May be
-  // called from any thread.
+  // Returns the patches with leaves near the point, with these leaves divided; nullopt if no leaf is near.
+  // At() may be called from several threads at once.
   std::optional<DividedSources> At(const ReceiverPoint& at) const;
 
  private:
@@ -40,7 +42,7 @@ class CloserSources {
   const SourceSet& sources_;
   const ShownLight light_;
   const double tolerance_;
-  const Rgb floor_;  // of radiosities to which errors are relative [W/m^2]
+  const Rgb floor_;  // smallest radiosities to which errors are relative [W/m^2]
 };
 
 }  // namespace penumbra

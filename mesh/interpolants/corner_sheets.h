@@ -1,7 +1,7 @@
 // mesh/interpolants/corner_sheets.h
 //
-// The corners of triangles that share a vertex and lie on the same side of all discontinuities of the mesh
-// form a sheet. Light is continuous over a sheet.
+// A sheet is a set of triangle corners that share a vertex of the mesh and lie on the same side of all
+// discontinuities of the mesh. Irradiance is continuous across the triangle corners that form a sheet.
 
 #pragma once
 
@@ -14,25 +14,27 @@ namespace penumbra {
 
 class CornerSheets {
  public:
-  // Sheets of a mesh; its light is not used.
+  // Finds the sheets of a mesh, without regard to its interpolants.
   explicit CornerSheets(const IrradianceMesh& mesh);
 
-  // The number of corner k of triangle t.
+  // The index of corner k of triangle t among the corners of all triangles.
   static std::size_t Corner(std::size_t t, std::size_t k) { return 3 * t + k; }
-  // A number for each sheet: below the number of corners, and equal for the corners of a sheet.
+  // Returns the number of the sheet that contains the triangle corner. Numbers of sheets are smaller than the
+  // number of all triangle corners.
   std::size_t Of(std::size_t corner) const { return sheet_[corner]; }
   std::size_t size() const { return sheet_.size(); }
 
-  // A sheet is straight if its angles add up to pi: its vertex lies within a straight border of a patch, or
-  // within a straight discontinuity.
+  // A sheet is straight if the angles of its corners add up to pi: its vertex lies within a straight border
+  // of a patch, or within a straight discontinuity.
   bool IsStraight(std::size_t sheet) const { return !into_[sheet].isZero(0); }
-  // For a straight sheet, the direction from its vertex into the sheet, perpendicular to the border of the
-  // sheet. The direction is the same for every triangulation. For other sheets, the zero vector.
+  // For a straight sheet, Into() is the direction from the sheet's vertex into the sheet, perpendicular to
+  // the border of the sheet. The direction Into() does not depend on how the patch is triangulated. For a
+  // sheet that is not straight, Into() is the zero vector.
   const Vec3& Into(std::size_t sheet) const { return into_[sheet]; }
 
  private:
-  std::vector<std::size_t> sheet_;  // by corner
-  std::vector<Vec3> into_;          // by sheet
+  std::vector<std::size_t> sheet_;  // number of the sheet of each corner
+  std::vector<Vec3> into_;          // direction into each sheet
 };
 
 }  // namespace penumbra

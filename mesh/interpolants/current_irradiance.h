@@ -1,7 +1,7 @@
 // mesh/interpolants/current_irradiance.h
 //
-// The exact irradiance from a solution that may change. The PointIrradiance is created on demand; Reset()
-// deletes it when the solution changes.
+// The exact irradiance from a radiosity solution that may change. The PointIrradiance is created on demand.
+// Reset() deletes the PointIrradiance, and must be called when the solution changes.
 
 #pragma once
 
@@ -17,14 +17,14 @@ namespace penumbra {
 
 class CurrentIrradiance {
  public:
-  // A function that creates the PointIrradiance of the present solution; it returns null if the context is
-  // cancelled.
+  // A function that creates the PointIrradiance of the present solution, or returns null if the computation
+  // is cancelled.
   using Make = std::function<std::unique_ptr<const PointIrradiance>(const ExecutionContext&)>;
 
   explicit CurrentIrradiance(Make make) : make_(std::move(make)) {}
 
-  // Returns the same object until Reset(); null if the creation of the object was cancelled. Several threads
-  // may call the function at once, but not concurrently with Reset().
+  // Get() returns the same object until Reset() is called, or null if the creation of the object was
+  // cancelled. Several threads may call Get() at once, but not concurrently with Reset().
   const PointIrradiance* Get(const ExecutionContext& context = ExecutionContext()) {
     const std::lock_guard<std::mutex> lock(making_);
     if (!irradiance_) irradiance_ = make_(context);

@@ -17,15 +17,15 @@ namespace penumbra {
 
 struct IrradianceMesh {
   struct Triangle {
-    std::array<std::uint32_t, 3> vertex;  // indices in `positions`, counter-clockwise as seen from the front
+    std::array<std::uint32_t, 3> vertex;  // indices in `positions`, counter-clockwise seen from the front
     PatchId patch = kNoPatch;
     // True for edge k, from vertex k to vertex k + 1, if the edge lies on a discontinuity of the mesh.
     std::array<bool, 3> discontinuity = {false, false, false};
   };
 
-  std::vector<Vec3> positions;                   // [m]; triangles of one patch share vertices, patches do not
-  std::vector<Triangle> triangles;               // consecutive for each patch, in the order of patches
-  std::vector<QuadraticInterpolant> irradiance;  // one per triangle [W/m^2]
+  std::vector<Vec3> positions;  // positions of vertices [m]; only triangles of the same patch share vertices
+  std::vector<Triangle> triangles;               // triangles of all patches, in the order of patches
+  std::vector<QuadraticInterpolant> irradiance;  // interpolant of each triangle [W/m^2]
 };
 
 }  // namespace penumbra

@@ -1,8 +1,8 @@
 // mesh/interpolants/known_light.h
 //
-// Irradiance that is known at points which no mesh was made for. Measurements at fixed places of each
-// triangle can miss a shadow that lies within one large triangle; points known elsewhere reveal it, in every
-// later mesh.
+// Known irradiance at points that are independent of any mesh. Measurements at fixed places of each triangle
+// can miss a shadow that lies within one large triangle. Points with known irradiance reveal, in every later
+// mesh, a shadow that measurements at fixed places of triangles miss.
 
 #pragma once
 
@@ -22,13 +22,13 @@ struct KnownLight {
   Rgb irradiance = Rgb::Zero();  // [W/m^2]
 };
 
-// A sampler that appends what it samples to `known`, for one thread at a time. `known` must outlive the
-// sampler.
+// Returns a sampler that appends its samples to `known`, and that one thread at a time may use. `known` must
+// outlive the returned sampler.
 IrradianceSampler Remembering(IrradianceSampler sampler, std::vector<KnownLight>& known);
 
-// Raises the maximum error of each triangle that contains a known point to the error of the interpolant at
-// the point, as MeasureTriangles() defines it. `mean` is the mean irradiance of each channel [W/m^2].
-// REQUIRES: one error for each triangle of the mesh.
+// Raises the maximum error of each triangle that contains a point of `known` to the error of the interpolant
+// at this point, as MeasureTriangles() defines errors. `mean` is the mean irradiance of each channel [W/m^2].
+// REQUIRES: `errors` has one entry for each triangle of the mesh.
 void RaiseErrors(const Scene& scene, const IrradianceMesh& mesh, std::span<const KnownLight> known,
                  const Rgb& mean, std::span<TriangleError> errors);
 

@@ -1,7 +1,7 @@
 // mesh/interpolants/leaf_irradiance_samples.h
 //
-// Approximate irradiance at points of a leaf. Approximate irradiance is used where the mean irradiance of the
-// leaf is not accurate enough, for example because half of the leaf lies in shadow.
+// Approximate irradiance at points of a quadtree leaf. Approximate irradiance is used where the mean
+// irradiance of a leaf is not accurate enough, for example because half of the leaf lies in shadow.
 
 #pragma once
 
@@ -14,21 +14,22 @@
 
 namespace penumbra {
 
-// Computes the irradiance for the leaves of one patch, and caches the samples. The object must not be used by
-// several threads at once.
+// Computes approximate irradiance on the quadtree leaves of one patch, and caches the samples. A
+// LeafIrradianceSamples must not be used by several threads at once.
 class LeafIrradianceSamples {
  public:
-  // `known`, unless null, holds samples of the same sampler. All arguments must outlive the object; forest
-  // and `known` must not change.
+  // `known`, unless null, holds samples of the same sampler that are used instead of new samples. All
+  // constructor arguments must outlive the LeafIrradianceSamples. The forest of quadtrees and `known` must
+  // not change.
   LeafIrradianceSamples(const ElementForest& forest, PatchId patch, const IrradianceSampler& sampler,
                         const SampleCache* known = nullptr);
 
-  // The approximate irradiance at a point of the leaf [W/m^2]: linear interpolation between samples at the
-  // leaf's corners, at the midpoints of its sides and at its centre.
+  // Returns the approximate irradiance at a point of the leaf [W/m^2]: linear interpolation between samples
+  // at the leaf's corners, at the midpoints of its sides and at its centre.
   Rgb At(ElementId leaf, const Vec3& place);
   // The number of calls of the sampler since construction.
   std::size_t evaluations() const { return samples_.size(); }
-  // The samples of these calls.
+  // All samples that the sampler has computed since construction.
   SampleCache TakeSamples() && { return std::move(samples_); }
 
  private:
@@ -38,7 +39,7 @@ class LeafIrradianceSamples {
   const PatchId id_;
   const Patch& patch_;
   const IrradianceSampler& sampler_;
-  const double uncertainty_;  // [m]
+  const double uncertainty_;  // ReceiverPoint::uncertainty of samples [m]
   const SampleCache* known_;
   SampleCache samples_;
 };

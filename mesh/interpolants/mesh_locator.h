@@ -16,24 +16,25 @@ namespace penumbra {
 class MeshLocator {
  public:
   struct Location {
-    std::uint32_t triangle = 0;  // in IrradianceMesh::triangles
-    double s = 0, t = 0;         // coordinates of the interpolant: s, t >= 0, s + t <= 1
+    std::uint32_t triangle = 0;  // index in IrradianceMesh::triangles
+    double s = 0, t = 0;         // barycentric coordinates: s >= 0, t >= 0, s + t <= 1
   };
 
-  // A point outside all triangles of a patch counts as lying on their border if its distance from the border
-  // is at most kBorder * SnapDistance().
+  // A point outside all triangles of a patch counts as lying on the patch's border if its distance from the
+  // border is at most kBorder * SnapDistance().
   static constexpr double kBorder = 16;
 
-  // Scene and mesh must outlive the locator.
+  // Scene and mesh must outlive the MeshLocator.
   MeshLocator(const Scene& scene, const IrradianceMesh& mesh);
   ~MeshLocator();
   MeshLocator(MeshLocator&&) noexcept;
 
-  // The triangle of the patch that contains the point's projection on the patch. If several triangles contain
-  // the projection, the result is the triangle with the largest minimum barycentric coordinate; if these are
-  // equal, the triangle with the lowest index. A point outside the patch by at most max(tolerance, kBorder *
-  // SnapDistance()) [m] is moved to the border; for a point farther outside, the result is nullopt. May be
-  // called from several threads at once.
+  // Finds the triangle of the patch that contains the projection of the point on the patch's plane. If
+  // several triangles contain the projected point, the result is the triangle in which the point's smallest
+  // barycentric coordinate is largest. Among triangles in which the smallest barycentric coordinate of the
+  // point is equal, the result is the triangle with the lowest index. A point outside the patch by at most
+  // max(tolerance, kBorder * SnapDistance()) [m] is moved to the patch's border. For a point farther outside
+  // the patch, the result of Find() is nullopt. Find() may be called from several threads at once.
   std::optional<Location> Find(PatchId patch, const Vec3& point, double tolerance = 0) const;
 
  private:
@@ -41,7 +42,8 @@ class MeshLocator {
   std::unique_ptr<Impl> impl_;
 };
 
-// The interpolant's value at the location [W/m^2]. The value may be negative near dark places.
+// The value of the mesh's interpolant at the location [W/m^2]. The value of an interpolant may be negative
+// near dark places.
 Rgb IrradianceAt(const IrradianceMesh& mesh, const MeshLocator::Location& at);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // mesh/interpolants/midpoint_prediction.h
 //
-// Predicts the irradiance at midpoints of edges from the samples at the vertices of a mesh. Where light is
-// smooth, the prediction spares three of four samples.
+// Predicts the irradiance at the midpoints of triangle edges from the irradiance at the vertices of a mesh.
+// Where the irradiance is smooth, the prediction saves three of four samples.
 
 #pragma once
 
@@ -18,24 +18,25 @@ namespace penumbra {
 class MidpointPrediction {
  public:
   // corner[t][k] is the irradiance at vertex k of triangle t [W/m^2]. The constructor estimates the gradient
-  // of the irradiance at each vertex: the area-weighted mean of the gradients of the linear functions on the
-  // triangles of a sheet. The arguments must
-  // outlive the object.
+  // of the irradiance at each vertex, separately for each sheet (the triangles at the vertex on one side of
+  // all discontinuities). The gradient of a sheet is the area-weighted mean of the gradients of the linear
+  // functions on the triangles of the sheet. The constructor arguments must outlive the MidpointPrediction.
   MidpointPrediction(const IrradianceMesh& mesh, const CornerSheets& sheets,
                      std::span<const std::array<Rgb, 3>> corner);
 
   struct Midpoint {
-    Rgb value;  // of the cubic with the values and gradients of both ends [W/m^2]
-    Rgb bend;   // value - (mean of both ends) [W/m^2]
+    Rgb value;  // irradiance by the cubic along the edge with the values and gradients at its ends [W/m^2]
+    Rgb bend;   // value - (mean of the irradiances at both ends) [W/m^2]
   };
-  // The midpoint of edge k of triangle t, as seen from the triangle.
+  // The prediction for the midpoint of edge k of triangle t, with the gradients on the triangle's side of
+  // discontinuities.
   Midpoint At(std::size_t t, std::size_t k) const;
 
  private:
   const IrradianceMesh& mesh_;
   const CornerSheets& sheets_;
   std::span<const std::array<Rgb, 3>> corner_;
-  std::vector<Eigen::Matrix3d> gradient_;  // by sheet; one row for each channel [W/m^3]
+  std::vector<Eigen::Matrix3d> gradient_;  // gradient for each sheet; one row per channel [W/m^3]
 };
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // mesh/interpolants/representation_error.h
 //
-// The error of the shown irradiance: interpolants compared with exact irradiance, at points other than the
-// interpolation nodes.
+// The error of the displayed irradiance: interpolants are compared with the exact irradiance, at points other
+// than the interpolation nodes.
 
 #pragma once
 
@@ -19,79 +19,84 @@
 
 namespace penumbra {
 
-// In each part of the scene, the 99th percentile of the errors must be at most kPartError * (requested
-// error).
+// In each part of the scene, for example an object, the 99th percentile of the relative errors must be at
+// most kPartError * (requested error).
 inline constexpr double kPartError = 2;
 
-// Statistics of the relative error |shown - true| / max(true, kErrorFloor * mean irradiance of the channel),
-// over points and channels.
+// Statistics of the relative error |shown - true| / max(true, kErrorFloor * mean irradiance of the channel)
+// of displayed irradiance, over points and channels.
 struct RepresentationError {
   std::size_t points = 0;
   double max = 0, p99 = 0, p95 = 0, rms = 0;
-  // Likely bounds of the true 99th percentile: the quantiles 0.99 + sigma and 0.99 - sigma - 1 / points,
-  // where sigma = sqrt(0.99 * 0.01 / points) is the standard deviation of the fraction of points whose error
-  // exceeds the true percentile.
+  // Likely bounds of the true 99th percentile are the quantiles 0.99 + sigma and 0.99 - sigma - 1 / points of
+  // the measured errors, where sigma = sqrt(0.99 * 0.01 / points). The standard deviation sigma is that of
+  // the fraction of points whose error exceeds the true 99th percentile.
   double p99_at_most = 0, p99_at_least = 0;
-  std::int32_t worst_face = -1;     // face with the largest error, in the user's numbering
-  Vec3 worst_point = Vec3::Zero();  // [m]
+  std::int32_t worst_face = -1;     // face with the largest error, as numbered in the scene file
+  Vec3 worst_point = Vec3::Zero();  // point with the largest error [m]
 };
 
 // Irradiance of at most 1e-10 * (largest emittance) counts as zero [W/m^2]. Coplanar faces whose vertices are
-// rounded to six decimals in a file deviate by angles of 1e-6, and their form factors are about 1e-12.
+// rounded to six decimals in a file deviate by angles of 1e-6, and the form factors between such faces are
+// about 1e-12.
 Rgb NoLight(const Scene& scene);
 
-// The relative errors of all channels: entry 3 i + c is the error of channel c at point i. An error is |shown
-// - true| / max(true, floor), where floor = max(kErrorFloor * the channel's mean over `truth`, `least`).
+// Returns the relative errors of all channels: entry 3 i + c is the error of channel c at point i. A relative
+// error is |shown - true| / max(true, floor), where floor = max(kErrorFloor * the channel's mean over
+// `truth`, `least`).
 std::vector<double> RelativeErrors(std::span<const Rgb> shown, std::span<const Rgb> truth,
                                    const Rgb& least = Rgb::Zero());
 
-// The q-quantile: the smallest entry v of `values` such that at least a fraction q of the entries is <= v.
-// REQUIRES: `values` is not empty.
+// Returns the q-quantile: the smallest entry v of `values` such that at least a fraction q of the entries is
+// <= v. REQUIRES: `values` is not empty.
 double Quantile(std::vector<double> values, double q);
 
-// The error of one channel at one point.
+// The relative error of one channel at one point.
 struct ValueError {
   double error = 0;
   std::size_t point = 0;
 };
 
-// Like RelativeErrors(), but omits those channels at each point that the surface does not reflect
+// Like RelativeErrors(), but omits at each point the channels that the surface does not reflect
 // (ReflectingChannels).
 std::vector<ValueError> SeenErrors(const Scene& scene, std::span<const SurfacePoint> at,
                                    std::span<const Rgb> shown, std::span<const Rgb> truth);
-// The q-quantile of ValueError::error; 0 if `values` is empty.
+// Returns the q-quantile of ValueError::error, or 0 if `values` is empty.
 double Quantile(std::span<const ValueError> values, double q);
 
-// A 99th percentile of this many random points tells the error of a part; one of fewer may be an accident.
+// The number of random points from which the 99th percentile of errors in a part of the scene is reliable.
+// From fewer than kPointsToTellAPart points, a high percentile may be an accident.
 inline constexpr std::size_t kPointsToTellAPart = 300;
 
-// The error in one part of the scene (PartsOf).
+// The error in one part of the scene, for example an object (PartsOf).
 struct PartError {
   std::string name;
-  std::size_t part = 0;  // index in PartsOf()
+  std::size_t part = 0;  // index of the part in PartsOf()
   RepresentationError whole;
 };
 
 struct MeasuredError {
   RepresentationError interpolant;  // interpolants compared with exact irradiance from the same sources
-  RepresentationError
-      sources;  // that irradiance compared with exact irradiance from better sources, whichever differs most
-  RepresentationError whole;       // interpolants compared with exact irradiance from better sources
-  double above = 0;                // fraction of the values of `whole` above `bound`
-  std::vector<PartError> by_part;  // `whole` for each part that is seen
+  // Exact irradiance from the same light sources compared with exact irradiance from more accurate light
+  // sources. If there are several sets of more accurate light sources, the set with the largest differences
+  // counts.
+  RepresentationError sources;
+  RepresentationError whole;       // interpolants compared with exact irradiance from more accurate sources
+  double above = 0;                // fraction of the errors in `whole` that exceed ErrorMeasurement::bound
+  std::vector<PartError> by_part;  // error `whole` for each reflecting part of the scene
 };
 
 // The parameters of MeasureError().
 struct ErrorMeasurement {
   std::size_t points = 0;
   std::uint64_t seed = 0;
-  double bound = 0;  // of errors: MeasuredError::above counts larger ones
+  double bound = 0;  // MeasuredError::above counts errors larger than this
 };
 
-// Measures errors at `points` random points, distributed uniformly by area over the reflecting fronts
-// (ReflectingAreas), and at additional points in each part of the scene, so that the errors of a small part
-// are measured, too. The same seed gives the same points. With probability one, no point is an interpolation
-// node. If `better` is empty, only MeasuredError::interpolant is computed.
+// Measures errors at `points` random points, distributed uniformly by area over the reflecting fronts of
+// patches (ReflectingAreas). Additional points in each part of the scene measure the errors of small parts.
+// The same random seed gives the same points. With probability one, none of the random points is an
+// interpolation node. If the list `better` is empty, only MeasuredError::interpolant is computed.
 MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
                            std::span<const IrradianceSampler> better, const ErrorMeasurement& measurement);
 

@@ -1,7 +1,8 @@
 // mesh/interpolants/row_sampler.h
 //
-// Rows of form factors at the nodes of a mesh. A row gives the irradiance of a node for any light of the same
-// sources as a product.
+// Computes the form factors of mesh nodes (vertices and edge midpoints) to all light sources: one row for
+// each node. For any radiosities of the sources, the product of a node's row with the radiosities is the
+// irradiance at the node.
 
 #pragma once
 
@@ -16,17 +17,20 @@ namespace penumbra {
 
 class RowSampler {
  public:
-  // `exact` gives the rows, within `tolerance` (PointIrradiance::RecordOnPatch). If `rows` is not null, rows
-  // that it holds are taken from there; they must refer to the sources of `exact`. If `keep` is true, new
-  // rows are added to it. The arguments must outlive the object. REQUIRES: exact.CanRecord(); `rows` is not
-  // null if `keep`.
+  // `exact` computes the rows of form factors, within `tolerance` (PointIrradiance::RecordOnPatch). If `rows`
+  // is not null, rows of form factors that the cache `rows` contains are not computed again. The cached rows
+  // of form factors must belong to the sources of `exact`. If `keep` is true, new rows of form factors are
+  // added to the cache `rows`. The constructor arguments must outlive the RowSampler. REQUIRES:
+  // exact.CanRecord() is true, and `rows` is not null if `keep` is true.
   RowSampler(const PointIrradiance& exact, double tolerance, SampleCache* rows, bool keep);
 
-  // A sample with its row for each point. The rows are found in parallel, and only one thread may call.
+  // Returns the irradiance sample and the row of form factors for each point. At() computes the rows of form
+  // factors in parallel, but only one thread may call At().
   std::vector<PointIrradianceResult> At(std::span<const PatchPoint> points) const;
 
-  // The irradiance by the light of another set with the same nodes (SourceSet::WithLight). The row sampler
-  // and `light` must outlive the result, which one thread may use at a time.
+  // Returns a sampler of the irradiance from `light`, a set with the same sources but other radiosities
+  // (SourceSet::WithLight). The RowSampler and `light` must outlive the returned sampler, which one thread at
+  // a time may use.
   IrradianceSampler For(const SourceSet& light) const;
 
   const PointIrradiance& exact() const { return exact_; }

@@ -1,12 +1,12 @@
 // mesh/interpolants/sample_cache.h
 //
-// A cache of irradiance samples that remain valid from one mesh to the next: most nodes keep their positions
-// when leaves are divided or lines are added. The key of a sample is its patch and its exact position. The
-// key of a one-sided sample also contains the approach direction, which identifies the sample's sheet, the
-// side of the contact on which the sample lies.
+// A cache of irradiance samples that remain valid from one mesh to the next. Most sample points keep their
+// positions when quadtree leaves are divided or discontinuity lines are added. The key of a sample consists
+// of the patch and the exact position of the sample. If a sample is a one-sided limit, its key also contains
+// the approach direction, which identifies the side of a contact on which the sample lies.
 //
-// A sample that has a row of form factors (FactorRow) also remains valid when the light changes: its new
-// irradiance is a product.
+// A sample that has its form factors (FactorRow) also remains valid when the light changes: its new
+// irradiance is the product of form factors and radiosities.
 
 #pragma once
 
@@ -21,26 +21,26 @@ namespace penumbra {
 
 class SampleCache {
  public:
-  // The sample at this node; null if it is unknown.
+  // Returns the sample at the given point, or null if the cache does not contain the sample.
   const PointIrradianceResult* Find(PatchId patch, const ReceiverPoint& at) const;
   void Insert(PatchId patch, const ReceiverPoint& at, const PointIrradianceResult& sample);
-  // Gives all samples the values for other sources: for use after the light has changed. `before` is the set
-  // of sources that belongs to the rows, `now` the irradiance from the new sources. Parts of rows that do not
-  // hold for the new light to the tolerance are gathered anew (PointIrradiance::Renew), and so are samples
-  // without rows. Returns the number of sources of points that were gathered. If cancelled, removes all
-  // samples.
+  // Gives all samples the irradiance from other radiosities of the sources, after the light has changed.
+  // `before` is the set of sources to which the cached form factors belong, and `now` is the irradiance from
+  // the changed sources. Form factors that are too inaccurate for the new light, by `tolerance`, are computed
+  // again (PointIrradiance::Renew), and so are samples without form factors. Returns how many times the light
+  // of one source at one point was gathered again. If the computation is cancelled, all samples are removed.
   std::size_t Relight(const SourceSet& before, const PointIrradiance& now, double tolerance,
                       const ExecutionContext& context);
-  // Removes all samples.
+  // Removes all samples from the cache.
   void Clear();
-  // Adds the samples of another cache, as far as their nodes are unknown.
+  // Adds those samples of another cache whose points are not yet in this cache.
   void Merge(SampleCache&& other) { samples_.merge(other.samples_); }
   std::size_t size() const { return samples_.size(); }
 
  private:
   struct Key {
     PatchId patch = kNoPatch;
-    Vec3 position, approach;  // approach is zero for samples that do not depend on it
+    Vec3 position, approach;  // approach is zero if the sample does not depend on it
     bool operator==(const Key& other) const = default;
   };
   struct Hash {

@@ -1,7 +1,7 @@
 // mesh/pipeline/discontinuity_list.h
 //
-// All discontinuities of a solution in one list, for inspection. (The computation of the mesh does not use
-// this list; it finds the discontinuities of each receiver separately.)
+// All discontinuities of a solution in one list, for inspection. The computation of the mesh does not use a
+// DiscontinuityList; it finds the discontinuities of each receiver separately.
 
 #pragma once
 
@@ -17,13 +17,13 @@
 namespace penumbra {
 
 struct DiscontinuityList {
-  std::vector<Discontinuity> all;         // in the order of receivers
-  std::vector<std::array<Vec3, 2>> ends;  // of each discontinuity, in space [m]
+  std::vector<Discontinuity> all;         // discontinuities in the order of receivers
+  std::vector<std::array<Vec3, 2>> ends;  // ends of each discontinuity, in space [m]
 };
 
-// The discontinuities on all patches that may become edges of the mesh, including those that refinement may
-// request. The list holds the results of DiscontinuityFinder::Find() for the solution's radiosities. The list
-// is empty if the context is cancelled.
+// Returns the discontinuities on all patches that may become edges of the mesh, including those that
+// refinement may request. The list holds the results of DiscontinuityFinder::Find() for the radiosities of
+// the solution. The list of discontinuities is empty if the computation is cancelled.
 DiscontinuityList ListDiscontinuities(const RadiositySolution& solution, const PatchVisibility& visibility,
                                       const DiscontinuityOptions& options, const ExecutionContext& context);
 

@@ -1,8 +1,9 @@
 // mesh/pipeline/hdf5_image.h
 //
-// HDF5 files as bytes in memory: typed arrays at paths such as "mesh/positions". Equal arrays, written in the
-// same order, give equal bytes; a file contains no times and no file names. Several threads may read and
-// write at once if each thread uses its own reader or writer.
+// HDF5 files as bytes in memory, which contain typed arrays at paths such as "mesh/positions". Equal arrays,
+// written in the same order, give HDF5 files with equal bytes. An HDF5 file that Hdf5Writer makes contains no
+// times and no file names. Several threads may read and write HDF5 files at once if each thread uses its own
+// Hdf5Reader or Hdf5Writer.
 
 #pragma once
 
@@ -16,13 +17,13 @@
 
 namespace penumbra {
 
-// The error that the HDF5 library cannot read an image; what() is the library's message.
+// The exception for a file image that the HDF5 library cannot read; what() returns the library's message.
 class Hdf5Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// The types of array elements; little-endian in the file.
+// The types of array elements, which are little-endian in the file.
 enum class ScalarType : std::uint8_t { kUint8, kInt32, kUint32, kUint64, kFloat, kDouble };
 
 template <class T>
@@ -52,7 +53,7 @@ struct ScalarTypeOf<double> {
   static constexpr ScalarType value = ScalarType::kDouble;
 };
 
-using ArrayShape = std::vector<std::size_t>;  // outermost dimension first
+using ArrayShape = std::vector<std::size_t>;  // lengths, outermost dimension first
 
 class Hdf5Writer {
  public:
@@ -61,16 +62,17 @@ class Hdf5Writer {
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
-  // Writes an array in row-major order. Large arrays are compressed without loss.
+  // Writes a typed array in row-major order. Large arrays are compressed without loss.
   void Write(const std::string& path, ScalarType type, const ArrayShape& shape, const void* data);
   // Writes a UTF-8 text, which must not end with zero bytes.
   void WriteText(const std::string& path, const std::string& text);
-  // Writes a list of UTF-8 texts of any length, as h5py writes a list of str: bytes that end with a zero
-  // byte. Invalid UTF-8 is kept as it is.
+  // Writes a list of UTF-8 texts of any length, each followed by a zero byte, as h5py writes a list of str.
+  // Invalid UTF-8 in a text is written unchanged.
   void WriteStrings(const std::string& path, const std::vector<std::string>& texts);
-  // Writes a text of this kind as an attribute of an array or a group. "/" is the file itself.
+  // Writes a UTF-8 text as an attribute of the array or group at `path`. The HDF5 path "/" stands for the
+  // file itself.
   void WriteAttribute(const std::string& path, const std::string& name, const std::string& text);
-  // Returns the complete file. Nothing may be written after this call.
+  // Returns the bytes of the complete HDF5 file. Nothing may be written after Finish().
   std::string Finish();
 
  private:
@@ -78,7 +80,7 @@ class Hdf5Writer {
   std::unique_ptr<Impl> impl_;
 };
 
-// All functions throw Hdf5Error if the image does not contain the requested array or text.
+// All functions of Hdf5Reader throw Hdf5Error if the file image does not contain the requested array or text.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(std::string_view image);
@@ -87,7 +89,7 @@ class Hdf5Reader {
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
 
   ArrayShape Shape(const std::string& path) const;
-  // Reads the array. The array must have exactly this type and shape.
+  // Reads the array at `path` into `data`. The array in the file must have exactly the given type and shape.
   void Read(const std::string& path, ScalarType type, const ArrayShape& shape, void* data) const;
   std::string ReadText(const std::string& path) const;
 

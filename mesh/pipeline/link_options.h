@@ -1,7 +1,8 @@
 // mesh/pipeline/link_options.h
 //
-// The link options are the options of a solve that determine its links (SolveOption::links_depend). A solve
-// that continues from the links of another solve must use that solve's values.
+// The link options are those options of a radiosity solve on which its links between elements depend
+// (SolveOption::links_depend). A solve that reuses the links of an earlier solve must use the earlier solve's
+// values of the link options.
 
 #pragma once
 
@@ -11,7 +12,7 @@
 
 namespace penumbra {
 
-// True if `name` is the name of a link option, as on the command line but without dashes.
+// True if `name` is the name of a link option, written as on the command line but without leading dashes.
 bool IsLinkOption(std::string_view name);
 
 // Copies the values of all link options from `from` to `to`.

@@ -1,6 +1,7 @@
 // mesh/pipeline/matrix_writer.h
 //
-// The interface of writers of form-factor matrices. Each file format has its own writer.
+// The interface of writers of form-factor matrices. Each file format of form-factor matrices has its own
+// writer.
 
 #pragma once
 
@@ -12,34 +13,39 @@
 
 namespace penumbra {
 
-// A matrix with the names of its rows, which are those of its columns, too.
+// A form-factor matrix with the names of its rows. Row i and column i of the form-factor matrix have the same
+// name.
 struct NamedMatrix {
   FormFactorMatrix matrix;
-  std::vector<std::string> names;    // of each row
-  std::vector<std::string> objects;  // the object of each row's face; empty if rows are objects
-  std::vector<double> whole_area;    // of each row, with what is covered [m^2]
-  std::vector<double> absorptance;   // of each row: 1 - reflectance, the mean of channels and area
+  std::vector<std::string> names;    // name of each row
+  std::vector<std::string> objects;  // name of the object with each row's face; empty if rows are objects
+  // Area of each row's surfaces, including parts that other surfaces touch and cover [m^2].
+  std::vector<double> whole_area;
+  // The absorptance 1 - reflectance of each row's surfaces, averaged over area and channels.
+  std::vector<double> absorptance;
 };
 
-// The most rows of a dense array: 1.8 GB for one array of doubles.
+// The largest number of rows of a dense matrix, which limits one array of doubles to 1.8 GB.
 inline constexpr std::size_t kMostDenseRows = 15'000;
 
 class MatrixWriter {
  public:
   virtual ~MatrixWriter() = default;
 
-  // True if the format stores every entry, 0 or not.
+  // True if the file format stores every entry of the matrix, including zeros.
   virtual bool IsDense() const { return true; }
 
-  // The contents of the file. Equal matrices give equal bytes. REQUIRES: at most kMostDenseRows rows if
-  // IsDense().
+  // Returns the contents of the matrix file. Equal matrices give files with equal bytes. REQUIRES: if
+  // IsDense() is true, the matrix has at most kMostDenseRows rows.
   virtual std::string Bytes(const NamedMatrix& matrix) const = 0;
 };
 
-// The type of MatrixWriters(). The name of a writer is the ending of its files, without the dot.
+// The type of the registry that MatrixWriters() returns. The name of a matrix writer is the ending of its
+// files, without the dot.
 using MatrixWriterRegistry = Registry<const MatrixWriter>;
 
-// All entries in row-major order. `values` has one value per stored entry of the matrix; the others are 0.
+// Returns all entries of a sparse matrix as a dense array in row-major order. `values` has one value for each
+// stored entry of the matrix; all other entries are 0.
 std::vector<double> Dense(const FormFactorMatrix& matrix, const std::vector<double>& values);
 
 }  // namespace penumbra

@@ -8,7 +8,8 @@
 
 namespace penumbra {
 
-// The entries of OptionTable(). Only OptionTable() calls this function; other code uses OptionTable().
+// Returns the entries of OptionTable(), the table of all options of a solve. Only OptionTable() calls
+// OptionEntries(); other code uses OptionTable().
 std::vector<SolveOption> OptionEntries();
 
 }  // namespace penumbra

@@ -1,6 +1,7 @@
 // mesh/pipeline/option_field.h
 //
-// One option of a solve: the type and range of its value, and the place of the value in PipelineOptions.
+// A field describes one option of a solve: the type and range of its value, and the place of the value in
+// PipelineOptions.
 
 #pragma once
 
@@ -20,42 +21,47 @@
 
 namespace penumbra {
 
-// The value of any option. The value of an option of the kind kChoice is a name.
+// OptionValue holds the value of any option. The value of an option of the kind kChoice is a name.
 using OptionValue = std::variant<bool, std::uint64_t, double, std::string>;
 
-// The alternatives of OptionValue, in the same order.
+// The alternatives of the variant OptionValue, in the same order.
 enum class OptionKind : std::uint8_t { kFlag, kInteger, kNumber, kChoice };
 
 struct OptionField {
   OptionKind kind = OptionKind::kFlag;
-  bool optional = false;  // may be omitted; its value then follows from other options
-  NumberRange numbers;    // range of a number
-  IntegerRange integers;  // range of an integer
-  std::function<std::vector<std::string>()> choices;  // the names of a choice; the two words of a flag
-  // Returns the value; nullopt if the option is not set, or if the chosen solver does not have the option.
+  bool optional = false;  // true if the option may be omitted; its value then follows from other options
+  NumberRange numbers;    // range of values of the kind kNumber
+  IntegerRange integers;  // range of values of the kind kInteger
+  // Returns the names of the values of an option of the kind kChoice, or the two words for the values of a
+  // kFlag.
+  std::function<std::vector<std::string>()> choices;
+  // Returns the value of the option, or nullopt if the option is not set, or if the chosen solver does not
+  // have the option.
   std::function<std::optional<OptionValue>(const PipelineOptions&)> get;
-  // Sets the value; nullopt removes the value of an optional option. REQUIRES: the value is of the type
-  // `kind`; it is nullopt only if `optional`; the chosen solver has the option.
+  // Sets the value of the option; nullopt removes the value of an optional option. REQUIRES: the value is of
+  // the type `kind`, or nullopt if `optional` is true, and the chosen solver has the option.
   std::function<void(const std::optional<OptionValue>&, PipelineOptions*)> set;
 };
 
-// A description of the allowed values that completes a message "'TEXT' is not ...", for example "a number
-// from 1e-6 to 10".
+// Returns a description of the allowed values that completes a message "'TEXT' is not ...", for example "a
+// number from 1e-6 to 10".
 std::string AllowedValues(const OptionField& field);
-// Converts the complete text to a value. Throws InputError, for example "'TEXT' is not a number from 1e-6 to
-// 10", if the text is not an allowed value.
+// Converts the complete text to the value of an option. Throws InputError if the text is not an allowed
+// value, for example "'TEXT' is not a number from 1e-6 to 10".
 OptionValue ParseValue(const OptionField& field, std::string_view text);
-// Converts a value to a text, such that ParseValue() converts the text back to the value.
+// Converts the value of an option to a text that ParseValue() converts back to the value.
 std::string ValueText(const OptionField& field, const OptionValue& value);
 
-// The functions below make fields. A `place` is a pointer to a member of PipelineOptions, or a function from
-// PipelineOptions& (const or not) to a reference to a value or to an optional value.
+// The following functions make objects of type OptionField. `place` is a pointer to a member of
+// PipelineOptions, or a function from PipelineOptions& (const or not) to a reference. The member or reference
+// to which `place` leads is a value or an optional value.
 
 template <class Type>
 inline constexpr bool kIsOptional = false;
 template <class Type>
 inline constexpr bool kIsOptional<std::optional<Type>> = true;
-// The type of the value that may be optional.
+// HeldValue<Type>::type is the type of the value that an optional holds, or Type itself if Type is no
+// optional.
 template <class Type>
 struct HeldValue {
   using type = Type;
@@ -65,8 +71,8 @@ struct HeldValue<std::optional<Type>> {
   using type = Type;
 };
 
-// Makes a field. `to_value` and `from_value` convert between OptionValue and the type of the member at
-// `place`.
+// Makes the OptionField of the option at `place`. `to_value` and `from_value` convert between OptionValue and
+// the type of the member at `place`.
 template <class Place, class ToValue, class FromValue>
 OptionField MakeField(OptionKind kind, Place place, ToValue to_value, FromValue from_value) {
   using Held = std::remove_cvref_t<std::invoke_result_t<Place, PipelineOptions&>>;
@@ -91,7 +97,7 @@ OptionField MakeField(OptionKind kind, Place place, ToValue to_value, FromValue 
   return field;
 }
 
-// The field of a bool. `off` and `on` are the words for its values.
+// Makes the OptionField of a bool. `off` and `on` are the words for the values false and true of the option.
 template <class Place>
 OptionField FlagField(Place place, const char* off = "off", const char* on = "on") {
   OptionField field = MakeField(
@@ -101,7 +107,7 @@ OptionField FlagField(Place place, const char* off = "off", const char* on = "on
   return field;
 }
 
-// The field of a double.
+// Makes the OptionField of a double.
 template <class Place>
 OptionField NumberField(Place place, NumberRange range) {
   OptionField field = MakeField(
@@ -111,7 +117,8 @@ OptionField NumberField(Place place, NumberRange range) {
   return field;
 }
 
-// The field of an integer. The type of the member must be able to represent all integers of the range.
+// Makes the OptionField of an integer. The type of the option's member must be able to represent all integers
+// of the range.
 template <class Place>
 OptionField IntegerField(Place place, IntegerRange range) {
   using Held = typename HeldValue<std::remove_cvref_t<std::invoke_result_t<Place, PipelineOptions&>>>::type;
@@ -122,11 +129,11 @@ OptionField IntegerField(Place place, IntegerRange range) {
   return field;
 }
 
-// A list of the values of an enum with their names.
+// A list of the values of an enum, each with its name.
 template <class Enum>
 using NamedValues = std::vector<std::pair<std::string, Enum>>;
 
-// The name of the value. REQUIRES: the value has a name.
+// Returns the name of an enum value. REQUIRES: the list `values` contains the value.
 template <class Enum>
 std::string NameAmong(const NamedValues<Enum>& values, Enum value) {
   for (const auto& [name, named] : values)
@@ -135,7 +142,7 @@ std::string NameAmong(const NamedValues<Enum>& values, Enum value) {
   return {};
 }
 
-// The value with the name `name`. Throws InputError if no value has this name.
+// Returns the enum value with the name `name`. Throws InputError if no enum value has this name.
 template <class Enum>
 Enum ValueAmong(const NamedValues<Enum>& values, const std::string& name) {
   for (const auto& [other, named] : values)
@@ -143,7 +150,7 @@ Enum ValueAmong(const NamedValues<Enum>& values, const std::string& name) {
   throw InputError("no such choice: " + name);
 }
 
-// The field of an enum.
+// Makes the OptionField of an enum.
 template <class Place, class Enum>
 OptionField ChoiceField(Place place, const NamedValues<Enum>& values) {
   OptionField field = MakeField(
@@ -157,8 +164,8 @@ OptionField ChoiceField(Place place, const NamedValues<Enum>& values) {
   return field;
 }
 
-// The field of an option whose value is the name of a method in a registry. The registry must outlive the
-// field.
+// Makes the OptionField of an option whose value is the name of a method in a registry. The registry must
+// outlive the OptionField.
 template <class Place, class Methods>
 OptionField NameField(Place place, const Methods& methods) {
   OptionField field = MakeField(

@@ -1,6 +1,6 @@
 // mesh/pipeline/option_range.h
 //
-// The ranges of numbers for options.
+// The ranges of the numbers that users may give as options.
 
 #pragma once
 
@@ -12,14 +12,14 @@ namespace penumbra {
 // overflow.
 inline constexpr double kTiniestOption = 1e-100, kLargestOption = 1e100;
 
-// The numbers from `low` to `high`, and the number 0 if `or_zero`.
+// The range of numbers from `low` to `high`, and also the number 0 if `or_zero` is true.
 struct NumberRange {
   double low = 0, high = 0;
   bool or_zero = false;
   bool Holds(double x) const { return (x >= low && x <= high) || (or_zero && x == 0); }
 };
 
-// The integers from `low` to `high`; only powers of two if `powers_of_two`.
+// The range of integers from `low` to `high`; only powers of two if `powers_of_two` is true.
 struct IntegerRange {
   std::uint64_t low = 0, high = 0;
   bool powers_of_two = false;

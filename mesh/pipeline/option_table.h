@@ -1,8 +1,8 @@
 // mesh/pipeline/option_table.h
 //
-// A table of all options that a user can set for a solve. The command line, the help, the reports, the
-// solution files, the window's panel and the checks before a solve is continued all use OptionTable(). A new
-// option is a member of PipelineOptions and an entry of the table (option_entries.cpp).
+// A table of all options that a user can set for a solve. OptionTable() is used by the command line, the
+// help, the reports, the solution files, the window's panel and the checks before a solve is continued. To
+// add an option, add a member to PipelineOptions and an entry to the table (option_entries.cpp).
 
 #pragma once
 
@@ -31,7 +31,7 @@ enum class OptionGroup : std::uint8_t {
   kStudies
 };
 
-// The group's title.
+// Returns the title of the group of options in the help.
 constexpr const char* GroupTitle(OptionGroup group) {
   switch (group) {
     case OptionGroup::kRunning:
@@ -52,77 +52,81 @@ constexpr const char* GroupTitle(OptionGroup group) {
   return "For studies";
 }
 
-// A value of an option of the kind kChoice that serves only to compare methods; the help lists it in the
-// group kStudies.
+// A value of an option of the kind kChoice that serves only to compare methods. The help lists each
+// StudyChoice in the group kStudies.
 struct StudyChoice {
   std::string name, help;
 };
 
 struct SolveOption {
-  const char* name = "";  // as in --NAME
+  const char* name = "";  // name of the option, as in --NAME
   OptionField field = {};
-  const char* unit = "";  // of a number; empty: none
+  const char* unit = "";  // unit of a number; empty if the number has no unit
   OptionGroup group = OptionGroup::kSolving;
-  // The solver that uses it, by its name in LightSolvers(), or the first of several. All use it if this and
-  // `form_factors` are empty.
+  // The name, in LightSolvers(), of the first solver that uses the option. All solvers use the option if
+  // `solver` and `form_factors` are empty.
   std::string solver = {};
-  std::vector<std::string> other_solvers = {};  // that use it, too
-  // Methods in LinkFormFactorMethods() that use it, with every solver that uses the option form-factors.
+  std::vector<std::string> other_solvers = {};  // further solvers that use the option
+  // Names of form-factor methods in LinkFormFactorMethods() that use the option, with every solver that has
+  // the option form-factors.
   std::vector<std::string> form_factors = {};
-  bool links_depend =
-      false;  // links depend on it: a solve over another solve's links keeps that solve's value
-  bool measures_only = false;  // determines only which measurements are made of light and mesh
-  bool tiny_distance = false;  // at most a thousandth of the scene's diagonal
-  bool flag_clears = false;    // the option is --no-NAME, and sets a flag that is on by default to off
-  const char* otherwise = "";  // optional options: a description of the default
-  const char* help = "";       // a sentence for --help, without unit, range and default
+  // True if the links between elements depend on the option. If links depend on an option, a solve that
+  // reuses the links of another solve keeps the other solve's value of the option.
+  bool links_depend = false;
+  bool measures_only = false;  // true if the option affects only what is measured of light and mesh
+  bool tiny_distance = false;  // true if the distance is limited to a thousandth of the scene's diagonal
+  // True if the option is --no-NAME, and sets a flag that is on by default to off.
+  bool flag_clears = false;
+  const char* otherwise = "";  // description of the default of an optional option
+  const char* help = "";       // sentence for --help, without unit, range and default
   std::vector<StudyChoice> study_choices = {};
-  // A function that returns the value that the solve uses; only for optional options whose default depends on
-  // other options.
+  // A function that returns the value of the option that the solve uses. The function `resolved` is empty
+  // unless the option is optional and its default depends on other options.
   std::function<OptionValue(const ResolvedOptions&)> resolved = {};
-  // Returns the value of this option for older solution files, which do not contain the option. `before`
-  // holds the file's values of the options that precede this one in the table. The function is empty if all
-  // files contain the option.
+  // A function that returns the value of the option for older solution files, which do not contain the
+  // option. `before` holds the file's values of the options that precede this option in the table. The
+  // function in_older_files is empty if all solution files contain the option.
   std::function<OptionValue(const PipelineOptions& before)> in_older_files = {};
-  const char* label = "";    // a few words for the window's panel, without the unit
-  const char* setting = "";  // the name in the window, if different from NAME
+  const char* label = "";    // name in the window's panel, in a few words, without the unit
+  const char* setting = "";  // name in the window, if different from NAME
 };
 
-// All options, in the order of reports and solution files.
+// Returns all options of a solve, in the order of reports and solution files.
 const std::vector<SolveOption>& OptionTable();
-// The option with this name; null if there is no such option.
+// Returns the option with this name, or null if there is no such option.
 const SolveOption* FindOption(std::string_view name);
 
-// The option's key in reports and solution files: the name with '_' instead of '-'.
+// Returns the option's key in reports and solution files: the name with '_' instead of '-'.
 std::string OptionKey(const SolveOption& option);
-// The option as the user writes it on the command line: --NAME, or --no-NAME.
+// Returns the option as the user writes it on the command line: --NAME, or --no-NAME.
 std::string CommandLineName(const SolveOption& option);
-// The option's name in the window.
+// Returns the option's name in the window.
 std::string SettingName(const SolveOption& option);
 
-// The names of the option's values that the help lists with the option; values that serve only to compare
-// methods are excluded.
+// Returns the names of the option's values that the help lists with the option. UsualChoices() excludes
+// values that serve only to compare methods.
 std::vector<std::string> UsualChoices(const SolveOption& option);
-// The option's sentence in the help, including the unit, the range and the description of the default.
+// Returns the option's sentence in the help, including the unit, the range and the description of the
+// default.
 std::string OptionHelp(const SolveOption& option);
-// The default value; nullopt if the default depends on other options.
+// Returns the option's default value, or nullopt if the default depends on other options.
 std::optional<OptionValue> DefaultValue(const SolveOption& option);
 
-// "the x solver", "the solvers x, y", or "--form-factors a, b": what uses the option. REQUIRES: the option
-// is not of all solvers.
+// Returns a text that names what uses the option: "the x solver", "the solvers x, y", or "--form-factors a,
+// b". REQUIRES: the option does not belong to all solvers.
 std::string OwnersOf(const SolveOption& option);
 
-// True if the chosen solver, or its form factors, use the option.
+// True if the chosen solver, or its method for form factors, uses the option.
 bool IsObeyed(const SolveOption& option, const PipelineOptions& options);
 
-// The options that a solve uses, with their values, in the order of the table: the contents of reports and
-// solution files.
+// Returns the options that a solve uses, with their values, in the order of the table. Reports and solution
+// files contain the options that UsedOptions() returns.
 std::vector<std::pair<const SolveOption*, OptionValue>> UsedOptions(const PipelineOptions& options,
                                                                     const ResolvedOptions& resolved);
-// Restores the options of a solve from the contents of a file. `told` returns the value of an option in the
-// file, or nullopt if the file does not contain the option. If the returned options are resolved and passed
-// to UsedOptions(), the result equals the contents of the file. Throws InputError if the file lacks a
-// mandatory option, or contains a name that is not among the option's values.
+// Restores the options of a solve from a report or a solution file. `told` returns the value of an option in
+// the file, or nullopt if the file does not contain the option. If the returned options are passed to
+// Resolve() and UsedOptions(), the result equals the options in the file. Throws InputError if the file lacks
+// a mandatory option, or contains a name that is not among the option's values.
 PipelineOptions OptionsToldBy(
     const std::function<std::optional<OptionValue>(const SolveOption& option)>& told);
 

@@ -1,8 +1,8 @@
 // mesh/pipeline/pipeline.h
 //
-// The offline half of the method, from a scene to its irradiance mesh, as a sequence of stages: visibility,
-// links, iterations, discontinuities, triangulations, interpolants. The command line, the viewer and the
-// experiments use the class Pipeline.
+// The offline half of the method, from a scene to its irradiance mesh, as a sequence of stages. The stages
+// are visibility, links, iterations, discontinuities, triangulations and interpolants. The command line, the
+// viewer and the experiments use the class Pipeline.
 
 #pragma once
 
@@ -33,104 +33,112 @@
 
 namespace penumbra {
 
-// The kind of error by which refinement is controlled (thesis 4.4).
+// The kind of error by which the refinement of elements and mesh is controlled (thesis 4.4).
 enum class RefineBy : std::uint8_t {
-  kTransport,       // the error of links only; the mesh has the solution's leaves
-  kRepresentation,  // the error of the shown mesh, over a coarse solution
+  kTransport,       // error of links only; the mesh has the solution's quadtree leaves
+  kRepresentation,  // error of the displayed mesh, over a coarse solution
   kBoth,
 };
 
-// The options that a user can set. Values of options that the user omits are derived from `error` and the
-// scene.
+// The options of a solve that a user can set. Options that the user omits get values that are derived from
+// `error` and the scene.
 struct PipelineOptions {
-  double error = 0.02;  // requested 99th percentile of |shown - true| / max(true, 1 % of the channel's mean)
-  std::optional<double> eps;                       // [W/m^2] thesis, Appendix A, 1
-  std::optional<double> min_area;                  // [m^2] Appendix A, 2
-  std::optional<double> min_discontinuity_weight;  // [W/m^2] Appendix A, 4
-  std::optional<double> min_wanted_weight;         // [W/m^2] DiscontinuityOptions::min_wanted_weight
-  int max_leaf_dsets = 10;                         // Appendix A, 5
-  // The choice of discontinuities. If `weight` is omitted and min_discontinuity_weight is given, the weight
-  // is DiscontinuityWeight::kThesis, the scale for which the user has chosen the minimum; otherwise, it is
-  // kIrradiance.
+  // The requested 99th percentile of the relative error |shown - true| / max(true, 1 % of the channel's mean)
+  // of displayed irradiance.
+  double error = 0.02;
+  std::optional<double> eps;                       // SolverOptions::eps [W/m^2] (thesis, Appendix A, 1)
+  std::optional<double> min_area;                  // smallest area of an element [m^2] (Appendix A, 2)
+  std::optional<double> min_discontinuity_weight;  // DiscontinuityOptions::min_weight [W/m^2] (Appendix A, 4)
+  std::optional<double> min_wanted_weight;         // DiscontinuityOptions::min_wanted_weight [W/m^2]
+  int max_leaf_dsets = 10;                         // DiscontinuityOptions::max_leaf_dsets (Appendix A, 5)
+  // The following options determine the choice of discontinuities that become edges. If `weight` is omitted
+  // and min_discontinuity_weight is given, the discontinuity weight is kThesis, because the user has chosen
+  // the minimum on this scale. If neither `weight` nor min_discontinuity_weight is given, the discontinuity
+  // weight is kIrradiance.
   std::string discontinuities = "ranked";  // DiscontinuityOptions::choice
   std::optional<DiscontinuityWeight> weight;
   bool keep_hidden_discontinuities = false;
   double triple_edge_tolerance = 0;       // DiscontinuityOptions::triple_edge_tolerance [m]
   int corner_divisions = 0;               // DiscontinuityOptions::corner_divisions
-  std::optional<double> relative_cutoff;  // Appendix A, 7
-  int error_samples = 1;                  // Appendix A, 8: MeasureTriangles()
+  std::optional<double> relative_cutoff;  // SolverOptions::relative_cutoff (Appendix A, 7)
+  int error_samples = 1;                  // TriangleSampling::samples (thesis, Appendix A, 8)
   RefineBy refine = RefineBy::kBoth;
   int max_corrections = 2;  // SolverOptions::max_corrections
-  // The value of SolverOptions::source_error. If source_error is given, sources are divided by the solver's
-  // corrections instead of by RefineLight().
+  // The value of SolverOptions::source_error. If PipelineOptions::source_error is given, light sources are
+  // divided by the solver's corrections instead of by RefineLight().
   std::optional<double> source_error;
   int max_iterations = 100;
-  // The next five options set the members of SolverOptions with the same names.
+  // The following five options set the members of SolverOptions with the same names.
   std::string form_factors = "cubature";
   IterationScheme scheme = IterationScheme::kJacobi;
   Acceleration acceleration = Acceleration::kAnderson;
   std::string oracle = "transport";
   bool multigrid = false;
-  // Limits of time and memory for Solve(), BuildMesh() and Measure(). If Solve() reaches a limit, the result
-  // is that of the last complete step; if no step is complete, radiosity equals emittance. If BuildMesh()
-  // reaches a limit, the mesh is not refined; if no time is left even for interpolants, the mesh has the mean
-  // irradiance of each leaf. If Measure() reaches a limit, the remaining measurements are omitted.
+  // The options time_limit and memory_limit apply to Solve(), BuildMesh() and Measure(). If Solve() reaches a
+  // limit of time or memory, the result is that of the last complete step. If Solve() completes no step, the
+  // radiosity equals the emittance. If BuildMesh() reaches a limit of time or memory, the mesh is not
+  // refined. If BuildMesh() has no time even for interpolants, the mesh has the mean irradiance of each
+  // quadtree leaf. If Measure() reaches a limit of time or memory, the remaining measurements are omitted.
   std::optional<double> time_limit;    // [s]
-  std::optional<double> memory_limit;  // [bytes] of the whole process
-  // The fraction of memory_limit that Solve() does not use, so that memory remains for a mesh of the leaves
-  // and for writing a file.
+  std::optional<double> memory_limit;  // for the whole process [bytes]
+  // The fraction of memory_limit that Solve() does not use, so that memory remains for making a mesh and
+  // writing a file.
   double memory_kept = 0.1;
-  // The time from which time_limit is counted, for example the time before the scene is read; if omitted, the
-  // time of the call of Solve().
+  // The time from which time_limit is counted, for example a time before the scene is read. If limits_from is
+  // omitted, time_limit is counted from the call of Solve().
   std::optional<std::chrono::steady_clock::time_point> limits_from;
-  int bounces = 0;                  // number of bounces whose mean irradiance is reported
-  PointIrradianceOptions point;     // Appendix A, 9 and 10
-  std::size_t error_points = 1000;  // random points for the interpolants' error; 0: not measured
+  int bounces = 0;               // number of bounces whose mean irradiance is reported
+  PointIrradianceOptions point;  // options of irradiance at points (thesis, Appendix A, 9 and 10)
+  // The number of random points at which the error of the interpolants is measured; 0: the error is not
+  // measured.
+  std::size_t error_points = 1000;
   std::uint64_t seed = 1;
-  // If true, the pipeline keeps the light of each emitter (Pipeline::emitters).
+  // If true, the pipeline keeps the light of each emitter separately (Pipeline::emitters).
   bool by_emitter = false;
-  EmitterUnit emitter_unit = EmitterUnit::kFace;  // what counts as one emitter
-  // A name in LightSolvers(). If omitted, the solver depends on the scene (SolverFor); options of other
-  // solvers than SolverName() are refused.
+  EmitterUnit emitter_unit = EmitterUnit::kFace;  // the unit that counts as one emitter
+  // The name of the solver in LightSolvers(). If `solver` is omitted, SolverFor() chooses the solver for the
+  // scene. Options that SolverName() does not use are refused.
   std::optional<std::string> solver;
   std::string SolverName() const { return solver.value_or("hierarchical"); }
-  DenseOptions dense;  // for the solver `dense`
-  // For the solver `sampled`: SampledOptions::point_rays; 0: depends on `error`. For form factors by rays:
-  // LinkFormFactorOptions::rays.
+  DenseOptions dense;  // options of the solver `dense`
+  // With the solver `sampled`, `rays` is SampledOptions::point_rays, and 0 means that the number of rays
+  // depends on `error`. With form factors that are computed by rays, `rays` is LinkFormFactorOptions::rays.
   std::size_t rays = 0;
   std::size_t resolution = 0;  // LinkFormFactorOptions::resolution
-  // UniformOptions::shots, overshoot and ambient, of the solvers on uniform meshes. Their meshes have
-  // dense.divisions.
+  // The members shots, overshoot and ambient of UniformOptions, for the solvers on uniform meshes. For the
+  // solvers on uniform meshes, dense.divisions is the number of elements along each side of a patch.
   std::size_t shots = 0;
   bool overshoot = false, ambient = false;
 };
 
 // The values of all options that a solve uses, including those that the user has omitted.
 struct ResolvedOptions {
-  std::string solver_name;  // in LightSolvers()
+  std::string solver_name;  // name in LightSolvers()
   SolverOptions solver;
   SampledOptions sampled;
   UniformOptions uniform;
   DiscontinuityOptions discontinuities;
-  // True if the interpolants of a mesh may refine the light of the solution (Pipeline::RefineLight). False
-  // with --refine transport, where the light is determined by links alone, and with --source-error, where the
-  // solver's corrections divide the sources.
+  // True if the interpolants of a mesh may refine the light of the solution (Pipeline::RefineLight). With
+  // --refine transport, refine_light is false, because links alone determine the light. With --source-error,
+  // refine_light is false, because the solver's corrections divide the sources.
   bool refine_light = true;
   std::size_t lookouts = 0;  // ShownMeshOptions::lookouts
 };
-// The solver that PipelineOptions::solver names. If the option is omitted: `sampled` for scenes with so many
-// polygons that pairs of polygons would take minutes, unless an option is set that only `hierarchical` obeys;
-// otherwise `hierarchical`.
+// Returns the name of the solver that PipelineOptions::solver names, or that is chosen for the scene. If
+// PipelineOptions::solver is omitted, the choice is `sampled` for scenes with so many polygons that pairs of
+// polygons would take minutes, and otherwise `hierarchical`. SolverFor() always chooses `hierarchical` if an
+// option is set that only this solver obeys.
 std::string SolverFor(const Scene& scene, const PipelineOptions& options);
 // Throws InputError if an option is the name of a method that does not exist.
 ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options);
 
 // The kinds of meshes and interpolants.
 enum class MeshKind {
-  kFlat,         // quadtree leaves, the constant basis
-  kGouraud,      // quadtree leaves, exact irradiance at the vertices, linear
-  kGouraudMesh,  // the discontinuity mesh, linear
-  kInterpolant,  // the discontinuity mesh, quadratic
+  kFlat,  // mesh of quadtree leaves with constant irradiance
+  // A mesh of quadtree leaves with linear interpolants of exact irradiance at the vertices.
+  kGouraud,
+  kGouraudMesh,  // discontinuity mesh with linear interpolants
+  kInterpolant,  // discontinuity mesh with quadratic interpolants
 };
 
 struct Phase {
@@ -139,14 +147,14 @@ struct Phase {
 };
 
 struct PipelineReport {
-  std::vector<Phase>
-      phases;  // load (by the caller), link, iterate, discontinuities, triangulate, interpolate
+  // Time of each stage: load (added by the caller), link, iterate, discontinuities, triangulate, interpolate.
+  std::vector<Phase> phases;
   struct Counts {
     std::size_t patches = 0, emitters = 0, elements = 0, leaves = 0, links = 0, links_visible = 0,
                 links_partial = 0, discontinuities = 0, dsets_active = 0, most_merged = 0, triangles = 0,
                 interpolants = 0, point_evaluations = 0, sources_renewed = 0;
   } counts;
-  InteractionCounts interactions;  // of the transport operator, links included
+  InteractionCounts interactions;  // counts of receiver-source interactions, including links
   std::vector<IterationReport> iterations;
   std::optional<SolverReport::Dense> dense;
   EnergyBalance energy;
@@ -155,19 +163,21 @@ struct PipelineReport {
   TriangleQuality quality;
   std::vector<Rgb> bounces;  // mean irradiance by bounce [W/m^2]; empty unless requested
   RepresentationError interpolant_error;
-  // The 99th percentile of the relative difference between the irradiance from the solution's leaves and the
-  // irradiance from the interpolants as sources. Irradiance is computed with a tolerance of 2 % of the
-  // requested error.
+  // The 99th percentile of the relative difference between two irradiances: that from the solution's leaves,
+  // and that from the mesh's interpolants as light sources. For solution_error_estimate, irradiance is
+  // computed with a tolerance of 2 % of the requested error.
   double solution_error_estimate = 0;
-  RepresentationError whole_error;  // interpolants, compared with irradiance from the interpolants as sources
-  std::vector<PartError> part_errors;  // whole_error of each part of the scene that is seen
+  // Error of the interpolants, compared with the irradiance from the interpolants as light sources.
+  RepresentationError whole_error;
+  std::vector<PartError> part_errors;  // whole_error of each reflecting part of the scene
   double error_asked = 0;
   bool error_met = false;
-  std::vector<std::string> unmet;     // which targets were missed, and why; one line each
+  // The targets that were missed, and the reasons; one line each.
+  std::vector<std::string> unmet;
   std::vector<std::string> warnings;  // probable errors in the scene; one line each
 };
 
-// The results of the stages, except results that are quick to recompute.
+// The results of the stages of a pipeline, except results that are quick to recompute.
 struct PipelineState {
   PatchVisibility visibility;
   RadiositySolution solution;
@@ -177,13 +187,14 @@ struct PipelineState {
   std::vector<EmitterLight> emitters = {};  // Pipeline::emitters()
 };
 
-// Runs the stages and holds their results. The scene must outlive the pipeline.
+// A Pipeline runs the stages from a scene to its irradiance mesh, and holds their results. The scene must
+// outlive the pipeline.
 class Pipeline {
  public:
   Pipeline(const Scene& scene, const PipelineOptions& options);
-  // Starts with the results of another pipeline for the same scene and options. BuildMesh() can make other
-  // kinds of meshes from the given solution, and Relight() can continue from the given solution. All other
-  // steps of the solver discard the given results and start from the beginning.
+  // Starts with the results of another pipeline for the same scene and options. From the solution in the
+  // PipelineState, BuildMesh() can make other kinds of meshes, and Relight() can continue. Solver steps other
+  // than Relight() discard the results in the PipelineState and start from the beginning.
   Pipeline(const Scene& scene, const PipelineOptions& options, PipelineState state);
   ~Pipeline();
 
@@ -191,114 +202,126 @@ class Pipeline {
   const PipelineOptions& options() const;
   const ResolvedOptions& resolved() const;
 
-  // Makes the stages "link" and "iterate": calls Link(), and then makes the solver's steps until none is left
-  // (SolveStepByStep). Solve() continues after the steps that have already been made. If cancelled, Solve()
-  // keeps the solution of the last complete step. Calls the observer, if any, after each step. Throws
-  // InputError if a dense system is too large.
+  // Makes the stages "link" and "iterate": calls Link(), and then makes the solver's steps until no step is
+  // left (SolveStepByStep). If steps of the solver have already been made, Solve() continues after them. If
+  // the computation is cancelled, Solve() keeps the solution of the last complete step. Solve() calls the
+  // observer, if any, after each step of the solver. Throws InputError if the system of equations of a dense
+  // solver is too large.
   void Solve(const ExecutionContext& context, const StepObserver& observer = {});
 
   // Link() and Step() make the stages of Solve() one by one, so that the result of each step can be
-  // inspected. Unless stated otherwise, a cancelled step leaves solution and report unchanged.
+  // inspected. Unless stated otherwise, a cancelled step leaves the solution and the report unchanged.
   //
-  // Link() computes the visibility between patches, and the links between roots; afterwards, radiosity equals
-  // emittance. The other steps call Link() first if it has not been completed. If Link() is cancelled, the
-  // solution has no links.
+  // Link() computes the visibility between patches, and the links between the roots of the quadtrees. After
+  // Link(), the radiosity equals the emittance. All other steps of the solver call Link() first if Link() has
+  // not been completed. If Link() is cancelled, the solution has no links.
   void Link(const ExecutionContext& context);
-  // Calls LightSolver::Step(). Returns false if cancelled.
+  // Makes one step of the solver by LightSolver::Step(). Returns false if the step is cancelled.
   bool Step(SolverStep step, const ExecutionContext& context);
-  // Makes one iteration: gathers until the light has converged, refines links, and gathers over the new
-  // links. Returns nullopt if cancelled, or if the solver has no iterations.
+  // Makes one iteration of the solver: gathers until the light has converged, refines links, and gathers over
+  // the new links. Returns nullopt if the iteration is cancelled, or if the solver has no iterations.
   std::optional<IterationReport> Iterate(const ExecutionContext& context);
-  // True if the last iteration refined no link and ended with a residual below the cut-off.
+  // True if the last iteration of the solver refined no link and ended with a residual below the cut-off.
   bool Converged() const;
-  // The next step of the solver; nullopt before Link() has been called, and after the last step.
+  // Returns the next step of the solver, or nullopt before Link() has been called and after the last step.
   std::optional<SolverStep> NextStep() const;
-  // Makes all passes of deferred correction that the options request. If cancelled, returns false and keeps
-  // the corrections of the complete passes.
+  // Makes all passes of deferred correction (of the light by exact irradiance) that the options request. If
+  // the correction is cancelled, the function returns false and keeps the corrections of the complete passes.
   bool Correct(const ExecutionContext& context) { return Step(SolverStep::kCorrect, context); }
-  // Computes the light again after a change of emittances or reflectances. Uses the existing links, which may
-  // be those of the PipelineState passed to the constructor. Discards corrections. Returns nullopt if
-  // cancelled.
+  // Relight() computes the light again after a change of emittances or reflectances. Relight() uses the
+  // existing links, which may be those of the PipelineState passed to the constructor. Relight() discards
+  // deferred corrections of the light. Returns nullopt if the computation is cancelled.
   std::optional<IterationReport> Relight(const ExecutionContext& context);
-  // Solves again after the materials of the scene have changed, with the existing links and form factors:
-  // calls Relight() and then Correct(). The limits of time and memory hold as for Solve(). SolveOverLinks()
-  // neither tests nor refines links.
+  // SolveOverLinks() solves again after the materials of the scene have changed, with the existing links and
+  // form factors: it calls Relight() and then Correct(). The limits of time and memory apply to
+  // SolveOverLinks() as to Solve(). SolveOverLinks() neither tests nor refines links.
   void SolveOverLinks(const ExecutionContext& context);
 
   // True if RefineLight() has an effect: ResolvedOptions::refine_light and LightSolver::TakesLight() are
   // true.
   bool RefinesLight() const;
-  // The stage "refine light" repeats two steps until the light has converged. The first step computes the
-  // interpolants of a mesh. The second step divides leaves where the interpolants vary into smaller sources,
-  // and sets the irradiance of each source to the mean of the interpolants over the source. RefineLight()
-  // replaces the last pass of deferred correction, and is the only stage after the solver that changes the
-  // solution. RefineLight() has no effect if RefinesLight() is false. REQUIRES: Link() or a step that calls
-  // it.
+  // The stage "refine light" repeats two steps until the light of the solution has converged. The first step
+  // of "refine light" computes the interpolants of a mesh. Where interpolants vary on a quadtree leaf, the
+  // second step of "refine light" divides the leaf into smaller light sources, and sets the irradiance of
+  // each light source to the mean of the interpolants over the source. RefineLight() replaces the last pass
+  // of deferred correction, and is the only stage after the solver that changes the solution. RefineLight()
+  // has no effect if RefinesLight() is false. REQUIRES: Link(), or a step that calls Link(), has been called.
   void RefineLight(const ExecutionContext& context);
 
-  // Makes the stages "discontinuities", "triangulate" and "interpolate", as far as the kind of mesh needs
-  // them. BuildMesh() does not change the solution, except that, with PipelineOptions::by_emitter, the light
-  // becomes the sum of that of the emitters, which differs within the error. A mesh of kind kInterpolant is
+  // BuildMesh() makes the stages "discontinuities", "triangulate" and "interpolate", as far as the kind of
+  // mesh needs them. BuildMesh() changes the solution only with PipelineOptions::by_emitter: the light then
+  // becomes the sum of the emitters' lights, which differs within the error. A mesh of kind kInterpolant is
   // also refined (RefineMesh) until it meets the requested error, unless the option `refine` is kTransport.
-  // If `as_it_is` is true, the mesh is not refined, so that the result of a single step can be inspected.
-  // BuildMesh() has no effect if the mesh exists already. REQUIRES: Link() or a step that calls it.
+  // If `as_it_is` is true, BuildMesh() does not refine the mesh, so that the result of a single step can be
+  // inspected. BuildMesh() has no effect if a mesh of this kind exists already. REQUIRES: Link(), or a step
+  // that calls Link(), has been called.
   void BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is = false);
-  // Keeps the light transport of the present solution and mesh as a matrix, for LitBy(). Looks at each node
-  // of the mesh once more. Returns false if cancelled, or if irradiance has no rows of form factors: that of
-  // the sampled solver and of chosen occlusion methods. The next step or mesh drops the matrix. REQUIRES:
-  // this pipeline has made the mesh, of kind kInterpolant, after the last step.
+  // KeepOperator() stores the light transport of the present solution and mesh as a matrix, for LitBy().
+  // KeepOperator() computes the form factors of each mesh node (vertex or edge midpoint) once more. Returns
+  // false if the computation is cancelled, or if irradiance is computed without form factors, as with the
+  // sampled solver and with chosen occlusion methods. The matrix of light transport is deleted when a step
+  // changes the solution or when another mesh is made. REQUIRES: this pipeline has made a mesh of kind
+  // kInterpolant after the last step of the solver.
   bool KeepOperator(const ExecutionContext& context);
-  // The memory of the matrix [bytes]; 0: none is kept.
+  // The memory of the matrix of light transport [bytes], or 0 if there is no matrix.
   std::size_t OperatorBytes() const;
-  // The solution and the mesh of a scene with the same patches and other emittances or reflectances, for
-  // another Pipeline: products with the matrix, and no form factors. The report measures nothing. Nothing if
-  // no matrix is kept, or if a patch of `other` sends light that sent none in this scene. `other` must
-  // outlive the result.
+  // Returns the solution and the mesh of a scene with the same patches and other emittances or reflectances,
+  // for another Pipeline. LitBy() computes products with the matrix of light transport, and no form factors.
+  // The report in the PipelineState contains no measurements. The result of LitBy() is nullopt if there is no
+  // matrix, or if a patch of `other` sends light that sent none in this scene. The scene `other` must outlive
+  // the result.
   std::optional<PipelineState> LitBy(const Scene& other) const;
-  // Restarts the limits of time and memory, as Solve() does at its beginning; for callers that make the steps
-  // of Solve() themselves.
+  // CountLimits() restarts the limits of time and memory, as Solve() does at its beginning. CountLimits() is
+  // for callers that make the steps of Solve() themselves.
   void CountLimits();
-  // Measures the energy balance, and checks scene, links and triangles. If cancelled, the report remains
-  // unchanged. REQUIRES: BuildMesh() after the last step.
+  // Measures the energy balance, and checks scene, links and triangles. If the computation is cancelled, the
+  // report remains unchanged. REQUIRES: BuildMesh() has been called after the last step of the solver.
   void Diagnose(const ExecutionContext& context = ExecutionContext());
-  // Calls Diagnose(), and measures the error at random points. REQUIRES: this pipeline has made the mesh,
-  // after the last step.
+  // Calls Diagnose(), and measures the error of the displayed irradiance at random points. REQUIRES: this
+  // pipeline has made the mesh after the last step of the solver.
   void Measure(const ExecutionContext& context);
   // Adds a line to PipelineReport::unmet if a few random points, which take negligible time, clearly show
-  // that the requested error is missed. No other error is measured. REQUIRES: BuildMesh() after the last
-  // step.
+  // that the requested error is missed. CheckErrorRoughly() measures nothing else. REQUIRES: BuildMesh() has
+  // been called after the last step of the solver.
   void CheckErrorRoughly(const ExecutionContext& context);
   // Sets PipelineOptions::error_points for later measurements.
   void SetErrorPoints(std::size_t points);
 
-  const RadiositySolution& solution() const;  // REQUIRES: Link()
+  const RadiositySolution& solution() const;  // REQUIRES: Link() has been called
   const PatchVisibility& visibility() const;
-  const PointIrradiance& irradiance() const;  // exact, from the solution's leaves; valid until the next step
-  const IrradianceMesh& mesh() const;         // REQUIRES: BuildMesh()
-  std::optional<MeshKind> mesh_kind() const;  // of mesh(); nothing if it shows an earlier solution
-  // With PipelineOptions::by_emitter, the light of each emitter alone on the present solution and on its mesh
-  // of kind kInterpolant; their sum is the whole light. Empty before there is such a mesh, and if a limit of
-  // time or memory ended the work on it (PipelineReport::unmet).
+  // Exact irradiance from the solution's leaves. The result of irradiance() is valid until the next step of
+  // the solver.
+  const PointIrradiance& irradiance() const;
+  const IrradianceMesh& mesh() const;  // REQUIRES: BuildMesh() has been called
+  // Kind of mesh(); nullopt if the mesh belongs to an earlier solution.
+  std::optional<MeshKind> mesh_kind() const;
+  // With PipelineOptions::by_emitter, returns the light of each emitter alone, for the present solution and
+  // its mesh of kind kInterpolant. The sum of the lights of all emitters is the light of the solution. The
+  // list of the emitters' lights is empty before there is a mesh of kind kInterpolant, and if a limit of time
+  // or memory ended the computation of the lights (PipelineReport::unmet).
   std::span<const EmitterLight> emitters() const;
-  // The errors of the mesh's triangles; zero for triangles that were not measured because their interpolants
-  // agree with the neighbours. The list is empty if the mesh was not refined.
+  // Returns the errors of the mesh's triangles; zero for triangles that were not measured because their
+  // interpolants agree with those of the neighbours. The list of triangle errors is empty if the mesh was not
+  // refined.
   std::span<const TriangleError> triangle_errors() const;
 
-  // max(0, irradiance of the interpolants) [W/m^2] at a point of the patch. If the point lies outside the
-  // patch, the nearest point of the patch is used if its distance is at most `reach` [m]; otherwise, the
-  // result is nullopt. REQUIRES: BuildMesh().
+  // Returns max(0, irradiance of the interpolants) [W/m^2] at a point of the patch. If the point lies outside
+  // the patch by at most `reach` [m], the nearest point of the patch is used. If the point is farther outside
+  // the patch than `reach`, the result is nullopt. REQUIRES: BuildMesh() has been called.
   std::optional<Rgb> Interpolated(PatchId patch, const Vec3& point, double reach = 0) const;
 
-  // The irradiance at a point in free space: irradiance.Anywhere(), but sources close to the point are
-  // divided by the light that the interpolants show on them (CloserSources). The solution's leaves are as
-  // fine as the surfaces of the scene need them, and a point in space may be closer. Sources are not divided
-  // if the light of the solution is not that of the interpolants (ResolvedOptions::refine_light, other
-  // solvers). REQUIRES: `irradiance` was made from solution(), and BuildMesh().
+  // Returns the irradiance at a point in free space, as irradiance.Anywhere() does. IrradianceInSpace() also
+  // divides light sources close to the point, according to the light of the interpolants on the sources
+  // (CloserSources). The solution's leaves are as fine as the surfaces of the scene need them, and a point in
+  // space may be closer to a leaf than any surface. Light sources are not divided if the light of the
+  // solution does not come from interpolants (ResolvedOptions::refine_light, other solvers), or with
+  // PipelineOptions::by_emitter. REQUIRES: `irradiance` was made from solution(), and BuildMesh() has been
+  // called.
   PointIrradianceResult IrradianceInSpace(const PointIrradiance& irradiance, const ReceiverPoint& at,
                                           IrradianceParts* parts = nullptr) const;
 
-  // The list of discontinuities that is written to files (ListDiscontinuities); empty if the time limit ends
-  // before they are found.
+  // Returns the list of discontinuities that is written to files (ListDiscontinuities). The list of
+  // discontinuities is empty if the time limit ends before the discontinuities are found.
   DiscontinuityList Discontinuities() const;
 
   const PipelineReport& report() const;

@@ -1,6 +1,7 @@
 // mesh/pipeline/run_limits.h
 //
-// Limits on time and memory. A run that reaches a limit ends as if it were cancelled.
+// Limits on the time and the memory of a run. A run that reaches a limit of time or memory ends as if the
+// user had cancelled it.
 
 #pragma once
 
@@ -15,28 +16,29 @@
 
 namespace penumbra {
 
-// The memory that this process uses now [bytes]; 0 if unknown.
+// Returns the memory that this process uses now [bytes], or 0 if the memory is unknown.
 std::uint64_t ResidentBytes();
 
-// Starts a thread that watches the limits until the object is destroyed. If neither limit is given, no thread
-// is started, and context() returns the outer context.
+// RunLimits starts a thread that watches the limits of time and memory until the object is destroyed. If
+// neither a time limit nor a memory limit is given, no thread is started, and context() returns the outer
+// context.
 class RunLimits {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // The time limit is `seconds` after `begin`. The memory limit is (1 - kept) * bytes for the whole process;
-  // the rest is reserved for work after the run.
+  // The time limit ends `seconds` after `begin`. The memory limit is (1 - kept) * bytes for the whole
+  // process. The fraction `kept` of the memory limit is reserved for work after the run.
   RunLimits(const ExecutionContext& outer, std::optional<double> seconds, std::optional<double> bytes,
             Clock::time_point begin = Clock::now(), double kept = 0);
   ~RunLimits();
   RunLimits(const RunLimits&) = delete;
   RunLimits& operator=(const RunLimits&) = delete;
 
-  // The context for the run: it forwards progress to the outer context, and is cancelled if the outer context
-  // is cancelled or if a limit is reached.
+  // The execution context for the run, which forwards progress to the outer execution context. The run is
+  // cancelled if the outer execution context is cancelled or if a limit is reached.
   const ExecutionContext& context() const { return watched() ? inner_ : outer_; }
 
-  // A description of the limit that was reached; nullopt if no limit was reached.
+  // Returns a description of the limit that was reached, or nullopt if no limit was reached.
   std::optional<std::string> Exceeded() const;
 
  private:

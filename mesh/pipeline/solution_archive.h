@@ -1,8 +1,8 @@
 // mesh/pipeline/solution_archive.h
 //
-// Converts the solver's data structures to the arrays of a solution file, and back. A vector of structs is a
-// table: each struct is a row, and each member is a column, which is stored as one array. The same
-// description of a table is used for writing and for reading.
+// Converts the solver's data structures to the arrays of a solution file, and back. In a solution file, a
+// vector of structs is a table: each struct is a row, and each member is a column, which is stored as one
+// array. The same description of a table is used for writing and for reading.
 
 #pragma once
 
@@ -25,8 +25,8 @@
 
 namespace penumbra {
 
-// Describes how one value is stored in a row of an array: as kCount numbers of type Scalar, arranged in the
-// shape Shape().
+// Packed describes how one value is stored in a row of an array: as kCount numbers of type Scalar, arranged
+// in the shape Shape().
 template <class Value>
 struct Packed {
   static_assert(std::is_arithmetic_v<Value>);
@@ -37,7 +37,7 @@ struct Packed {
   static void Unpack(const Scalar* in, Value& value) { value = *in; }
 };
 
-// Stores each value in one byte. Values must be less than kLimit.
+// Stores each value in one byte. Values stored in one byte must be less than kLimit.
 template <class Value, std::uint8_t kLimit>
 struct PackedByte {
   using Scalar = std::uint8_t;
@@ -107,7 +107,8 @@ struct Packed<std::array<Part, kParts>> {
   }
 };
 
-// Stores the coefficients of an interpolant in the order a, b2, c2, d, e2, f, each with three channels.
+// Stores the coefficients of a quadratic interpolant in the order a, b2, c2, d, e2, f, each with three
+// channels.
 template <>
 struct Packed<QuadraticInterpolant> {
   using Six = std::array<Rgb, 6>;
@@ -131,16 +132,16 @@ ArrayShape ShapeOfRows(std::size_t rows) {
   return shape;
 }
 
-// Writes tables. ArchiveReader has the same functions.
+// ArchiveWriter writes tables to a solution file. ArchiveReader has the same functions as ArchiveWriter.
 class ArchiveWriter {
  public:
   explicit ArchiveWriter(Hdf5Writer* file) : file_(file) {}
 
-  // Does nothing, because only the reader counts rows.
+  // CountRows() does nothing in the writer, because only the reader needs the number of rows.
   template <class Row>
   void CountRows(const std::string&, const std::vector<Row>&, std::size_t = 0) {}
 
-  // Writes one column: the values access(row) of all rows.
+  // Writes one column of a table: the values access(row) of all rows.
   template <class Row, class Access>
   void Column(const std::string& path, const std::vector<Row>& rows, const Access& access) {
     using Value = std::remove_cvref_t<std::invoke_result_t<Access, const Row&>>;
@@ -151,9 +152,9 @@ class ArchiveWriter {
     file_->Write(path, ScalarTypeOf<Scalar>::value, ShapeOfRows<Value>(rows.size()), values.data());
   }
 
-  // Writes a column whose values are lists: one array holds the lists access(row) of all rows one after
-  // another. The array PATH_first holds the index where each list starts, and the index where the last one
-  // ends.
+  // Writes a column whose values are lists. One array holds the lists access(row) of all rows of the table
+  // one after another. The array PATH_first holds the index at which the list of each row starts, and the
+  // index at which the last list ends.
   template <class Row, class Access>
   void Lists(const std::string& path, const std::vector<Row>& rows, const Access& access) {
     using Value = typename std::remove_cvref_t<std::invoke_result_t<Access, const Row&>>::value_type;
@@ -217,8 +218,8 @@ class ArchiveReader {
   const Hdf5Reader* file_;
 };
 
-// Reads or writes the columns of one table, whose paths begin with a common path. The first column determines
-// the number of rows.
+// Table reads or writes the columns of one table, whose paths begin with a common path. The first column of
+// the table determines the number of rows.
 template <class Archive, class Rows>
 class Table {
  public:

@@ -1,8 +1,8 @@
 // mesh/pipeline/solution_schema.h
 //
-// The layout of a solution file. Each function writes if `archive` is an ArchiveWriter, and reads if it is an
-// ArchiveReader (solution_archive.h). Every change in this header must increment kSolutionSchema
-// (solution_file.h).
+// The layout of a solution file. Each Describe function writes data if `archive` is an ArchiveWriter, and
+// reads data if it is an ArchiveReader (solution_archive.h). Every change of the layout must increment
+// kSolutionSchema (solution_file.h).
 
 #pragma once
 
@@ -60,7 +60,8 @@ void DescribeVisibility(Archive& archive, Rows& rows) {
   Table(archive, "visibility/blockers", rows.blockers).Column("patch", std::identity());
 }
 
-// Positions of elements are not stored, because they follow from patches and lattice corners.
+// The positions of quadtree elements are not stored, because they follow from the patches and the integer
+// lattice coordinates of the elements' corners.
 template <class Archive, class Elements>
 void DescribeElements(Archive& archive, Elements& elements) {
   Table(archive, "elements", elements)
@@ -71,7 +72,7 @@ void DescribeElements(Archive& archive, Elements& elements) {
       .Column("corners", &Element::corner);
 }
 
-// All parts of a solution except its elements.
+// Describes all parts of a radiosity solution except its quadtree elements.
 template <class Archive, class Solution>
 void DescribeLight(Archive& archive, Solution& solution) {
   Table(archive, "elements", solution.irradiance).Column("irradiance", std::identity());
@@ -100,7 +101,7 @@ void DescribeLight(Archive& archive, Solution& solution) {
   if constexpr (!std::is_const_v<Solution>) solution.rays_per_point = rays.size() == 1 ? rays[0] : 0;
 }
 
-// `kind` is a vector with one element.
+// `kind` is a vector that contains one MeshKind.
 template <class Archive, class Mesh, class Kind>
 void DescribeMesh(Archive& archive, Mesh& mesh, Kind& kind) {
   Table(archive, "mesh", kind).Column("kind", std::identity());
@@ -112,7 +113,7 @@ void DescribeMesh(Archive& archive, Mesh& mesh, Kind& kind) {
   Table(archive, "mesh/triangles", mesh.irradiance).Column("interpolant", std::identity());
 }
 
-// The light of each emitter; no rows if it was not kept.
+// Describes the light of each emitter; the table has no rows if the light of each emitter was not kept.
 template <class Archive, class Emitters>
 void DescribeEmitters(Archive& archive, Emitters& emitters) {
   Table(archive, "emitters", emitters)
@@ -122,7 +123,8 @@ void DescribeEmitters(Archive& archive, Emitters& emitters) {
       .Lists("interpolant", &EmitterLight::interpolant);
 }
 
-// Discontinuities are stored for other programs only; Penumbra does not read them, but computes them again.
+// Discontinuities are stored only for other programs. Penumbra does not read the stored discontinuities, but
+// computes discontinuities again.
 inline void DescribeDiscontinuities(ArchiveWriter& archive, const DiscontinuityList& list) {
   Table(archive, "discontinuities", list.ends).Column("ends", std::identity());
   Table(archive, "discontinuities", list.all)

@@ -1,6 +1,7 @@
 // mesh/refinement/covered_light.h
 //
-// The interpolants of a mesh within a convex polygon that does not follow the edges of the mesh.
+// The irradiance interpolants of a mesh within a convex polygon whose sides need not follow edges of the
+// mesh.
 
 #pragma once
 
@@ -17,33 +18,37 @@ namespace penumbra {
 
 class CoveredLight {
  public:
-  // The triangles [first, end) of a mesh, which lie on one patch with the frame `frame`.
+  // Takes the triangles of `mesh` with indices in [first, end). The triangles of a CoveredLight lie on one
+  // patch, whose plane coordinates are defined by `frame`.
   CoveredLight(const IrradianceMesh& mesh, std::uint32_t first, std::uint32_t end, const Frame& frame);
 
-  // The part within the convex, counter-clockwise polygon. Omits pieces that are so small that only rounding
-  // can have put them there: pieces on the other side of a contact.
+  // Clips the triangles to the convex, counter-clockwise polygon. Clipped triangles so small that only
+  // rounding explains them are omitted, because they lie on the other side of a contact, where the irradiance
+  // is different.
   CoveredLight Within(std::span<const Vec2> polygon) const;
 
-  // The area of the pieces [m^2].
+  // The total area of the clipped triangles [m^2].
   double area() const { return area_; }
-  // The exact mean of the interpolants over the pieces [W/m^2]. REQUIRES: area() > 0.
+  // The exact mean of the interpolants over the clipped triangles [W/m^2]. REQUIRES: area() > 0.
   Rgb Mean() const;
-  // Mean() as a sum over samples: for each triangle with a piece, its number in the mesh, and the weights of
-  // its six samples in the order of kSampleAt. The weights add up to 1. REQUIRES: area() > 0.
+  // MeanWeights() expresses Mean() as a weighted sum over the irradiance samples of the mesh. Each
+  // SampleWeights holds the index of a triangle in the mesh, and the weights of the triangle's six samples in
+  // the order of kSampleAt. All weights in the result of MeanWeights() together add up to 1. REQUIRES: area()
+  // > 0.
   struct SampleWeights {
     std::uint32_t triangle = 0;
     std::array<double, 6> weight = {};
   };
   std::vector<SampleWeights> MeanWeights() const;
-  // For each channel, the largest difference between `mean` and the interpolants, at the vertices of the
-  // pieces and at the midpoints of their edges [W/m^2].
+  // For each channel, the largest difference between `mean` and the interpolants, at the vertices and the
+  // edge midpoints of the clipped triangles [W/m^2].
   Rgb Deviation(const Rgb& mean) const;
-  // The area of the largest triangle that has a piece [m^2].
+  // The area, before clipping, of the largest triangle that overlaps the polygon [m^2].
   double LargestTriangle() const;
 
  private:
   struct Triangle {
-    std::uint32_t number;  // in the mesh
+    std::uint32_t number;  // index in the mesh
     Vec2 origin;
     Eigen::Matrix2d to_barycentric;
     double area;  // [m^2]
@@ -54,7 +59,7 @@ class CoveredLight {
   };
   struct Piece {
     std::uint32_t triangle;    // index in *triangles_
-    std::uint32_t first, end;  // range in corners_
+    std::uint32_t first, end;  // range of the corners in corners_
     double area;
   };
 

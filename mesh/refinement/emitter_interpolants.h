@@ -1,7 +1,7 @@
 // mesh/refinement/emitter_interpolants.h
 //
-// The interpolants of each emitter alone, on the triangles of a mesh. Each node of the mesh is looked at
-// once: its row of form factors gives the light of all emitters.
+// The interpolants of each emitter alone, on the triangles of a mesh. The form factors of each mesh node
+// (vertex or edge midpoint) are computed once, and give the node's irradiance from every emitter.
 
 #pragma once
 
@@ -17,21 +17,24 @@
 
 namespace penumbra {
 
-// Makes the irradiance from a solution with the same elements; null if cancelled.
+// A function that makes the exact irradiance from a solution with the same elements, or null if the
+// computation is cancelled.
 using IrradianceOf = std::function<std::unique_ptr<const PointIrradiance>(const RadiositySolution&)>;
 
 struct EmitterInterpolation {
-  const RadiositySolution& whole;  // whose light is the sum of the lights
+  const RadiositySolution& whole;  // solution whose light is the sum of `lights`
   std::span<const PatchTriangulation> triangulations;
-  const PointIrradiance& exact;  // from the whole light
-  // For irradiance that has no rows (PointIrradiance::CanRecord): each emitter's own, point by point.
+  const PointIrradiance& exact;  // exact irradiance from the light of all emitters
+  // Makes the irradiance from a single emitter's light, which is evaluated at every node if `exact` cannot
+  // record form factors (PointIrradiance::CanRecord).
   IrradianceOf irradiance_of;
-  double tolerance = 0;  // of samples
+  double tolerance = 0;  // tolerance of irradiance samples (PointIrradiance::RecordOnPatch)
 };
 
-// Sets EmitterLight::interpolant of all lights; nodes are not predicted, so that the interpolants are linear
-// in the emittance. Returns the number of points whose irradiance was evaluated; 0 if cancelled, with
-// incomplete interpolants.
+// Sets EmitterLight::interpolant of all lights. All mesh nodes are sampled, and none is predicted from its
+// neighbours, so that the interpolants are linear in the emittance. Returns the number of points whose
+// irradiance was evaluated. If the computation is cancelled, the function returns 0, and the interpolants are
+// incomplete.
 std::size_t InterpolateByEmitter(const EmitterInterpolation& in, std::span<EmitterLight> lights,
                                  const ExecutionContext& context);
 

@@ -1,9 +1,9 @@
 // mesh/refinement/emitter_light.h
 //
-// The light of one emitter alone, on everything on which a solution and its mesh hold the whole light. Light
-// is linear in the emittance as long as elements, sources, form factors and the nodes of the mesh stay the
-// same. The whole light is therefore the sum of the lights of all emitters, and a dimmed scene has the sum
-// with a factor for each.
+// The light of one emitter alone: the emitter's part of the irradiance in a radiosity solution and in the
+// solution's mesh. Light is linear in the emittance as long as elements, sources, form factors and the sample
+// points of the mesh stay the same. The light of a scene is therefore the sum of the lights of its emitters.
+// If emitters are dimmed, each emitter's light is multiplied by a factor before the sum.
 
 #pragma once
 
@@ -19,30 +19,33 @@
 namespace penumbra {
 
 struct EmitterLight {
-  std::vector<PatchId> patches;  // that the emitter consists of, ascending
-  // The irradiance that arises from this emitter alone, with all its reflections [W/m^2]: of each element,
-  // and of each fragment of the solution.
+  std::vector<PatchId> patches;  // patches that form the emitter, ascending
+  // The irradiance that arises from this emitter alone, including all reflections [W/m^2], of each element,
+  // and of each fragment (convex piece of a leaf).
   std::vector<Rgb> element, fragment;
-  std::vector<QuadraticInterpolant> interpolant;  // of each triangle of the mesh [W/m^2]
+  std::vector<QuadraticInterpolant> interpolant;  // the emitter's light on each triangle of the mesh [W/m^2]
 };
 
-// The sum over all lights of factor[k] * lights[k], in the order of the lights; `patches` is empty. REQUIRES:
-// all lights have as many elements, fragments and triangles; there is one factor for each light.
+// Returns the sum of factor[k] * lights[k] over all k, added in ascending order of k. EmitterLight::patches
+// of the sum is empty. REQUIRES: all lights have the same numbers of elements, fragments and triangles, and
+// there is one factor for each light.
 EmitterLight SumOf(std::span<const EmitterLight> lights, std::span<const Rgb> factor);
 
-// Multiplies the lights by factors, and gives their sum to the solution and the mesh. The radiosities follow
-// from the emittances of the solution's scene, which must be multiplied by the same factors.
+// Multiplies lights[k] by factor[k] for all k, and makes the sum of the lights the irradiance of the solution
+// and of the mesh. The solution's radiosities are computed from the emittances of its scene, which the caller
+// must have multiplied by the factors of the emitters.
 void ScaleLights(std::span<const Rgb> factor, std::span<EmitterLight> lights, RadiositySolution& solution,
                  IrradianceMesh& mesh);
 
-// What a source set needs of a light: radiosities of elements and fragments, and emittances.
+// The data of a light that a SourceSet needs: radiosities of elements and fragments, and emittances of
+// patches.
 struct SourceLight {
   std::vector<Rgb> element, fragment, emittance;  // [W/m^2]
 
   SourceLight() = default;
-  // The light of a solution.
+  // Takes the light of a radiosity solution.
   explicit SourceLight(const RadiositySolution& solution);
-  // The light of one emitter of a solution.
+  // Takes the light of one emitter of a radiosity solution.
   SourceLight(const RadiositySolution& solution, const EmitterLight& light);
 
   SourceSet::Light View() const { return {element, fragment, emittance}; }

@@ -1,9 +1,10 @@
 // mesh/refinement/emitter_sources.h
 //
-// The light of each emitter alone on the sources of a solution. The operator is that of the whole light: the
-// same elements, links, fragments and, where interpolants have refined the sources, the same mesh with the
-// same rows of form factors. Only the emittance differs from emitter to emitter, so that each light takes
-// products, and no form factors.
+// Computes the light of each emitter alone, for the light sources (quadtree leaves and their fragments) of a
+// radiosity solution. Each emitter's light is transported like the light of all emitters: over the same
+// elements, links and fragments. Where mesh interpolants have refined the sources, each emitter's light also
+// uses the same mesh and the same form factors of mesh nodes. Only the emittance differs from emitter to
+// emitter, so that each emitter's light needs multiplications by known form factors only.
 
 #pragma once
 
@@ -25,22 +26,24 @@ namespace penumbra {
 
 // The mesh whose interpolants have refined the sources of a solution.
 struct SourceMesh {
-  const ElementForest& forest;  // of the triangulations
+  const ElementForest& forest;  // quadtrees of the triangulations
   std::span<const PatchTriangulation> triangulations;
   Interpolation how;
-  std::span<const SourceCell> cells;  // the sources
-  const PointIrradiance& exact;       // from the whole light
-  SampleCache& samples;               // of the mesh's nodes, with rows
-  SourceSet& samples_from;            // the sources to which the rows belong
-  double tolerance = 0, settled = 0;  // of rows; the change of sources below which no turn follows
+  std::span<const SourceCell> cells;  // the refined sources
+  const PointIrradiance& exact;       // exact irradiance from the light of all emitters
+  SampleCache& samples;               // samples at the mesh's nodes, with their form factors
+  SourceSet& samples_from;            // the sources to which the form factors belong
+  // `tolerance` is the tolerance of the form factors. The iteration ends when the light of the sources
+  // changes by at most `settled` (SourceCells::Change).
+  double tolerance = 0, settled = 0;
 };
 
-// The light of each emitter, without interpolants. If `mesh` is null, the light is that of
-// LightSolver::LitAs(). Otherwise the sources get the means of the interpolants in turns, as in
-// ShownMesh::RefineLight(); the rows in mesh->samples are renewed where they do not hold for the light of
-// every emitter, and mesh->samples_from becomes the set to which they belong then. Nothing if cancelled, or
-// if the solver has no LitAs(). REQUIRES: `mesh` belongs to the present light of `whole`, and
-// mesh->exact.CanRecord().
+// Returns the light of each emitter, without interpolants. If `mesh` is null, LightSolver::LitAs() computes
+// the light of each emitter. If `mesh` is not null, the sources repeatedly get the means of the interpolants
+// over them, as in ShownMesh::RefineLight(). Form factors in mesh->samples that are too inaccurate for some
+// emitter's light are renewed, and mesh->samples_from becomes the set of sources to which the renewed form
+// factors belong. The result is nullopt if the computation is cancelled, or if the solver does not implement
+// LitAs(). REQUIRES: `mesh` belongs to the present light of `whole`, and mesh->exact.CanRecord() is true.
 std::optional<std::vector<EmitterLight>> SolveByEmitter(const LightSolver& whole,
                                                         std::span<const std::vector<PatchId>> emitters,
                                                         const SourceMesh* mesh,

@@ -1,9 +1,10 @@
 // mesh/refinement/light_operator.h
 //
-// The light transport of a solved scene, kept as a matrix. With the sources and the nodes of the mesh fixed,
-// irradiance is linear in the radiosities: R gives the irradiance at all nodes, and M the means of the
-// interpolants over all sources. The light of other emittances e and reflectances rho is the solution of
-// b = e + rho M R b, and takes products alone.
+// The light transport of a solved scene, stored as a matrix. If the sources and the mesh nodes are fixed,
+// irradiance is linear in the radiosities b of the sources. The matrix R maps b to the irradiance at all mesh
+// nodes, and M maps the irradiance at the nodes to the means of the interpolants over all sources. For other
+// emittances e and reflectances rho, the radiosities b solve b = e + rho M R b, which takes products with the
+// matrix and no form factors.
 
 #pragma once
 
@@ -26,35 +27,37 @@ namespace penumbra {
 
 struct OperatorInput {
   const RadiositySolution& whole;
-  const ElementForest& forest;  // of the triangulations: the solution's or a refinement of it
+  const ElementForest& forest;  // quadtrees of the triangulations: the solution's or a refinement
   std::span<const PatchTriangulation> triangulations;
-  const PointIrradiance& exact;  // from the solution
-  // The light of each emitter, as far as it is known: rows then also hold for each emitter alone.
+  const PointIrradiance& exact;  // exact irradiance from the solution
+  // The light of each emitter, if it is known: the form factors are then accurate enough for each emitter
+  // alone, too.
   std::span<const EmitterLight> emitters;
-  double tolerance = 0;  // of rows
+  double tolerance = 0;  // tolerance of the form factors
 };
 
 class LightOperator {
  public:
-  // Looks at each node of the mesh once. The operator keeps no reference to the input. REQUIRES:
-  // in.exact.CanRecord().
+  // Computes the form factors of each mesh node once. The LightOperator keeps no reference to its input.
+  // REQUIRES: in.exact.CanRecord() is true.
   LightOperator(const OperatorInput& in, const ExecutionContext& context);
-  // False if the construction was cancelled.
+  // Ready() is false if the construction of the operator was cancelled.
   bool Ready() const { return ready_; }
 
-  // The light of a scene with the same patches as that of the solution: the irradiance of elements and
-  // fragments, and the interpolants. The radiosities of the sources are within `cutoff` of their limit,
-  // relative to the largest. Nothing if a patch sends light that sent none in the solution.
+  // Returns the light of `other`, a scene with the same patches as the solution's scene: the irradiance of
+  // elements and fragments, and the interpolants. The iteration for the radiosities ends when no irradiance
+  // changes by more than cutoff * (largest irradiance) in one step. The result is nullopt if a patch that
+  // sent no light in the solution emits or reflects light in `other`.
   std::optional<EmitterLight> LitBy(const Scene& other, double cutoff) const;
 
-  // The memory of the matrix [bytes].
+  // The memory that the matrix occupies [bytes].
   std::size_t bytes() const;
 
  private:
   struct Term {
     double factor = 0;                        // [1]
-    std::int32_t node = -1;                   // in sources_
-    std::array<float, 3> moment = {0, 0, 0};  // of the node's slope [m]
+    std::int32_t node = -1;                   // index in sources_
+    std::array<float, 3> moment = {0, 0, 0};  // factor of the slope of the node's radiosity [m]
   };
   // Rows of a sparse matrix.
   struct Matrix {
@@ -63,7 +66,7 @@ class LightOperator {
 
     std::size_t rows() const { return first.size() - 1; }
     void Add(std::span<const Term> row);
-    Rgb Product(std::size_t row, const SourceSet& light) const;  // at least 0
+    Rgb Product(std::size_t row, const SourceSet& light) const;  // [W/m^2], at least 0
   };
   struct Weighted;
 
@@ -74,17 +77,18 @@ class LightOperator {
   SourceLight LightOf(const Scene& scene, std::span<const Rgb> unknown) const;
 
   bool ready_ = false;
-  ElementForest forest_;  // of the solution
+  ElementForest forest_;  // quadtrees of the solution
   SourceSet sources_;
-  IrradianceMesh mesh_;  // as recorded
-  Matrix nodes_;         // R: a row for each sample of the mesh
+  IrradianceMesh mesh_;  // mesh at construction
+  Matrix nodes_;         // matrix from radiosities to irradiance at the samples of the mesh (R)
   std::vector<std::array<std::uint32_t, 6>> samples_of_triangle_;
-  // The unknowns are the irradiances of the fragments, and then of the leaves that are not cut.
-  Matrix means_;  // M R: a row for each unknown
+  // The unknowns are the irradiances of the fragments (convex pieces of leaves), followed by the irradiances
+  // of the leaves that have no fragments.
+  Matrix means_;  // matrix from radiosities to the unknown irradiances (M R)
   std::vector<ElementId> leaf_of_unknown_;
   std::vector<double> area_of_unknown_;  // [m^2]
   std::size_t fragments_ = 0;
-  std::vector<Rgb> start_;  // the irradiances of the unknowns in the solution
+  std::vector<Rgb> start_;  // the unknown irradiances, as they are in the solution
 };
 
 }  // namespace penumbra

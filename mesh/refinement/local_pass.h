@@ -1,8 +1,9 @@
 // mesh/refinement/local_pass.h
 //
 // The local pass (Lischinski, Tampieri and Greenberg), the second half of the offline computation. The local
-// pass computes the irradiance mesh from the solution of the global pass in four steps: discontinuities,
-// DSets, the triangulation of leaves, and interpolants.
+// pass computes the irradiance mesh from the solution of the global pass in four steps. The four steps of the
+// local pass find discontinuities, choose those that become edges (DSets), triangulate quadtree leaves, and
+// compute interpolants.
 
 #pragma once
 
@@ -26,30 +27,33 @@
 
 namespace penumbra {
 
-// The leaves and the requested discontinuities from which a mesh is computed, in addition to the solution and
-// the options. Refinement of the mesh adds leaves and discontinuities to the plan.
+// A mesh plan holds the quadtree leaves and the requested discontinuities of a mesh. A mesh is computed from
+// a plan, a radiosity solution and options. Refinement of a mesh adds leaves and discontinuities to the mesh
+// plan.
 struct MeshPlan {
-  ElementForest forest;                            // the solution's, or grown from it
-  std::vector<std::vector<Discontinuity>> wanted;  // per patch; patches beyond its end have none
+  ElementForest forest;  // the solution's quadtrees, or a refinement of them
+  // Discontinuities that refinement has requested on each patch. A patch beyond the end of the list `wanted`
+  // has no requested discontinuities.
+  std::vector<std::vector<Discontinuity>> wanted;
 };
 
 struct MeshResult {
   IrradianceMesh mesh;
   MeshPlan plan;
-  std::vector<PatchTriangulation> triangulations;  // the source of the mesh
+  std::vector<PatchTriangulation> triangulations;  // triangulations from which `mesh` was made
   MeshReport report;
 };
 
 // Data that one local pass computes and a later local pass over the same scene reuses, for example after an
-// iteration or after a division of leaves. The cache saves time and does not change results.
+// iteration or after a division of leaves. The LocalPassCache saves time and does not change results.
 class LocalPassCache {
  public:
-  // Scene and visibility must outlive the cache.
+  // Scene and visibility must outlive the LocalPassCache.
   LocalPassCache(const Scene& scene, const PatchVisibility& visibility)
       : discontinuities(scene, visibility), leaves(scene.patches.size()) {}
 
   DiscontinuityCache discontinuities;
-  std::vector<LeafMeshCache> leaves;  // per patch
+  std::vector<LeafMeshCache> leaves;  // triangulated leaves of each patch
 };
 
 // For each patch, the maximum radiosity over the patch's leaves and the channels [W/m^2].
@@ -62,32 +66,36 @@ struct OmittedOfPatch {
   std::vector<OmittedDiscontinuity> omitted;
 };
 
-// The plan of the first mesh. The leaves of the plan are the solution's leaves, except that leaves at the
-// ends of contacts are divided options.corner_divisions times.
+// Returns the mesh plan (quadtree leaves and requested discontinuities) of the first mesh of a solution. In
+// the first mesh plan, the leaves are the solution's leaves, except that leaves at the ends of contacts
+// (lines where surfaces touch) are divided options.corner_divisions times.
 MeshPlan BeginPlan(const PatchVisibility& visibility, const RadiositySolution& solution,
                    const DiscontinuityOptions& options);
 
-// Triangulates the patches of a scene. The object can be used again after leaves have been divided.
+// Triangulates all patches of a scene. A PatchTriangulator can be used again after quadtree leaves have been
+// divided.
 class PatchTriangulator {
  public:
-  // All arguments must outlive the object. If `cache` is null, the object uses its own cache.
+  // All constructor arguments must outlive the PatchTriangulator. If `cache` is null, the PatchTriangulator
+  // uses its own cache.
   PatchTriangulator(const PatchVisibility& visibility, const RadiositySolution& solution,
                     const DiscontinuityOptions& options, const ExecutionContext& context,
                     LocalPassCache* cache = nullptr);
 
-  // After this call, if discontinuities are ranked by DiscontinuityWeight::kIrradiance and a leaf has no room
-  // for all of them, the sampler computes the irradiance at the discontinuities (LeafIrradianceSamples). The
-  // sampler must outlive the object.
-  // `samples`, unless null, holds samples of this sampler, and gets those that ranking takes.
+  // If a leaf has no room for all its discontinuities and they are ranked by
+  // DiscontinuityWeight::kIrradiance, `sampler` computes the irradiance at the discontinuities
+  // (LeafIrradianceSamples). The sampler must outlive the PatchTriangulator. `samples`, unless null, holds
+  // samples of `sampler`, and receives the samples that the ranking takes in addition.
   void RankWith(const IrradianceSampler& sampler, SampleCache* samples = nullptr) {
     sampler_ = &sampler;
     samples_ = samples;
   }
 
-  // Triangulates all patches along the leaves of the plan, and adds counts and seconds to `report`. Leaves
-  // may be split further for the mesh; for each leaf of a triangulation, PatchTriangulation::leaves holds the
-  // leaf of the plan that contains it. If `omitted` is not null, it receives one entry for each patch, unless
-  // the context is cancelled. REQUIRES: the quadtrees are balanced.
+  // Triangulates all patches along the quadtree leaves of the mesh plan, and adds counts and run times to
+  // `report`. Leaves of the mesh plan may be split further for the mesh. For each triangulated leaf,
+  // PatchTriangulation::leaves names the leaf of the mesh plan that contains the triangulated leaf. If
+  // `omitted` is not null, the list receives one entry for each patch, unless the computation is cancelled.
+  // REQUIRES: the quadtrees are balanced.
   std::vector<PatchTriangulation> Triangulate(const MeshPlan& plan, MeshReport& report,
                                               std::vector<OmittedOfPatch>* omitted = nullptr);
 
@@ -114,27 +122,29 @@ class PatchTriangulator {
   LocalPassCache& cache_;
   ReferenceIrradiance light_;
   std::vector<double> strength_;  // SourceStrengths()
-  // The last activation of a patch. It holds until the patch gets other leaves, or refinement wants another
-  // discontinuity there.
+  // The latest choice of the discontinuities of a patch that become edges of the mesh. The choice of
+  // discontinuities holds until the patch gets other leaves, or until refinement requests another
+  // discontinuity on the patch.
   struct Activation {
-    std::vector<ElementId> leaves;  // of the plan; empty: none
-    std::size_t wanted = 0;         // number of wanted discontinuities
+    std::vector<ElementId> leaves;  // leaves of the plan; empty if nothing has been chosen
+    std::size_t wanted = 0;         // number of discontinuities that refinement has requested
     bool lists_omitted = false;
-    // Elements that were split because they were crowded, in this order, each with its first child.
+    // Quadtree elements that were split because they had no room for a discontinuity, in the order of the
+    // splits, each with its first child.
     std::vector<std::pair<ElementId, ElementId>> splits;
     PatchDSets dsets;
   };
-  std::vector<Activation> activations_;  // by patch
+  std::vector<Activation> activations_;  // entry for each patch
 };
 
 // Data from an earlier local pass; each member may be null.
 struct LocalPassMemory {
   LocalPassCache* cache = nullptr;
-  SampleCache* samples = nullptr;  // samples of the same sampler
+  SampleCache* samples = nullptr;  // samples of the sampler that is passed to RunLocalPass()
 };
 
-// The complete local pass. For constant interpolants, the sampler is not called. If cancelled, the function
-// returns an empty mesh. REQUIRES: the quadtrees are balanced.
+// Runs the complete local pass. For constant interpolants, the sampler is not called. If the computation is
+// cancelled, the function returns an empty mesh. REQUIRES: the quadtrees are balanced.
 MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySolution& solution,
                         const IrradianceSampler& sampler, const MeshOptions& options,
                         const ExecutionContext& context, const LocalPassMemory& memory = {});

@@ -1,8 +1,9 @@
 // mesh/refinement/mesh_refinement.h
 //
-// Representation-based refinement (thesis 4.4.2) of the shown mesh. Leaves where the error of the
-// interpolants is too large are divided or get more edges. Refinement affects only the mesh: sources and
-// links remain unchanged, so that a finer mesh costs no more than additional samples.
+// Representation-based refinement (thesis 4.4.2): refines the displayed mesh where its interpolants are
+// inaccurate. Quadtree leaves where the error of the interpolants is too large are divided, or get more edges
+// along discontinuities. Refinement affects only the mesh: sources and links remain unchanged, so that a
+// finer mesh costs no more than additional samples.
 
 #pragma once
 
@@ -27,37 +28,40 @@
 
 namespace penumbra {
 
-// The fraction of the fronts' area that may exceed the error: the 1 % above a 99th percentile, minus an
-// allowance for errors that measurements at single points overlook.
+// The fraction of the area of all reflecting patch fronts on which the error may exceed its limit.
+// kShareAbove is the 1 % above a 99th percentile, minus an allowance for errors that measurements at single
+// points overlook.
 inline constexpr double kShareAbove = 0.005;
 
 struct MeshRefinementOptions {
-  // The fronts whose relative error exceeds `error` may cover at most the fraction share_above of the area of
-  // all fronts that reflect (ReflectingAreas). The same holds for the other fronts, among themselves. In each
-  // part of the scene (PartsOf), the limit of the error is kPartError * error.
+  // Triangles whose relative error exceeds `error` may cover at most the fraction share_above of the area of
+  // all reflecting patch fronts (ReflectingAreas). Triangles on patches that reflect nothing have the same
+  // limit: the fraction share_above of the area of these patches. In each part of the scene, for example an
+  // object (PartsOf), the limit of the error is kPartError * error.
   double error = 0.02;
   double share_above = kShareAbove;
-  double min_area = 0;  // no leaf becomes smaller than this [m^2]
-  // Triangles whose estimated error (GuessTriangleErrors) is below this fraction of `error` are not measured.
-  // The estimate holds for light that is smooth at the scale of a triangle.
+  double min_area = 0;  // no leaf becomes smaller than min_area [m^2]
+  // Triangles whose estimated error (GuessTriangleErrors) is below suspicion * error are not measured. The
+  // error estimate of GuessTriangleErrors() holds for light that is smooth at the scale of a triangle.
   double suspicion = 0.25;
-  // Triangles whose vertices differ by more than this factor are measured at finer points, too.
+  // A triangle is also measured at (samples + 1)^2 points if the irradiances at its vertices differ by more
+  // than the factor `steep`.
   double steep = std::numeric_limits<double>::infinity();
-  int samples = 1;  // per side of a triangle: samples^2 points measure it (thesis, Appendix A)
+  int samples = 1;  // each triangle is measured at samples^2 points (thesis, Appendix A)
   int max_rounds = 8;
-  std::size_t max_triangles = 2'000'000;  // no round starts with more: about 2 GB with their samples
+  std::size_t max_triangles = 2'000'000;  // refinement ends above max_triangles: about 2 GB with samples
 };
 
 struct RefinedMesh {
-  MeshPlan plan;  // with the leaves divided, and the discontinuities wanted, for the mesh
+  MeshPlan plan;  // plan with the leaves divided and the discontinuities requested by refinement
   std::vector<PatchTriangulation> triangulations;
   IrradianceMesh mesh;
   // The error of each triangle; zero for triangles that were not measured because the gradients of the
   // interpolants indicate a small error.
   std::vector<TriangleError> errors;
   MeshReport report;
-  double share_above = 0;        // fraction of the seen area on triangles with errors above `error`
-  std::vector<ElementId> unmet;  // leaves with errors above `error` that cannot be divided
+  double share_above = 0;        // fraction of the reflecting area on triangles with errors above `error`
+  std::vector<ElementId> unmet;  // leaves with errors above `error` that cannot be divided further
 };
 
 // The light that a mesh represents by its interpolants.
@@ -70,16 +74,17 @@ struct LightToShow {
 // Data from an earlier refinement that RefineMesh() reuses; each member may be null.
 struct RefinementMemory {
   LocalPassCache* local_pass = nullptr;
-  const MeshPlan* start = nullptr;         // the initial plan; BeginPlan() if null
-  SampleCache* samples = nullptr;          // samples of the same sampler
-  std::span<const KnownLight> known = {};  // additional points that test each mesh
+  const MeshPlan* start = nullptr;         // plan of the first mesh; null: the result of BeginPlan()
+  SampleCache* samples = nullptr;          // samples of LightToShow::sampler
+  std::span<const KnownLight> known = {};  // points with known irradiance that test each mesh
 };
 
-// Refines the mesh until the error exceeds its limit on at most the fraction share_above of the area,
-// until no step reduces the error, or until max_rounds rounds have been made. Each round chooses the steps
-// with the largest benefit / cost, and no more steps than necessary. A step divides a leaf, or adds an edge
-// along a discontinuity that had been omitted because of its small weight. If cancelled, the function returns
-// an empty mesh. REQUIRES: the leaves are balanced.
+// Refines the mesh until the error exceeds its limit on at most the fraction share_above of the area, until
+// no refinement step reduces the error, or until max_rounds rounds have been made. Each round of refinement
+// takes the steps with the largest ratio benefit / cost, and no more steps than necessary. A refinement step
+// divides a quadtree leaf, or adds an edge along a discontinuity that had been omitted because of its small
+// weight. If the computation is cancelled, the function returns an empty mesh. REQUIRES: the quadtrees are
+// balanced.
 RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options,
                        const MeshRefinementOptions& options, const ExecutionContext& context,
                        const RefinementMemory& memory = {});

@@ -1,7 +1,7 @@
 // mesh/refinement/refinement_step.h
 //
-// Steps that reduce the error of triangles. A step divides the leaf that contains the triangle, or adds an
-// edge along a discontinuity that the mesh omits.
+// Refinement steps that reduce the errors of the interpolants of triangles. A refinement step divides the
+// quadtree leaf that contains a triangle, or adds an edge along a discontinuity that the mesh omits.
 
 #pragma once
 
@@ -20,35 +20,36 @@
 namespace penumbra {
 
 struct RefinementStep {
-  // A triangle, and the part of its area that is expected to meet the error limit after the step [m^2].
+  // A triangle, and the part of its area that is expected to meet the error limit after a refinement step
+  // [m^2].
   struct Mended {
-    std::uint32_t triangle = 0;  // index in the mesh
+    std::uint32_t triangle = 0;  // index in the mesh's list of triangles
     double area = 0;
   };
 
   PatchId patch = kNoPatch;
   ElementId leaf = kNoElement;    // the leaf to divide; kNoElement: a discontinuity becomes an edge
-  std::size_t discontinuity = 0;  // index in OmittedOfPatch::found
-  double cost = 0;                // number of triangles added or made anew
+  std::size_t discontinuity = 0;  // discontinuity that becomes an edge: index in OmittedOfPatch::found
+  double cost = 0;                // number of triangles that the step adds or makes anew
   std::vector<Mended> mended;
 
   bool Divides() const { return leaf != kNoElement; }
 };
 
-// All steps that may reduce the error of triangles with TriangleError::max > error. There is one step for
-// each leaf that contains triangles with too large an error. There is also one step for each omitted
-// discontinuity that crosses a triangle with too large an error, if its jumps cause a sufficiently large part
-// of the error. Discontinuities are considered only if `omitted` has an entry for each patch. Errors are
-// relative to max(irradiance, floor) [W/m^2].
+// Returns all refinement steps that may reduce the error of triangles with TriangleError::max > error. There
+// is one refinement step for each quadtree leaf that contains triangles with too large an error. There is
+// also one refinement step for each omitted discontinuity that crosses a triangle with too large an error and
+// causes a sufficiently large part of this error. Discontinuities are considered only if `omitted` has an
+// entry for each patch. Errors are relative to max(irradiance, floor) [W/m^2].
 std::vector<RefinementStep> FindRefinementSteps(const IrradianceMesh& mesh,
                                                 std::span<const PatchTriangulation> triangulations,
                                                 std::span<const TriangleError> errors,
                                                 std::span<const OmittedOfPatch> omitted, double error,
                                                 double floor);
 
-// Chooses steps in order of decreasing (sum of Mended::area) / cost, until they mend `area` [m^2] in total or
-// no step is left; returns the indices of the chosen steps. If several steps would mend the same triangle,
-// its area is counted only for the first of these steps.
+// Chooses refinement steps in order of decreasing (sum of Mended::area) / cost, until the steps mend `area`
+// [m^2] in total or no step is left. Returns the indices of the chosen steps. If several refinement steps
+// would mend the same triangle, the triangle's area is counted only for the first of these steps.
 std::vector<std::size_t> ChooseRefinementSteps(std::span<const RefinementStep> steps, double area);
 
 }  // namespace penumbra

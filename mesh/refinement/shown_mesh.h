@@ -1,8 +1,9 @@
 // mesh/refinement/shown_mesh.h
 //
 // Computes and refines the mesh of a solution, controlled by the error of the interpolants (thesis 4.4.2).
-// First, leaves are divided into smaller sources, whose radiosities are computed from the interpolants.
-// Second, leaves are divided to refine the mesh, until the interpolants meet the requested error.
+// First, quadtree leaves are divided into smaller light sources, whose radiosities are computed from the
+// interpolants. Second, quadtree leaves are divided to refine the mesh, until the interpolants meet the
+// requested error.
 
 #pragma once
 
@@ -33,22 +34,22 @@ namespace penumbra {
 
 struct ShownMeshOptions {
   double error = 0.02;    // PipelineOptions::error
-  int error_samples = 1;  // see MeasureTriangles()
+  int error_samples = 1;  // TriangleSampling::samples
   std::uint64_t seed = 1;
-  SolverOptions solver;  // the options of the solution
-  // The fraction of the error for the interpolants, for a 99th percentile.
+  SolverOptions solver;  // options with which the solution is computed
+  // The fraction of the requested 99th percentile of errors that the interpolants may use.
   double interpolant_share = 0.6;
   double share_above = kShareAbove;                        // MeshRefinementOptions::share_above
   double suspicion = 0.25;                                 // MeshRefinementOptions::suspicion
   double steep = std::numeric_limits<double>::infinity();  // MeshRefinementOptions::steep
-  int most_turns = 3;  // of refinement after random points have tested the mesh
-  // The number of random points, spread over the scene, that test each mesh in addition to those of its
-  // triangles.
+  int most_turns = 3;  // largest number of refinements that follow tests of the mesh at random points
+  // The number of random points, spread over the scene, at which each mesh is tested in addition to the
+  // points of its triangles.
   std::size_t lookouts = 0;
   int max_rounds = 8;  // MeshRefinementOptions::max_rounds
 };
 
-// Seconds spent on sources and on meshes.
+// Time spent on dividing sources, and on making meshes [s].
 struct MeshSeconds {
   double sources = 0;
   MeshReport::Seconds mesh;
@@ -56,86 +57,93 @@ struct MeshSeconds {
 
 class ShownMesh {
  public:
-  // All arguments must outlive the object. `irradiance` must always be the exact irradiance from the solution
-  // that is passed to the functions below.
+  // All constructor arguments must outlive the ShownMesh. `irradiance` must always be the exact irradiance
+  // from the solution that is passed to the member functions.
   ShownMesh(const Scene& scene, const PatchVisibility& visibility, CurrentIrradiance& irradiance,
             const ShownMeshOptions& options);
 
-  // Makes the mesh of the solution's leaves. If cancelled, returns false and keeps the previous mesh.
+  // Makes a mesh of the solution's quadtree leaves. If the computation is cancelled, the function returns
+  // false and keeps the previous mesh.
   bool Make(const RadiositySolution& solution, const MeshOptions& options, const ExecutionContext& context);
-  // Refines the light of a solver. Makes a first mesh of the solver's leaves. After the first mesh, repeats
-  // three steps until the light has converged: divides leaves where the interpolants vary into smaller
-  // sources; computes the radiosity of each source from the mean of the interpolants over the source; and
-  // refines the mesh. If cancelled, returns false and keeps the last complete light. REQUIRES:
-  // solver.TakesLight().
+  // Refines the light of a solver, with means of the mesh's interpolants as irradiances of the light sources.
+  // RefineLight() first makes a mesh of the solver's quadtree leaves. RefineLight() then repeats three steps
+  // until the light has converged. Where interpolants vary on a leaf, step 1 of RefineLight() divides the
+  // leaf into smaller light sources. Step 2 of RefineLight() computes the radiosity of each source from the
+  // mean of the interpolants over the source. Step 3 of RefineLight() refines the mesh. If the computation is
+  // cancelled, the function returns false and keeps the light of the last complete repetition. REQUIRES:
+  // solver.TakesLight() is true.
   bool RefineLight(LightSolver& solver, const MeshOptions& options, const ExecutionContext& context);
-  // The light of each emitter alone, without interpolants, on the sources that RefineLight() has made
-  // (SolveByEmitter). Nothing if cancelled. REQUIRES: RefineLight() has returned true for the present light
-  // of the solver, with the same options, and samples have rows (PointIrradiance::CanRecord).
+  // Returns the light of each emitter alone, without interpolants, for the sources that RefineLight() has
+  // made (SolveByEmitter). The result is nullopt if the computation is cancelled. REQUIRES: RefineLight() has
+  // returned true for the present light of the solver, with the same options, and irradiance samples can
+  // record form factors (PointIrradiance::CanRecord).
   std::optional<std::vector<EmitterLight>> SplitLight(const LightSolver& solver,
                                                       std::span<const std::vector<PatchId>> emitters,
                                                       const MeshOptions& options,
                                                       const ExecutionContext& context);
-  // Makes a mesh that meets the requested error, by refining the mesh of RefineLight(), or, if RefineLight()
-  // was not called, a new mesh of the solution's leaves. If cancelled before there is a mesh, returns false.
-  // If cancelled later, keeps the last complete mesh and returns true.
+  // Makes a mesh that meets the requested error. The refinement starts from the mesh of RefineLight() or, if
+  // RefineLight() was not called, from a new mesh of the solution's leaves. If the computation is cancelled
+  // before there is a mesh, the function returns false. If the computation is cancelled after a first mesh is
+  // complete, the function keeps the last complete mesh and returns true.
   bool MakeRefined(const RadiositySolution& solution, const MeshOptions& options,
                    const ExecutionContext& context);
-  // Must be called after the light has changed. The next MakeRefined() then does not start from the mesh of
-  // RefineLight().
+  // Forget() must be called after the light has changed. After Forget(), the next MakeRefined() does not
+  // start from the mesh of RefineLight().
   void Forget() {
     has_looked_ = false;
     light_plan_.reset();
     samples_are_current_ = false;
   }
-  // Must be called after the light has changed within its error, so that the plan of RefineLight() holds.
+  // TakeNewLight() must be called after the light has changed by less than its error, so that the mesh plan
+  // of RefineLight() still holds.
   void TakeNewLight() { samples_are_current_ = false; }
-  // Replaces the interpolants of the mesh. REQUIRES: there is one for each triangle.
+  // Replaces the interpolants of the mesh. REQUIRES: there is one interpolant for each triangle.
   void SetInterpolants(std::vector<QuadraticInterpolant> irradiance);
-  // The tolerance of the samples of interpolants that carry the light of single emitters.
+  // The tolerance of the irradiance samples for interpolants that represent the light of single emitters.
   double EmitterTolerance() const;
   // Replaces the mesh by a mesh that another object has made.
   void Take(IrradianceMesh mesh);
-  // Must be called after the PatchVisibility passed to the constructor has been replaced.
+  // ForgetVisibility() must be called after the PatchVisibility passed to the constructor has been replaced.
   void ForgetVisibility() {
     local_pass_.reset();
     samples_.Clear();
   }
 
-  // A division of the leaves into sources that is finer than that of RefineLight(). The result is useless if
-  // cancelled.
+  // Divides the solution's leaves into smaller light sources than RefineLight() does. If the computation is
+  // cancelled, the result must not be used.
   SourceCells FinestCells(const RadiositySolution& solution, const ExecutionContext& context);
-  // Exact irradiance from sources that are better than those of the solution. If the radiosities of `finest`
-  // differ from those of the solution, the further reflections of this difference are computed over the links
-  // and added: between walls that face each other, a difference is reflected many times. Returns null if
-  // cancelled.
+  // Returns the exact irradiance from light sources that are more accurate than those of the solution. If the
+  // radiosities of `finest` differ from those of the solution, the further reflections of this difference are
+  // computed over the links and added. The difference of radiosities is reflected many times between walls
+  // that face each other. If the computation is cancelled, the function returns null.
   std::unique_ptr<const PointIrradiance> BetterIrradiance(const RadiositySolution& solution,
                                                           const SourceCells& finest,
                                                           const ExecutionContext& context);
-  // Exact irradiance from the sources `finest` alone, without the further reflections that BetterIrradiance()
-  // adds. The result is one reflection of the light in the mesh, independent of all links; if links transport
-  // light that should not exist, the result does not contain this light.
+  // Returns the exact irradiance from the sources `finest` alone, without the further reflections that
+  // BetterIrradiance() adds. The result of ShownIrradiance() is one reflection of the light in the mesh. If
+  // links transport light through walls by mistake, the result of ShownIrradiance() does not contain this
+  // light, because links are not used.
   std::unique_ptr<const PointIrradiance> ShownIrradiance(const RadiositySolution& solution,
                                                          const SourceCells& finest);
 
   const IrradianceMesh& mesh() const { return mesh_; }
-  // The forest of triangulations().
+  // The quadtrees whose leaves triangulations() divides into triangles.
   const ElementForest& forest() const { return plan_.forest; }
-  // The triangulations of mesh(); empty if the mesh was set by Take().
+  // The triangulations from which mesh() was made; the list is empty if the mesh was set by Take().
   std::span<const PatchTriangulation> triangulations() const { return triangulations_; }
-  // The error of each triangle of the mesh; empty if the triangles were not measured.
+  // The error of each triangle of the mesh; the list is empty if the triangles were not measured.
   std::span<const TriangleError> triangle_errors() const { return triangle_errors_; }
 
-  // The report on the present mesh: its counts, and the total work (evaluations and seconds) by which it was
-  // made.
+  // The report on the present mesh: its counts, and the evaluations and seconds that were spent to make the
+  // mesh.
   const MeshReport& report() const { return report_; }
   // Returns the seconds spent since the last call of TakeSeconds().
   MeshSeconds TakeSeconds();
-  // One line that says which error limits refinement could not meet; nullopt if it met all limits.
+  // One line that says which error limits the refinement could not meet; nullopt if all limits were met.
   const std::optional<std::string>& unmet() const { return unmet_; }
 
  private:
-  // Samples whose light will change again need rows of form factors.
+  // Irradiance samples need their form factors if the light will change again.
   enum class Rows : std::uint8_t { kNone, kRecord };
 
   void Begin();
@@ -165,19 +173,19 @@ class ShownMesh {
 
   IrradianceMesh mesh_;
   std::vector<PatchTriangulation> triangulations_;
-  MeshPlan plan_;  // the plan of triangulations_
+  MeshPlan plan_;  // the mesh plan from which triangulations_ was made
   std::vector<TriangleError> triangle_errors_;
-  std::unique_ptr<LocalPassCache> local_pass_;  // for the present visibility
+  std::unique_ptr<LocalPassCache> local_pass_;  // cache for the present visibility
   SampleCache samples_;
-  SourceSet samples_from_;            // the sources to which the rows of the samples belong
-  bool samples_are_current_ = false;  // the samples have the present light
+  SourceSet samples_from_;            // the sources to which the form factors of the samples belong
+  bool samples_are_current_ = false;  // true if samples_ belong to the present light
   std::vector<SourceCell> cells_;     // the sources of the present light; empty before RefineLight()
   MeshReport report_;
   double seconds_of_sources_ = 0;
-  bool has_looked_ = false;             // mesh_ is RefineLight()'s, for the present light
-  std::optional<MeshPlan> light_plan_;  // with which RefineLight() ended, for the present light
+  bool has_looked_ = false;             // true if RefineLight() made mesh_ for the present light
+  std::optional<MeshPlan> light_plan_;  // the mesh plan with which RefineLight() ended
   std::optional<std::string> unmet_;
-  std::vector<KnownLight> known_;  // at the points that have tested meshes of the present light
+  std::vector<KnownLight> known_;  // irradiance at points that have tested meshes of the present light
 };
 
 }  // namespace penumbra

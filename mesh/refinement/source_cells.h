@@ -1,13 +1,15 @@
 // mesh/refinement/source_cells.h
 //
-// Sources that are finer than the solution's leaves. Each leaf that reflects is the root of a tree of cells:
-// the pieces into which contacts cut the leaf, if there are any; the quarters of the leaf or of a piece;
-// quarters of quarters. Each cell has the exact mean of the interpolants over the cell. Cells need no links.
-// Their places depend on the leaf alone, so that the same cells can carry another light.
+// Light sources that are smaller than the quadtree leaves of the solution. Each reflecting leaf is the root
+// of a tree of cells, and each cell is a light source. If contacts (lines where the irradiance jumps) cut the
+// leaf, the pieces of the leaf are the root's children. All other cells of the tree that have children are
+// divided into quarters. Each cell stores the exact mean of the irradiance interpolants over the cell. Unlike
+// quadtree elements, cells need no links of their own. The shapes of the cells of a leaf depend on the leaf
+// and not on the light, so that the same cells can carry another light.
 //
 // The score of a cell estimates the error at receivers that is caused by treating the radiosity of the cell
-// as constant: (deviation of the interpolants from their mean, relative to the surrounding light) * (largest
-// form factor of a point of the nearest patch to the cell).
+// as constant. The score of a cell is (deviation of the interpolants from their mean, relative to the
+// surrounding light) * (largest form factor of a point of the nearest patch to the cell).
 
 #pragma once
 
@@ -26,37 +28,39 @@
 namespace penumbra {
 
 struct SourceCell {
-  ElementId leaf = kNoElement;  // of the solution
+  ElementId leaf = kNoElement;  // leaf of the solution that contains the cell
   SourcePolygon polygon;
-  std::int32_t parent = -1;      // index in the list; -1: the cell is the whole leaf
-  std::int32_t skip = 1;         // number of cells in this subtree, including this cell
+  std::int32_t parent = -1;      // index of the parent cell; -1: the cell is the whole leaf
+  std::int32_t skip = 1;         // number of cells in the cell's subtree, including the cell
   double area = 0;               // [m^2]
-  Rgb irradiance = Rgb::Zero();  // mean over the cell [W/m^2]
+  Rgb irradiance = Rgb::Zero();  // mean irradiance of the cell [W/m^2]
   double score = 0;              // [1]
 };
 
 // A mesh, together with its leaves and triangulations.
 struct MeshWithLeaves {
-  const ElementForest& forest;  // the forest of the patches' leaves
+  const ElementForest& forest;  // the quadtrees of the patches
   std::span<const PatchTriangulation> patches;
   const IrradianceMesh& mesh;
 };
 
 struct SourceCellOptions {
-  double finest = 0;  // cells with higher scores are divided
-  // Cells for an earlier light of the same solution, or none: cells that were divided then are divided now.
+  double finest = 0;  // cells whose score is above `finest` are divided
+  // Cells for an earlier light of the same solution, if there are any: each cell that is divided in `before`
+  // is divided again.
   std::span<const SourceCell> before;
 };
 
 class SourceCells {
  public:
-  // Divides cells whose score is above options.finest, down to a fraction of the mesh's triangles. `exact` is
-  // used to find the patches that a leaf sees. If cancelled, the object is incomplete. REQUIRES: the mesh's
-  // forest is the solution's forest or a refinement of it.
+  // Divides cells whose score is above options.finest, until cells are smaller than a given fraction of the
+  // mesh's triangles. The irradiance `exact` is used only to find the patches that a leaf sees. If the
+  // computation is cancelled, the list of cells is incomplete. REQUIRES: the mesh's forest is the solution's
+  // forest or a refinement of it.
   SourceCells(const RadiositySolution& solution, const MeshWithLeaves& shown, const PointIrradiance& exact,
               const SourceCellOptions& options, const ExecutionContext& context = ExecutionContext());
 
-  // All cells, in the order of leaves, and in depth-first order for each leaf.
+  // All cells, in the order of the solution's leaves, and depth first within each leaf.
   std::span<const SourceCell> cells() const { return cells_; }
   std::vector<SourceCell> TakeCells() && { return std::move(cells_); }
 
@@ -64,13 +68,14 @@ class SourceCells {
   // the solution's irradiance.
   std::vector<Rgb> LeafIrradiance() const;
 
-  // The 99th percentile, by reflecting area, of the difference between the irradiance of a leaf in the
-  // solution and the mean of the interpolants over the leaf. Differences are relative to max(mean of the
-  // leaf, 1 % of the mean over all leaves); the largest channel counts.
+  // The 99th percentile of the differences between the irradiance of a leaf in the solution and the mean of
+  // the interpolants over the leaf. The percentile that Change() returns is weighted by the reflecting area
+  // of leaves. In Change(), differences are relative to max(mean irradiance of the leaf, 1 % of the mean
+  // irradiance over all leaves), and the channel with the largest difference counts.
   double Change() const;
 
-  // The cells without children as fragments. Cells that are whole leaves are included only if `whole_leaves`
-  // is true.
+  // Converts the cells without children to fragments (convex pieces of leaves with their own radiosities).
+  // Cells that are whole leaves become fragments only if `whole_leaves` is true.
   std::vector<Fragment> Fragments(bool whole_leaves) const;
 
  private:

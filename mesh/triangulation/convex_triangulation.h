@@ -1,6 +1,7 @@
 // mesh/triangulation/convex_triangulation.h
 //
-// The Delaunay triangulation of the vertices of a convex polygon, for leaves that no line crosses.
+// The Delaunay triangulation of a convex polygon's vertices, for quadtree leaves that no discontinuity line
+// crosses.
 
 #pragma once
 
@@ -13,10 +14,10 @@
 
 namespace penumbra {
 
-// Appends counter-clockwise triangles, as indices in `outline`. The outline has at least three points in
-// counter-clockwise order and is convex up to rounding; points in the interior of a side are allowed. If four
-// or more points lie on one circle, the point with the lowest index is preferred as corner of a triangle. The
-// time is quadratic in the number of points.
+// Appends the triangles to `triangles`, as counter-clockwise triples of indices in `outline`. `outline` has
+// at least three points in counter-clockwise order and is convex up to rounding. Points in the interior of a
+// side of the outline are allowed. If four or more points lie on one circle, the point with the lowest index
+// is preferred as corner of a triangle. The run time is quadratic in the number of points of the outline.
 void TriangulateConvex(std::span<const Vec2> outline, std::vector<std::array<std::int32_t, 3>>& triangles);
 
 }  // namespace penumbra

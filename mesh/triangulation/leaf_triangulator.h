@@ -1,7 +1,8 @@
 // mesh/triangulation/leaf_triangulator.h
 //
-// Triangulates one leaf. The triangles depend only on the leaf's border and on the discontinuity lines in it.
-// Leaves with the same border and the same lines therefore have the same triangles.
+// Triangulates one leaf of a patch's quadtree. The triangles of a leaf depend only on the leaf's border and
+// on the discontinuity lines in the leaf. Leaves with the same border and the same discontinuity lines
+// therefore have the same triangles.
 
 #pragma once
 
@@ -19,16 +20,19 @@
 
 namespace penumbra {
 
-// All data that determine the triangles of a leaf, in the plane of the patch.
+// All data that determine the triangles of a quadtree leaf, in coordinates of the patch's plane.
 class LeafShape {
  public:
-  // A line, clipped to the neighbourhood of the leaf.
+  // A discontinuity line, clipped to the neighbourhood of the leaf.
   struct Line : DirectedLine {
-    std::size_t first = 0, first_contact = 0, end = 0;  // range in intervals_
+    // The discontinuities on the line cover intervals_[first, first_contact), and the contacts on the line
+    // cover intervals_[first_contact, end).
+    std::size_t first = 0, first_contact = 0, end = 0;
   };
 
-  // Starts a new leaf without lines. `border` holds the vertices around the leaf, and `outline` its corners,
-  // both counter-clockwise; `snap` is the patch's snap distance [m].
+  // Starts a new leaf without discontinuity lines. `border` holds the vertices around the leaf, and `outline`
+  // the corners of the leaf, both counter-clockwise. `snap` is the distance within which points on the patch
+  // count as one point [m].
   void Reset(std::span<const Vec2> border, Polygon2 outline, double snap);
   void AddLine(const DiscontinuityLine& line);
 
@@ -43,7 +47,7 @@ class LeafShape {
     return std::span(intervals_).subspan(line.first_contact, line.end - line.first_contact);
   }
 
-  // Converts the shape to a list of numbers, such that leaves with equal lists have equal triangles.
+  // Converts the leaf's shape to a list of numbers, such that leaves with equal lists have equal triangles.
   void Encode(std::vector<double>* key) const;
 
  private:
@@ -56,12 +60,13 @@ class LeafShape {
 
 inline constexpr std::int32_t kNoLine = -1;
 
-// The triangles of a leaf. A vertex number below border_size is the index of a border vertex; the number
-// border_size + i is inside[i]. The numbers of lines are indices in LeafShape::lines().
+// The triangles of one quadtree leaf. A vertex number below border_size is the index of a vertex on the
+// leaf's border. The vertex number border_size + i stands for inside[i]. A discontinuity line is numbered by
+// its index in LeafShape::lines().
 struct LeafMesh {
   struct Triangle {
-    std::array<std::uint32_t, 3> vertex;  // counter-clockwise
-    // Edge k runs from vertex k to vertex k + 1.
+    std::array<std::uint32_t, 3> vertex;  // numbers of the vertices, counter-clockwise
+    // Edge k of a triangle runs from vertex k to vertex (k + 1) % 3.
     std::array<std::int32_t, 3> line = {kNoLine, kNoLine, kNoLine};
     std::array<bool, 3> contact = {false, false, false};
   };
@@ -69,15 +74,17 @@ struct LeafMesh {
   std::uint32_t border_size = 0;
   std::vector<Vec2> inside;
   std::vector<Triangle> triangles;
-  std::size_t dropped_segments = 0;  // too close to the border to be edges
+  std::size_t dropped_segments = 0;  // number of segments too close to the leaf's border to be edges
 };
 
-// Triangulates leaves, and reuses its buffers. Each thread needs its own object.
+// Triangulates quadtree leaves one after another, with the same buffers. Each thread needs its own
+// LeafTriangulator.
 class LeafTriangulator {
  public:
-  // Each line becomes at most one constrained edge of the leaf: the shortest segment that contains all
-  // intervals of the line that discontinuities cover inside the leaf. In the result, edges on the border that
-  // lie on a line are labelled with the line. Vertices of the border are neither added nor moved.
+  // Each discontinuity line becomes at most one constrained edge of the leaf's triangulation. The constrained
+  // edge of a line is the shortest segment that contains all intervals that discontinuities cover on the line
+  // inside the leaf. In the result, edges on the leaf's border that lie on a discontinuity line are labelled
+  // with this line. Vertices of the leaf's border are neither added nor moved.
   LeafMesh Triangulate(const LeafShape& shape);
 
  private:
@@ -97,7 +104,7 @@ class LeafTriangulator {
   void MarkBorder(std::int32_t number, LeafMesh& mesh) const;
 
   const LeafShape* shape_ = nullptr;
-  std::vector<Vec2> points_;  // border vertices, then the ends of segments inside
+  std::vector<Vec2> points_;  // vertices of the leaf's border, then the ends of segments inside the leaf
   std::int32_t border_size_ = 0;
   std::vector<Segment> segments_;
   std::vector<Vec2> split_points_;
@@ -110,10 +117,11 @@ class LeafTriangulator {
 };
 
 // A cache of triangulated leaves of one patch, from the latest triangulation of the patch. Leaves without
-// lines are not cached, because triangulating such a leaf takes less time than searching the cache.
+// discontinuity lines are not cached, because triangulating such a leaf takes less time than searching the
+// cache.
 class LeafMeshCache {
  public:
-  // The mesh of the leaf with this key (LeafShape::Encode); null if the cache does not contain it.
+  // The triangles of the leaf with this key (LeafShape::Encode); null if the cache does not contain the leaf.
   std::shared_ptr<const LeafMesh> Find(const std::vector<double>& key) const;
   void Clear() { meshes_.clear(); }
   void Insert(std::vector<double> key, std::shared_ptr<const LeafMesh> mesh) {

@@ -1,7 +1,7 @@
 // mesh/triangulation/weld.h
 //
-// Common vertices on the edges that patches share, so that no T-vertex remains between patches (thesis 3.6,
-// case C).
+// Gives patches that share an edge the same vertices on the edge, so that no T-vertex remains between the
+// patches (thesis 3.6, case C).
 
 #pragma once
 
@@ -14,8 +14,9 @@
 namespace penumbra {
 
 // Adds to each patch's outline the vertices of other patches that lie on this outline. If vertices of two
-// patches lie within the snap distance of each other, both get the position of the vertex of the patch with
-// the lower number. If cancelled, the borders are useless. REQUIRES: borders[i] are the borders of patch i.
+// patches lie within the snap distance of each other, both move to the vertex of the patch with the lower
+// number. If the computation is cancelled, `borders` must not be used afterwards. REQUIRES: borders[i] holds
+// the borders of the leaves of patch i.
 void WeldOutlines(const Scene& scene, std::span<PatchBorders> borders,
                   const ExecutionContext& context = ExecutionContext());
 

@@ -1,6 +1,7 @@
 // solver/base/embedded_file.h
 //
-// Files that travel inside the program. The build makes their texts into code: cmake/EmbedFiles.cmake.
+// Text files that are compiled into the program. The build script cmake/EmbedFiles.cmake converts each file
+// to source code.
 
 #pragma once
 

@@ -12,16 +12,18 @@
 
 namespace penumbra {
 
-// The ending of the file's name, without the dot; empty if the name has no ending.
+// The ending of the file's name, without the dot; an empty string if the name has no ending.
 std::string EndingOf(const std::string& path);
 
-// The error message for a path that has none of the endings: "'a.txt' ends neither in .png nor in .exr".
+// The error message for a path that has none of the permitted endings, for example "'a.txt' ends neither in
+// .png nor in .exr".
 std::string EndingError(const std::string& path, const std::vector<std::string>& endings);
 
-// The given endings, each preceded by a dot.
+// Returns the given file endings, each with a dot in front: "png" becomes ".png".
 std::vector<std::string> Dotted(std::vector<std::string> endings);
 
-// The format whose name is EndingOf(path); null if there is no such format.
+// The format in the registry whose name is the ending of the path, EndingOf(path); null if there is no such
+// format.
 template <class Product, class... Options>
 const typename Registry<Product, Options...>::Method* FindByEnding(
     const Registry<Product, Options...>& formats, const std::string& path) {

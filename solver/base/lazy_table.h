@@ -12,7 +12,8 @@
 
 namespace penumbra {
 
-// Entries are numbered from 0. The time to remove all entries is short and does not depend on their number.
+// Entries are numbered from 0. The time to remove all entries is short and does not depend on the number of
+// entries.
 template <class T>
 class LazyTable {
  public:
@@ -33,8 +34,8 @@ class LazyTable {
     }
   }
 
-  // The entry, and whether the caller must compute its value: true at the first request for the entry since
-  // the last call of Begin() or Clear().
+  // Returns the entry, and true if the caller must compute its value. The caller must compute the value at
+  // the first request for the entry after a call of Begin() or Clear().
   std::pair<T&, bool> operator[](std::int32_t number) {
     const auto i = static_cast<std::size_t>(number);
     const bool is_new = stamp_[i] != now_;
@@ -43,7 +44,7 @@ class LazyTable {
   }
 
  private:
-  std::vector<std::uint32_t> stamp_;  // per entry: value of now_ at the last request
+  std::vector<std::uint32_t> stamp_;  // stamp_[i] is the value of now_ at the last request for entry i
   std::vector<T> value_;
   std::uint32_t now_ = 0;
 };

@@ -1,8 +1,8 @@
 // solver/base/parallel.h
 //
-// Parallel loops whose result does not depend on the number of threads. The range is divided into chunks of
-// fixed size, a chunk writes only the results of its own indices, and callers add up partial sums in the
-// order of the chunks.
+// Parallel loops whose result does not depend on the number of threads. A loop divides the range of its index
+// into chunks of fixed size. A chunk writes only the results of its own indices, and callers add up partial
+// sums in the order of the chunks.
 
 #pragma once
 
@@ -11,19 +11,21 @@
 
 namespace penumbra {
 
-// Sets the number of threads of all later parallel loops; 0 selects all processors of the machine.
+// Sets the number of threads of all later parallel loops; 0 means one thread for each processor of the
+// machine.
 void SetThreadCount(int threads);
 
 // The number of threads that parallel loops use, at least 1.
 int ThreadCount();
 
-// Divides [0, count) into consecutive chunks of at most `grain` indices and calls body(begin, end) once for
-// each chunk, from several threads and in any order. If a body throws, the loop ends and this function
-// rethrows the exception. REQUIRES: grain > 0; body may be called from several threads at once.
+// Divides the index range [0, count) into consecutive chunks of at most `grain` indices and calls body(begin,
+// end) once for each chunk, from several threads and in any order. If `body` throws, the loop ends, and this
+// function rethrows the exception. REQUIRES: grain > 0; `body` may be called from several threads at once.
 void ParallelForChunks(std::size_t count, std::size_t grain,
                        const std::function<void(std::size_t begin, std::size_t end)>& body);
 
-// Calls body(i) for every i in [0, count), in chunks of `grain` indices. See ParallelForChunks().
+// Calls body(i) for every i in [0, count), in chunks of `grain` indices, with several threads; see
+// ParallelForChunks().
 template <class Body>
 void ParallelFor(std::size_t count, std::size_t grain, const Body& body) {
   ParallelForChunks(count, grain, [&](std::size_t begin, std::size_t end) {

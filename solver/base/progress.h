@@ -11,8 +11,8 @@
 
 namespace penumbra {
 
-// Every long operation has a parameter of this type. Only one thread at a time may call Report(); any thread
-// may call Cancel().
+// Every long operation has a parameter of type ExecutionContext. Only one thread at a time may call Report();
+// any thread may call Cancel().
 class ExecutionContext {
  public:
   using Listener = std::function<void(std::string_view phase, double fraction)>;
@@ -20,13 +20,14 @@ class ExecutionContext {
   ExecutionContext() = default;
   explicit ExecutionContext(Listener listener) : listener_(std::move(listener)) {}
 
-  // Tells the listener that the fraction `fraction`, in [0, 1], of `phase` is done.
+  // Tells the listener that the fraction `fraction`, in [0, 1], of the phase `phase` of the operation is
+  // done.
   void Report(std::string_view phase, double fraction) const {
     if (listener_) listener_(phase, fraction);
   }
 
-  // Requests the operation to end early. A cancelled operation leaves the valid results of its last complete
-  // step.
+  // Requests that the operation end early. A cancelled operation leaves the valid results of its last
+  // complete step.
   void Cancel() { cancelled_ = true; }
   bool Cancelled() const { return cancelled_; }
 

@@ -1,7 +1,7 @@
 // solver/base/read_file.h
 //
-// Reads all bytes of a file or fails. If memory or a disk fails, a standard stream ends early as if the file
-// had ended; ReadFileBytes() and ReadFileStart() report an error instead.
+// Reads all bytes of a file, or reports an error. A standard C++ stream does not report a failing disk or
+// exhausted memory: the stream then ends as if the file had ended.
 
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace penumbra {
 
-// The error that a file cannot be read. what() is the reason in a few words: "there is no such file", "it is
-// a directory".
+// The exception thrown if a file cannot be read. The message what() of a ReadFailure is the reason in a few
+// words, such as "there is no such file" or "it is a directory".
 class ReadFailure : public std::runtime_error {
  public:
   ReadFailure(const std::string& why, bool opened) : std::runtime_error(why), opened_(opened) {}
@@ -23,15 +23,15 @@ class ReadFailure : public std::runtime_error {
   bool opened_;
 };
 
-// All bytes of a file, or all that a device or a pipe delivers. Throws ReadFailure, and std::bad_alloc if the
-// memory is exhausted.
+// Returns all bytes of a file, or all bytes that a device or a pipe delivers. Throws ReadFailure if the file
+// cannot be read, and std::bad_alloc if the memory is exhausted.
 std::string ReadFileBytes(const std::string& path);
 
-// All that standard input delivers. Throws the same exceptions as ReadFileBytes().
+// Returns all bytes of standard input. Throws the same exceptions as ReadFileBytes().
 std::string ReadStandardInput();
 
-// The first `count` bytes of a file, or all bytes of a shorter file. Throws the same exceptions as
-// ReadFileBytes().
+// Returns the first `count` bytes of a file, or all bytes if the file is shorter. Throws the same exceptions
+// as ReadFileBytes().
 std::string ReadFileStart(const std::string& path, std::size_t count);
 
 }  // namespace penumbra

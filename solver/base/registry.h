@@ -1,7 +1,8 @@
 // solver/base/registry.h
 //
-// A list of alternative methods for one task, each with a name. The command line, the help, the reports and
-// the window take the methods' names from the registry; no other code lists them.
+// A registry: a list of alternative methods for one task, each with a name. The command line, the help, the
+// reports and the interactive window take the methods' names from the registry; no other code lists the
+// names.
 
 #pragma once
 
@@ -16,26 +17,27 @@
 
 namespace penumbra {
 
-// A registry of methods, each of which makes a `Product` from `Options`. A method's file describes the method
-// by a function that returns a Method; the file that defines the registry lists these functions; a program
-// may add its own methods before it solves anything.
+// A registry of methods, each of which makes a `Product` from `Options`. The source file of a method has a
+// function that returns the method's description, a Method. The file that defines a registry lists the
+// functions of all its methods. A program may add its own methods before it solves a scene.
 template <class Product, class... Options>
 class Registry {
  public:
   struct Method {
-    std::string name;                     // on the command line
-    std::string help;                     // one line, without a full stop
-    std::vector<std::string> parameters;  // options that only this method uses
+    std::string name;                     // name of the method on the command line
+    std::string help;                     // one line of help, without a full stop
+    std::vector<std::string> parameters;  // names of the options that only this method uses
     std::function<std::unique_ptr<Product>(const Options&...)> make;
   };
 
-  // `kind` is the noun in messages such as "no KIND is called 'x'". The first method is the default.
+  // `kind` is the noun in messages such as "no KIND is called 'x'". The first method of a registry is the
+  // default.
   Registry(std::string kind, std::vector<Method> methods) : kind_(std::move(kind)) {
     for (Method& method : methods) Add(std::move(method));
   }
 
-  // Appends a method to the list. REQUIRES: no other method has the same name, and no thread reads the
-  // registry.
+  // Appends a method to the list. REQUIRES: no method of the registry has the same name, and no thread reads
+  // the registry.
   void Add(Method method) {
     for (const Method& other : methods_) PENUMBRA_CHECK(other.name != method.name);
     methods_.push_back(std::move(method));
@@ -50,7 +52,7 @@ class Registry {
     return names;
   }
 
-  // The method called `name`. Throws InputError, which lists all names, if no method has this name.
+  // Returns the method called `name`. Throws InputError, which lists all names, if no method has this name.
   const Method& Find(std::string_view name) const {
     std::string names;
     for (const Method& method : methods_) {
@@ -60,7 +62,7 @@ class Registry {
     throw InputError("no " + kind_ + " is called '" + std::string(name) + "'; give one of: " + names);
   }
 
-  // A new product of the method called `name`. Throws InputError if no method has this name.
+  // Returns a new product made by the method called `name`. Throws InputError if no method has this name.
   std::unique_ptr<Product> Make(std::string_view name, const Options&... options) const {
     return Find(name).make(options...);
   }

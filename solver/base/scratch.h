@@ -1,7 +1,7 @@
 // solver/base/scratch.h
 //
-// Reuses working memory from call to call, so that inner loops do not allocate again and again. No other file
-// of the project keeps data per thread.
+// Reuses working memory from call to call, so that inner loops need not allocate memory each time. No other
+// file of the project keeps data per thread.
 
 #pragma once
 
@@ -16,7 +16,7 @@ namespace penumbra {
 
 namespace internal {
 
-// The objects of one type that a thread has created and does not use at present.
+// The objects of type T that a thread has created for reuse and that are not in use at present.
 template <class T>
 struct ScratchPool {
   std::vector<std::unique_ptr<T>> idle;
@@ -38,22 +38,22 @@ void ClearScratch(T& object) {
 
 }  // namespace internal
 
-// Borrows an object of type T from the present thread for as long as the Scratch lives. The object is either
-// new or was used by an earlier Scratch of the same thread; a used object has been cleared, but keeps its
-// allocated memory. Two Scratches that live at the same time never hold the same object, even in recursion,
-// or when a thread that waits for a parallel loop runs other work. REQUIRES: T has clear() or Clear(), and
-// behaves like a new object afterwards.
+// A Scratch borrows a buffer, an object of type T, from the present thread for as long as the Scratch lives.
+// The borrowed object is either new or was used by an earlier Scratch of the same thread; a used object has
+// been cleared, but keeps its allocated memory. Two Scratches that live at the same time never hold the same
+// object, even in recursion, or if a thread that waits for a parallel loop runs other work. REQUIRES: T has a
+// function clear() or Clear(), after which the object behaves like a new one.
 //
-// A Scratch must be a local variable or a member of a local variable: it belongs to the thread that created
-// it, and must be destroyed before that thread ends. PENUMBRA_DCHECK detects that another thread uses the
-// Scratch. Creating a Scratch takes a few nanoseconds: create one per evaluation of irradiance, and pass the
-// object on to functions for single polygons.
+// A Scratch must be a local variable or a member of a local variable: a Scratch belongs to the thread that
+// created it, and must be destroyed before that thread ends. PENUMBRA_DCHECK detects the use of a Scratch by
+// another thread. Creating a Scratch takes a few nanoseconds: create one for each evaluation of irradiance,
+// and pass the borrowed object to the functions for single polygons.
 template <class T>
 class Scratch {
  public:
   Scratch() : pool_(ThreadPool()) {
     if (pool_.idle.empty()) {
-      pool_.idle.reserve(pool_.leased + 1);  // giving back cannot fail
+      pool_.idle.reserve(pool_.leased + 1);  // so that returning an object needs no allocation
       object_ = std::make_unique<T>();
     } else {
       object_ = std::move(pool_.idle.back());

@@ -1,6 +1,6 @@
 // solver/base/sha256.h
 //
-// The digest SHA-256 (FIPS 180-4), which detects damaged data.
+// The hash function SHA-256 (FIPS 180-4), by which damaged data are detected.
 
 #pragma once
 
@@ -12,11 +12,12 @@
 
 namespace penumbra {
 
-// Computes the digest of a sequence of bytes, passed in one or more parts.
+// Computes the SHA-256 digest of a sequence of bytes, which is passed in one or more parts.
 class Sha256 {
  public:
   Sha256& Update(std::string_view bytes);
-  // The digest of all bytes passed so far, as 64 lower-case hexadecimal digits. No call may follow.
+  // Returns the digest of all bytes passed to Update(), as 64 lower-case hexadecimal digits. After Finish(),
+  // no function of the object may be called.
   std::string Finish();
 
  private:
@@ -26,7 +27,7 @@ class Sha256 {
                                          0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   std::array<unsigned char, 64> pending_ = {};
   std::size_t pending_size_ = 0;
-  std::uint64_t length_ = 0;  // bytes
+  std::uint64_t length_ = 0;  // number of bytes passed to Update()
 };
 
 }  // namespace penumbra

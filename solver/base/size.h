@@ -1,6 +1,6 @@
 // solver/base/size.h
 //
-// The size of a container as std::int32_t, the type of all indices in meshes and scenes.
+// The number of elements of a container as std::int32_t, the type of all indices in meshes and scenes.
 
 #pragma once
 

@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// Measures wall-clock seconds since its construction.
+// Measures the wall-clock time in seconds since the Stopwatch was constructed.
 class Stopwatch {
  public:
   double Seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

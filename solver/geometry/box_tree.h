@@ -22,7 +22,7 @@ struct PlaneBox {
 
 class BoxTree {
  public:
-  // Builds a new tree over `boxes`, in time O(n log n).
+  // Builds a new tree over n boxes, in time O(n log n).
   void Build(std::span<const PlaneBox> boxes);
 
   // Sets `found` to the indices of the boxes that intersect `box`, in unspecified order.
@@ -30,15 +30,16 @@ class BoxTree {
 
  private:
   struct Node {
-    PlaneBox box;                       // bounding box of the node
-    std::int32_t first = 0, count = 0;  // of a leaf: its range in order_. count == 0: inner node
-    std::int32_t second = 0;            // index of the second child; the first child follows its parent
+    PlaneBox box;  // bounding box of the node
+    // The range of the boxes of a leaf in order_; `count` is 0 in an inner node of the tree.
+    std::int32_t first = 0, count = 0;
+    std::int32_t second = 0;  // node index of the second child; the first child follows its parent
   };
 
   std::int32_t BuildNode(std::int32_t first, std::int32_t count);
 
-  std::span<const PlaneBox> given_;  // during Build() only
-  std::vector<PlaneBox> boxes_;      // in the order of order_
+  std::span<const PlaneBox> given_;  // valid during Build() only
+  std::vector<PlaneBox> boxes_;      // boxes_[i] is the given box with the index order_[i]
   std::vector<std::int32_t> order_;
   std::vector<Node> nodes_;
   mutable std::vector<std::int32_t> stack_;

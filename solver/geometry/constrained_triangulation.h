@@ -1,13 +1,13 @@
 // solver/geometry/constrained_triangulation.h
 //
 // The constrained Delaunay triangulation of points and segments in the plane (thesis, section 5.4). Segments
-// may cross, touch, overlap and repeat. The result is a planar mesh in which every segment is a chain of
-// edges.
+// may cross, touch and overlap each other, and may occur several times. The result is a planar mesh in which
+// every segment is a chain of edges.
 //
-// Segments are split where they meet before the triangulation starts, so that each crossing is computed once
-// and shared. A point closer to a segment than kSnapDistance becomes a vertex of the segment: the segment
-// bends by at most this distance, which avoids triangles that are too thin for binary64. Input points never
-// move.
+// Segments are split at their common points before the triangulation starts, so that each crossing is
+// computed once and is shared. A point closer to a segment than the snap distance becomes a vertex of the
+// segment: the segment bends by at most the snap distance, which avoids triangles that are too thin for
+// binary64. Input points never move.
 
 #pragma once
 
@@ -22,49 +22,50 @@
 
 namespace penumbra {
 
-// Tags of constraints. Callers may use the tags 0, 1, 2, ... for their own purposes.
+// Each constraint segment has a tag. Callers may use the tags 0, 1, 2, ... for their own purposes.
 inline constexpr std::int32_t kNoTag = -1;
-// The tag of the region's border. The border consists of closed loops, all of which run around the inside of
-// the region in the same sense.
+// The tag of segments on the border of the triangulated region. The border consists of closed loops, all of
+// which run around the inside of the region in the same sense.
 inline constexpr std::int32_t kBorder = -2;
 
-// The snap distance divided by the larger side of the points' bounding box: far above the rounding of a
-// crossing (1e-16), far below any length that matters.
+// kSnapDistance, the snap distance divided by the larger side of the points' bounding box, is far above the
+// rounding error of a crossing (1e-16) and far below any length that matters.
 inline constexpr double kSnapDistance = 1e-13;
 
 struct ConstraintSegment {
-  std::int32_t from = 0, to = 0;  // indices of points
-  std::int32_t tag = kNoTag;      // kBorder, or a caller's tag >= 0
+  std::int32_t from = 0, to = 0;  // point indices of the segment's ends
+  std::int32_t tag = kNoTag;      // kNoTag, kBorder, or a caller's tag >= 0
 };
 
 struct ConstrainedTriangulation {
   struct Triangle {
-    std::array<std::int32_t, 3> vertex;    // counter-clockwise; the smallest index comes first
-    std::array<std::int32_t, 3> neighbor;  // across edge k, from vertex k to vertex k + 1; -1: none
-    std::array<std::int32_t, 3> tag;       // smallest tag >= 0 of the constraints on edge k, else kNoTag
-    std::array<bool, 3> border;            // edge k lies on a constraint with the tag kBorder
-    std::array<std::int32_t, 3> edge;      // index in `edges`, -1 if no constraint lies on edge k
-    std::int32_t winding = 0;              // winding number of the border around the triangle
+    std::array<std::int32_t, 3> vertex;  // vertex indices, counter-clockwise; the smallest index comes first
+    // The neighbour across edge k, which runs from vertex k to vertex k + 1; -1 if no triangle is there.
+    std::array<std::int32_t, 3> neighbor;
+    std::array<std::int32_t, 3> tag;   // smallest tag >= 0 of the constraints on edge k; else kNoTag
+    std::array<bool, 3> border;        // true if edge k lies on a constraint with the tag kBorder
+    std::array<std::int32_t, 3> edge;  // index in `edges`; -1 if no constraint lies on edge k
+    std::int32_t winding = 0;          // winding number of the border around the triangle
 
     bool Inside() const { return winding != 0; }
   };
 
-  // A part of a constraint that is an edge of the mesh.
+  // A Cover says that a constraint segment runs along an edge of the mesh.
   struct Cover {
-    std::int32_t constraint = 0;  // index in the input
-    bool forward = true;          // the constraint runs from vertex a to vertex b of the edge
+    std::int32_t constraint = 0;  // index of the constraint in the input
+    bool forward = true;          // true if the constraint runs from vertex a to vertex b of the edge
   };
   struct Edge {
-    std::int32_t a = 0, b = 0;          // vertices, a < b
-    std::int32_t first = 0, count = 0;  // its range in `covers`
+    std::int32_t a = 0, b = 0;          // indices of the edge's end vertices, a < b
+    std::int32_t first = 0, count = 0;  // range of the edge's entries in `covers`
   };
 
-  // The input points, then the crossings of segments. Of several points with equal coordinates only the first
-  // is used.
+  // The vertices are the input points, followed by the crossings of segments. Of several points with equal
+  // coordinates, only the first is used.
   std::vector<Vec2> vertices;
-  std::vector<Triangle> triangles;  // sorted by their vertices; they fill the convex hull
-  std::vector<Edge> edges;          // sorted by (a, b)
-  std::vector<Cover> covers;        // of one edge after the other, sorted by constraint
+  std::vector<Triangle> triangles;  // sorted by vertex indices; the triangles fill the convex hull
+  std::vector<Edge> edges;          // edges on constraints, sorted by (a, b)
+  std::vector<Cover> covers;        // all covers, sorted by edge, then by constraint
 
   std::span<const Cover> Covers(const Edge& edge) const {
     return std::span(covers).subspan(static_cast<std::size_t>(edge.first),
@@ -73,11 +74,12 @@ struct ConstrainedTriangulation {
 };
 
 // The winding number of the constraints with the tag `tag` around each triangle, counted counter-clockwise.
-// REQUIRES: the mesh was made from `constraints`, and the constraints with this tag form closed loops.
+// REQUIRES: the mesh was made from `constraints`, and the constraints with the tag `tag` form closed loops.
 std::vector<std::int32_t> WindingNumbers(const ConstrainedTriangulation& mesh,
                                          std::span<const ConstraintSegment> constraints, std::int32_t tag);
 
-// Triangulates sets of points and segments, and reuses its buffers. Each thread needs its own object.
+// Triangulates sets of points and segments, one set after the other, with the same buffers. Each thread needs
+// its own triangulator.
 class ConstrainedTriangulator {
  public:
   ConstrainedTriangulator();
@@ -85,21 +87,21 @@ class ConstrainedTriangulator {
   ConstrainedTriangulator(ConstrainedTriangulator&&) noexcept;
   ConstrainedTriangulator& operator=(ConstrainedTriangulator&&) noexcept;
 
-  // The triangulation, which stays valid until the next call. If all points lie on a line there are no
-  // triangles. For four points on a circle, the order of points and constraints determines which diagonal is
-  // used; the result is therefore deterministic. The result is null if crossings lie so close together,
-  // relative to the rounding of their coordinates, that no planar mesh was found. REQUIRES: coordinates are
-  // finite, and indices are in range.
+  // Returns the constrained Delaunay triangulation, which stays valid until the next call. If all points lie
+  // on a line, the result has no triangles. For four points on a circle, the order of points and constraints
+  // determines which diagonal is used; the result is therefore deterministic. The result is null if crossings
+  // lie so close together, compared with the rounding of their coordinates, that no planar mesh was found.
+  // REQUIRES: coordinates are finite, and the segments' point indices are valid.
   const ConstrainedTriangulation* TryTriangulate(std::span<const Vec2> points,
                                                  std::span<const ConstraintSegment> constraints);
-  // Like TryTriangulate(), but the result is never null. REQUIRES: a planar mesh is found, which is certain
-  // if the distances between points are large compared with kSnapDistance.
+  // Like TryTriangulate(), but the result is never null. REQUIRES: the input has a planar mesh, which is
+  // certain if the distances between points are large compared with the snap distance.
   const ConstrainedTriangulation& Triangulate(std::span<const Vec2> points,
                                               std::span<const ConstraintSegment> constraints);
 
-  // The triangulation of pieces that SegmentSplitter::Split() has returned; they are not split or snapped
-  // again. A piece has the tag of the constraint that is its source. REQUIRES: no two used points have equal
-  // coordinates.
+  // Triangulates pieces of segments that SegmentSplitter::Split() has returned, without splitting or snapping
+  // them again. A piece has the tag of the constraint of which it is a part. REQUIRES: no two used points
+  // have equal coordinates.
   const ConstrainedTriangulation& TriangulatePieces(std::span<const Vec2> points,
                                                     const std::vector<bool>& used,
                                                     std::span<const SegmentPiece> pieces,

@@ -1,10 +1,10 @@
 // solver/geometry/nearby_segments.h
 //
-// Finds which of many segments in the plane come close to each other. Bounding boxes do not tell that of long
-// slanted segments: the boxes of the spikes of a star overlap by the square of their number. The finder
-// halves the plane again and again, by a line along one of the segments or by an upright or level line,
-// whichever separates best (a binary space partition, Paterson and Yao 1990), and compares only segments that
-// reach the same part.
+// Finds the pairs of close segments among many segments in the plane. Bounding boxes do not help with long
+// slanted segments: in a star with n spikes, the boxes of about n^2 pairs of edges overlap. The search uses a
+// binary space partition (Paterson and Yao 1990), and compares only segments that reach the same cell. The
+// line that divides a cell is vertical, horizontal, or along one of the segments, whichever separates the
+// segments best.
 
 #pragma once
 
@@ -19,12 +19,13 @@
 namespace penumbra {
 
 struct PlaneSegment {
-  Vec2 a = Vec2::Zero(), b = Vec2::Zero();  // equal: a point
+  Vec2 a = Vec2::Zero(), b = Vec2::Zero();  // end points; a segment with equal end points is a point
 };
 
-// Pairs (i, j), i < j, of segments, in ascending order: all whose distance is at most `distance`, and others
-// that are not far from each other. Takes time O(n log n) for outlines that do not cross themselves; nullopt
-// if it would take much more, because too many segments meet.
+// Returns pairs (i, j), i < j, of indices of segments, in ascending order. The result contains all pairs
+// whose distance is at most `distance`, and may contain some pairs at a larger distance. For n segments that
+// form outlines without self-crossings, the search takes time O(n log n). Returns nullopt if the search would
+// take much longer, because too many segments meet.
 std::optional<std::vector<std::pair<std::int32_t, std::int32_t>>> FindNearbyPairs(
     std::span<const PlaneSegment> segments, double distance);
 

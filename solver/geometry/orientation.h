@@ -8,8 +8,8 @@
 
 namespace penumbra {
 
-// +1 if a, b, c make a left turn, -1 if they make a right turn, 0 if they lie on a line. The result is exact
-// for the given coordinates.
+// Returns +1 if the points a, b, c make a left turn, -1 if they make a right turn, 0 if they lie on a line.
+// The returned orientation is exact for the given coordinates.
 int Orientation(const Vec2& a, const Vec2& b, const Vec2& c);
 
 }  // namespace penumbra

@@ -14,8 +14,9 @@ namespace penumbra {
 
 class PlaneProjection {
  public:
-  // The plane through `point` with the normal `normal`, of any length but zero. A polygon that is
-  // counter-clockwise about the normal is counter-clockwise in the projection.
+  // Makes the projection of the plane through `point` with the normal `normal`, which need not be a unit
+  // vector but must not be zero. A polygon that is counter-clockwise about the normal is counter-clockwise in
+  // the projection.
   PlaneProjection(const Vec3& point, const Vec3& normal) : point_(point), normal_(normal) {
     normal.cwiseAbs().maxCoeff(&dropped_);
     x_ = (dropped_ + 1) % 3;
@@ -25,7 +26,7 @@ class PlaneProjection {
 
   Vec2 ToPlane(const Vec3& p) const { return {p[x_], p[y_]}; }
 
-  // The point of the plane whose projection is exactly p.
+  // Returns the point of the plane in space whose projection is exactly p.
   Vec3 FromPlane(const Vec2& p) const {
     Vec3 lifted;
     lifted[x_] = p.x();

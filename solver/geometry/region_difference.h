@@ -1,11 +1,11 @@
 // solver/geometry/region_difference.h
 //
-// The difference of a polygon and other polygons in its plane. Borders of the polygons may coincide exactly,
-// to within rounding errors, or to within the precision of the coordinates in a text file. The computation
-// succeeds for every input.
+// The difference of a polygon and other polygons in the same plane. Borders of the polygons may coincide
+// exactly, up to rounding errors, or up to the precision of the coordinates in a text file. The difference of
+// polygons is found for every input, without failure.
 //
-// First, corners and edges within a snap distance of each other are unified: the corners of the cutting
-// polygons move, never those of the outline. Second, one constrained triangulation of all polygons
+// First, corners and edges within a snap distance of each other are made equal. Only corners of the
+// subtracted polygons move, never those of the outline. Second, one constrained triangulation of all polygons
 // distinguishes the inside of the difference from the outside.
 
 #pragma once
@@ -20,14 +20,14 @@
 
 namespace penumbra {
 
-// The distance within which two corners or edges count as one. Along a coordinate axis, the distance is the
-// unit `step` to which this coordinate is rounded in the file. In every direction, the distance is at least
-// `base`.
+// The snap distance, within which two corners or edges count as one. Along a coordinate axis, the snap
+// distance is the unit `step` to which this coordinate is rounded in the file. In every direction, the snap
+// distance is at least `base`.
 struct SnapTolerance {
   double base = 0;
-  Vec2 step = Vec2::Zero();  // along each coordinate axis
+  Vec2 step = Vec2::Zero();  // unit of rounding along each coordinate axis
 
-  // The distance in the direction of `normal`, the unit normal of an edge.
+  // The snap distance in the direction of `normal`, the unit normal of an edge.
   double Across(const Vec2& normal) const { return std::max(base, normal.cwiseAbs().dot(step)); }
   bool SamePlace(const Vec2& a, const Vec2& b) const {
     const Vec2 apart = (a - b).cwiseAbs();
@@ -36,27 +36,29 @@ struct SnapTolerance {
 };
 
 struct RegionDifference {
-  // First the unchanged vertices of the outline; then the vertices of the cutting polygons, one polygon after
-  // the other, moved by at most the snap distance; then crossings of edges. Every vertex of the outline and
-  // of the cutting polygons has an entry, in input order.
+  // The list `vertices` holds the unchanged vertices of the outline, then the vertices of the subtracted
+  // polygons, moved by at most the snap distance, and then the crossings of edges. Every input vertex has an
+  // entry in the list `vertices`, in input order.
   std::vector<Vec2> vertices;
-  // Counter-clockwise. Coincident vertices share one index, except where the common triangulation failed and
-  // convex parts were clipped instead.
+  // The triangles of the difference, counter-clockwise. Coincident vertices share one index, except if the
+  // triangulation failed and SubtractByClipping() was used.
   std::vector<std::array<std::int32_t, 3>> triangles;
 };
 
 class RegionSubtractor {
  public:
-  // The part of the simple polygon `outline` outside all simple polygons `cuts`; all are counter-clockwise.
-  // Parts whose width is less than the snap distance everywhere are dropped.
+  // Subtracts the simple polygons `cuts` from the simple polygon `outline`; all polygons are
+  // counter-clockwise. Parts of the difference whose width is less than the snap distance everywhere are
+  // dropped.
   RegionDifference Subtract(std::span<const Vec2> outline, std::span<const Polygon2> cuts,
                             const SnapTolerance& reach);
 
-  // Partitions a simple polygon into convex ones.
+  // Partitions a simple polygon into convex polygons.
   std::vector<Polygon2> ConvexParts(std::span<const Vec2> outline);
 
  private:
-  // The fallback if the triangulation fails: clips convex parts one by one, without a common mesh.
+  // The fallback for Subtract() if the triangulation fails: convex parts of the polygons are clipped one by
+  // one, without a common mesh.
   RegionDifference SubtractByClipping(std::span<const Vec2> outline, std::span<const Polygon2> cuts,
                                       const SnapTolerance& reach);
 

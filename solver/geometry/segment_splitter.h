@@ -1,7 +1,7 @@
 // solver/geometry/segment_splitter.h
 //
-// Splits segments in the plane where they meet each other or a point, until they meet only at common end
-// points.
+// Splits segments in the plane where they meet other segments or points, until the pieces meet only at common
+// end points.
 
 #pragma once
 
@@ -14,28 +14,29 @@
 
 namespace penumbra {
 
-// A piece of the segment with index `source`, with the same direction.
+// A piece of the segment with the index `source`, in the direction of this segment.
 struct SegmentPiece {
-  std::int32_t from = 0, to = 0;  // indices of vertices
+  std::int32_t from = 0, to = 0;  // vertex indices of the ends
   std::int32_t source = 0;
 };
 
 class SegmentSplitter {
  public:
-  // Splits `pieces` in place and appends crossings to `vertices`, each computed once. A crossing within
-  // `snap` of a vertex uses this vertex. A vertex within `snap` of a piece splits the piece. If snapping does
-  // not come to an end because many vertices lie within `snap` of each other, later passes merge only points
-  // that coincide exactly. Vertices with used[i] == false are ignored. If the result is true, no two pieces
-  // cross (by an exact predicate), and no vertex lies in the interior of a piece. If the result is false,
-  // crossings lay so close together that splitting did not terminate, and the contents of the arguments are
-  // unspecified. REQUIRES: snap is larger than the rounding error of the coordinates.
+  // Splits the segments in `pieces` in place and appends their crossings to `vertices`; each crossing is
+  // computed once. If a vertex lies within the distance `snap` of a crossing, this vertex represents the
+  // crossing. A vertex within the distance `snap` of a piece splits the piece. If snapping does not terminate
+  // because many vertices lie close together, later passes merge only points that coincide exactly. Vertices
+  // with used[i] == false are ignored. Returns true if, tested by an exact predicate, no two pieces cross and
+  // no vertex lies in the interior of a piece. Returns false if splitting did not terminate because crossings
+  // lay too close together; the contents of the arguments are then unspecified. REQUIRES: `snap` is larger
+  // than the rounding error of the coordinates.
   [[nodiscard]] bool Split(std::vector<Vec2>& vertices, std::vector<bool>& used,
                            std::vector<SegmentPiece>& pieces, double snap);
 
  private:
   struct CutPoint {
     std::int32_t piece = 0;
-    double at = 0;  // sort key along the piece
+    double at = 0;  // sort key of the point along the piece
     std::int32_t vertex = 0;
   };
 
@@ -55,15 +56,15 @@ class SegmentSplitter {
   std::vector<bool>* used_ = nullptr;
   std::vector<SegmentPiece>* pieces_ = nullptr;
   double snap_ = 0;
-  double rounding_ = 0;  // largest true distance of a computed distance 0
+  double rounding_ = 0;  // upper bound of a true distance whose computed value is 0
   std::vector<CutPoint> cuts_;
   std::vector<SegmentPiece> next_;
-  std::vector<char> fresh_, next_fresh_;  // per piece: changed since it was last tested
-  std::int32_t fresh_vertex_ = 0;         // first vertex added since then
-  std::vector<std::int32_t> order_;       // vertices or pieces, sorted by their smallest x
-  std::vector<double> low_;               // these smallest x, in the same order
-  std::vector<double> left_;              // per piece: its smallest x
-  BoxTree tree_;                          // used if there are many vertices or pieces
+  std::vector<char> fresh_, next_fresh_;  // for each piece: true if the piece changed since its last test
+  std::int32_t fresh_vertex_ = 0;         // first vertex added since the last test
+  std::vector<std::int32_t> order_;       // indices of vertices or pieces, sorted by smallest x
+  std::vector<double> low_;               // the smallest x of each entry of order_
+  std::vector<double> left_;              // smallest x of each piece
+  BoxTree tree_;                          // search tree, used if there are many vertices or pieces
   std::vector<PlaneBox> boxes_;
   std::vector<std::int32_t> found_;
 };

@@ -1,6 +1,6 @@
 // solver/geometry/vec.h
 //
-// The vector types of solver and mesh: binary64 in all components.
+// The vector types of the solver and the mesh; all components are binary64 numbers.
 
 #pragma once
 
@@ -12,12 +12,13 @@ namespace penumbra {
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 
-// Linear RGB with one value per channel: a reflectance [1], or an emittance, radiosity or irradiance [W/m^2].
+// A linear RGB colour with one value per channel: a reflectance [1], or an emittance, radiosity or irradiance
+// [W/m^2].
 using Rgb = Eigen::Array3d;
 
 inline double Cross2(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-// The largest absolute value of a coordinate.
+// The largest absolute value of the vector's coordinates.
 inline double MaxAbs(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // solver/scene/assimp_import.h
 //
-// Reads the files of modellers by the Open Asset Import Library (Assimp), which keeps numbers in single
-// precision.
+// Reads files of 3D modelling programs by the Open Asset Import Library (Assimp), which keeps numbers in
+// single precision.
 
 #pragma once
 
@@ -12,19 +12,21 @@
 namespace penumbra {
 
 struct AssimpImport {
-  std::string ending;         // of the format, without the dot: it tells Assimp what the bytes are
-  bool has_materials = true;  // the format knows materials; otherwise what Assimp makes up is left out
-  bool has_default = false;   // Assimp appends a material for faces that have none
-  bool turned = false;        // Assimp turns this format from z up to y up: turn it back
-  double applied_unit = 1;    // Assimp multiplies lengths by this unit, which the file gives: divide by it
+  std::string ending;         // file ending without the dot; tells Assimp the format of the bytes
+  bool has_materials = true;  // false if the format has no materials; those that Assimp adds are dropped
+  bool has_default = false;   // true if Assimp adds a default material for faces without a material
+  bool turned = false;        // true if Assimp rotates scenes from z up to y up; the reader rotates them back
+  // unit by which Assimp multiplies the lengths of the file; the reader divides by this unit
+  double applied_unit = 1;
 };
 
-// The scene in `bytes`, the content of the file `path`. Files that the file refers to are read from beside
-// the path. Nodes and their instances become objects, called by the names of the nodes. A mirrored instance
-// has its faces turned, so that its fronts stay outside.
+// Returns the scene in `bytes`, the content of the file `path`. Other files to which the file refers are read
+// from the same folder. Each instance of a node of the file's scene graph becomes an object with the name of
+// the node. In a mirrored instance, the order of the vertices of each face is reversed, so that fronts still
+// look outwards.
 //
-// Assimp is not safe on damaged input: call this function by RunInChild(). Throws std::runtime_error, whose
-// text is Assimp's, if the bytes cannot be read.
+// Assimp is not safe on damaged input: call ImportByAssimp() only in a child process (RunInChild). Throws
+// std::runtime_error with Assimp's error message if the bytes cannot be read.
 ForeignScene ImportByAssimp(const std::string& bytes, const std::string& path, const AssimpImport& how);
 
 }  // namespace penumbra

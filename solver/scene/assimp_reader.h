@@ -1,6 +1,7 @@
 // solver/scene/assimp_reader.h
 //
-// The reader of the files of modellers: glTF, COLLADA, FBX and others (ForeignFormats()), through Assimp.
+// The reader of files of 3D modelling programs (glTF, COLLADA, FBX and the others of ForeignFormats()), which
+// uses the library Assimp.
 
 #pragma once
 
@@ -8,9 +9,10 @@
 
 namespace penumbra {
 
-// Nodes and their instances become objects. Base colour or diffuse colour is reflectance. The emission
-// colour, multiplied by its strength, is emittance in W/m^2, as Ke is in OBJ files. Faces without a material
-// are 50 % grey. Scene::warnings begins with a note of what was read and in which frame, and of what was left
+// Each instance of a node of the file's scene graph becomes an object. The base colour or diffuse colour of a
+// material becomes its reflectance. The emission colour, multiplied by the emission strength, becomes the
+// emittance in W/m^2, like Ke in MTL files. Faces without a material get the reflectance 0.5. The list
+// Scene::warnings begins with a note that says what was read, with which unit and up axis, and what was left
 // out.
 SceneReaderRegistry::Method AssimpReaderMethod();
 

@@ -1,7 +1,7 @@
 // solver/scene/builtin_scenes.h
 //
-// The built-in scenes. The geometry of a built-in scene is an OBJ file in the folder scenes/, or is generated
-// from the numbers in the name (building.h).
+// The built-in scenes of the program. The geometry of a built-in scene is an OBJ file in the folder scenes/,
+// or is generated from the numbers in the scene's name (building.h).
 
 #pragma once
 
@@ -18,19 +18,19 @@ namespace penumbra {
 
 struct BuiltinScene {
   std::string name;
-  std::string description;  // one line
+  std::string description;  // one line of text
   std::vector<Camera> cameras;
 };
 
-// All built-in scenes, except that only the smallest of the buildings is included.
+// The list of all built-in scenes; of the generated buildings, only the smallest is listed.
 const std::vector<BuiltinScene>& BuiltinScenes();
 
-// The built-in scene called `name`, with its cameras; nullopt if there is no such scene. Throws InputError if
-// the options do not fit the scene.
+// The built-in scene called `name`, with its cameras; nullopt if no built-in scene has this name. Throws
+// InputError if the options do not fit the scene.
 std::optional<Scene> LoadBuiltinScene(std::string_view name, const SceneOptions& options);
 
-// The reader of built-in scenes. The reader recognises the name of a built-in scene unless a file has the
-// same name.
+// The reader of built-in scenes. The reader of built-in scenes recognises the name of a built-in scene unless
+// a file has the same name.
 SceneReaderRegistry::Method BuiltinSceneReaderMethod();
 
 }  // namespace penumbra

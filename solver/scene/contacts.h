@@ -1,6 +1,7 @@
 // solver/scene/contacts.h
 //
-// Contacts of patches: the segments across which irradiance and radiosity jump (D0, thesis 5.2).
+// Contacts of patches: the segments across which irradiance and radiosity jump (D0 discontinuities; thesis,
+// section 5.2).
 
 #pragma once
 
@@ -10,41 +11,42 @@
 
 namespace penumbra {
 
-// A segment of nonzero length on a receiver along which another patch stands on the receiver, intersects it,
-// or ends while lying on it.
+// A segment of nonzero length on a receiver along which another patch stands on the receiver or intersects
+// the receiver, or along which a patch that lies flat on the receiver ends.
 struct Contact {
-  Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // [m]
+  Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // end points [m]
   PatchId other = kNoPatch;
 };
 
-// All contacts on the front of the receiver, sorted by Contact::other. Patches within ContactGap() of the
-// receiver count as touching the receiver. Contacts along the receiver's outline are omitted, because the
-// receiver ends there.
+// All contacts on the front of the receiver, sorted by Contact::other. Patches whose distance from the
+// receiver is at most ContactGap() count as touching the receiver. Contacts along the receiver's outline are
+// omitted, because the receiver ends there.
 std::vector<Contact> FindContacts(const Scene& scene, PatchId receiver);
 
-// If an edge hangs above a patch, the patch is divided along the edge if (height of the edge) / (length of
-// the edge) is at most kMaxHangingHeight. Light that passes below an edge with a smaller ratio is negligible,
-// like light under a door.
+// A patch is divided below an edge that hangs above the patch if (height of the edge) / (length of the edge)
+// is at most kMaxHangingHeight. Light that passes below an edge with a smaller ratio of height to length is
+// negligible, like light under a door.
 inline constexpr double kMaxHangingHeight = 0.02;
 
-// Finds the contacts of many receivers of one scene. The scene must outlive the object.
+// Finds the contacts of many receivers of one scene. The scene must outlive the ContactSearch.
 class ContactSearch {
  public:
   explicit ContactSearch(const Scene& scene);
 
-  // Returns the same as FindContacts(scene, receiver).
+  // Returns the same contacts as FindContacts(scene, receiver).
   std::vector<Contact> Find(PatchId receiver) const;
 
-  // The feet of other patches on the front of the receiver: the segments along which they stand on the
-  // receiver. A patch that rises from the receiver has its contact as a foot. A patch that rises from an edge
-  // at a height of at most kMaxHangingHeight times the edge's length has the projection of this edge onto the
-  // receiver as a foot. Patches that lie flat on the receiver have no foot.
+  // Returns the feet on the front of the receiver: the segments along which other patches stand on the
+  // receiver or hang closely above it. If a patch stands on the receiver, the foot is the contact of this
+  // patch with the receiver. If a patch hangs above the receiver and (height of its lower edge) / (length of
+  // the edge) is at most kMaxHangingHeight, the foot of the patch is the projection of this edge onto the
+  // receiver. Patches that lie flat on the receiver have no foot.
   std::vector<Contact> FindWalls(PatchId receiver) const;
 
  private:
   const Scene& scene_;
   double gap_;                              // ContactGap() [m], cached because it depends on all patches
-  std::vector<std::vector<PatchId>> near_;  // per patch, sorted: patches with boxes within reach
+  std::vector<std::vector<PatchId>> near_;  // for each patch: the patches with nearby bounding boxes, sorted
 };
 
 }  // namespace penumbra

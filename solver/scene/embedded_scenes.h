@@ -6,7 +6,8 @@
 
 namespace penumbra {
 
-// The files of the folder scenes/, sorted by name. The build generates the definition of this function.
+// The files of the folder scenes/, which are compiled into the program, sorted by name. The build generates
+// the definition of EmbeddedSceneFiles().
 std::span<const EmbeddedFile> EmbeddedSceneFiles();
 
 }  // namespace penumbra

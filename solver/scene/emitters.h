@@ -1,6 +1,6 @@
 // solver/scene/emitters.h
 //
-// The emitters of a scene, and factors on their emittance that a user gives by name.
+// The emitters of a scene, and the factors by which a user multiplies the emittances of named emitters.
 
 #pragma once
 
@@ -13,37 +13,39 @@
 
 namespace penumbra {
 
-// What counts as one emitter.
+// The unit that counts as one emitter: a face, an object or a material.
 enum class EmitterUnit : std::uint8_t {
-  kFace,      // one face; faces that share a patch count as one
+  kFace,      // one face; faces that form one patch count as one emitter
   kObject,    // all emitting faces of an object or group
   kMaterial,  // all faces with one emitting material
 };
 
-// The patches of each emitter of the scene. Each patch that emits belongs to exactly one emitter. The patches
-// of an emitter are ascending, and emitters are ordered by their first patch.
+// Returns, for each emitter of the scene, the patches that form the emitter. Each patch that emits belongs to
+// exactly one emitter. The indices of the patches of an emitter are ascending, and emitters are sorted by
+// their first patch.
 std::vector<std::vector<PatchId>> EmittersOf(const Scene& scene, EmitterUnit unit);
 
-// A factor for what is called NAME: an object or group, a material, or the number of a face. `object:NAME`,
-// `material:NAME` and `face:NUMBER` say which of these is meant.
+// A factor on the emittance of the object, group or material called NAME, or of the face with the number
+// NAME. The forms `object:NAME`, `material:NAME` and `face:NUMBER` distinguish objects, materials and faces
+// of the same name.
 struct Dimming {
   std::string name;
-  Rgb factor = Rgb::Ones();  // at least 0
+  Rgb factor = Rgb::Ones();  // one factor for each channel, at least 0
 };
 
-// The factor of each patch: the product of the factors of all dimmings that name the patch; 1 for patches
-// that are not named. Throws InputError, without the name of a file, if a name belongs to nothing, to nothing
-// that emits, or to an object and a material that are not the same emitters, or if two faces are named that
-// form one patch. A face that forms a patch with another face is dimmed together with that face.
+// For each patch, the product of the factors of all dimmings that name the patch; 1 for patches that no
+// dimming names. Throws InputError, without a file name, if a name is unknown or names no emitter. Throws
+// InputError also if the name is that of an object and of a material with different emitters, or if two named
+// faces form one patch. If two faces form one patch, a factor for one face applies to both faces.
 std::vector<Rgb> DimmingFactors(const Scene& scene, std::span<const Dimming> dimmings);
 
-// Multiplies the emittance of each patch, and of its faces, by the factor of the patch. Materials whose
-// patches have different factors become several materials. Throws InputError if an emittance would exceed
-// kLargestEmittance. REQUIRES: there is one factor for each patch.
+// Multiplies the emittance of each patch, and of the faces of the patch, by the factor of the patch. If
+// patches of one material have different factors, the material is divided into several materials. Throws
+// InputError if an emittance would exceed kLargestEmittance. REQUIRES: there is one factor for each patch.
 void ScaleEmittance(Scene& scene, std::span<const Rgb> factor_of_patch);
 
-// The scene with the emittance of all patches but the given ones set to zero. REQUIRES: `patches` is
-// ascending.
+// Returns a copy of the scene in which only the given patches emit: the emittance of all other patches is
+// zero. REQUIRES: `patches` is ascending.
 Scene LitOnlyBy(const Scene& scene, std::span<const PatchId> patches);
 
 }  // namespace penumbra

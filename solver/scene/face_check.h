@@ -1,7 +1,7 @@
 // solver/scene/face_check.h
 //
-// Checks whether a face of a file can be used, and repairs it. All functions take time O(n log n) for n
-// vertices.
+// Checks whether a face of a scene file can be used, and repairs the face if possible. All functions take
+// time O(n log n) for n vertices.
 
 #pragma once
 
@@ -11,33 +11,36 @@
 
 namespace penumbra {
 
-// The largest distance of a vertex from its face's plane in a planar face, relative to the face's diameter.
+// A face counts as planar if (distance of a vertex from the face's plane) / (diameter of the face) is at most
+// kPlanarTolerance for every vertex.
 inline constexpr double kPlanarTolerance = 1e-6;
-// The largest distance of a vertex from its face's plane, relative to the face's diameter, in a face that is
-// cut into planar pieces. Surveyed walls and faces with few decimals deviate by less; a face with a larger
-// deviation was not intended to be planar.
+// A face that is not planar is cut into planar pieces if (distance of a vertex from the face's plane)
+// / (diameter of the face) is at most kCutTolerance. Surveyed walls and faces with few decimals deviate less
+// from a plane than kCutTolerance; a face with a larger deviation was not intended to be planar.
 inline constexpr double kCutTolerance = 0.05;
 
 // A face with width / diameter <= kZeroWidth has no reliable normal: rounding the coordinates rotates the
 // normal by more than 1e-4.
 inline constexpr double kZeroWidth = 1e-12;
 
-// The largest part of a face's diameter that is taken for a rounding of its coordinates. Files with whole
-// numbers only do not say to what they were rounded.
+// The upper limit of (rounding of a face's coordinates) / (diameter of the face). The limit kMostRounding is
+// needed because files that contain only whole numbers do not show to which unit they were rounded.
 inline constexpr double kMostRounding = 1e-4;
 
 enum class FaceCondition {
   kFine,
   kZeroArea,
-  kUneven,  // deviates by more than kPlanarTolerance, at most FaceTolerances::cut: FlatPieces() cuts it
-  kFolded,  // deviates by more than FaceTolerances::cut
+  // Not planar: a vertex is off the plane by more than kPlanarTolerance, but by at most FaceTolerances::cut.
+  kUneven,
+  kFolded,  // a vertex is off the plane by more than FaceTolerances::cut
   kSelfCrossing
 };
 
-// What a face of a file may deviate by.
+// The permitted deviations of a face of a scene file.
 struct FaceTolerances {
-  double cut = kCutTolerance;  // of a vertex from the plane of a face that is cut, relative to its diameter
-  double rounding = 0;         // between the true and the written difference of two vertices [m]
+  // The largest (distance of a vertex from the face's plane) / (diameter of the face).
+  double cut = kCutTolerance;
+  double rounding = 0;  // largest rounding error of the difference of two vertices [m]
 };
 
 struct FaceCheck {
@@ -46,21 +49,23 @@ struct FaceCheck {
   double diameter = 0;   // [m]
 };
 
-// Removes vertices that equal their predecessor, and spikes (a, b, a becomes a). Returns the number of
-// removed vertices.
+// Removes vertices that equal their predecessor, and spikes: the vertices a, b, a become a. Returns the
+// number of removed vertices.
 int RemoveRepeatedVertices(Polygon3& face);
 
-// The condition of the face. If several conditions apply, the result is the first of: zero area, folded,
-// self-crossing, uneven. A face may touch itself, for instance if a doubled edge joins a hole to the outline.
-// A face is self-crossing if its winding number is neither 0 nor 1 (for a reversed face, -1) in some triangle
-// that is wider than `tolerances.rounding`, of which no more than kMostRounding of the diameter counts. A
-// face that is nowhere wider, and crosses itself, has no area. The result does not depend on the direction of
-// the face or on its first vertex.
+// Returns the condition of the face. If several conditions apply, the result is the first of: zero area,
+// folded, self-crossing, uneven. A face may touch itself, for instance if a doubled edge joins a hole to the
+// outline. A face is self-crossing if its winding number is neither 0 nor 1 (for a reversed face, -1) in some
+// triangle that is wider than the rounding of its vertices. The rounding of a face's vertices is
+// `tolerances.rounding`, but at most kMostRounding * (diameter of the face). A face that crosses itself and
+// is nowhere wider than the rounding of its vertices has zero area. The condition of a face does not depend
+// on the direction in which its vertices run or on the first vertex.
 FaceCheck CheckFace(const Polygon3& face, const FaceTolerances& tolerances = {});
 
-// The face itself if it is planar; otherwise triangles that fill it, whose vertices equal those of the face
-// to the bit. A quadrilateral is cut along the diagonal that gives the better shaped triangles. A reversed
-// face gives the same triangles, reversed. REQUIRES: CheckFace() returns kFine or kUneven.
+// Returns the face itself if it is planar; otherwise triangles that fill the face and whose vertices equal
+// those of the face to the bit. A quadrilateral is cut along the diagonal that gives the better shaped
+// triangles. A reversed face gives the same triangles, reversed. REQUIRES: CheckFace() returns kFine or
+// kUneven.
 std::vector<Polygon3> FlatPieces(const Polygon3& face);
 
 }  // namespace penumbra

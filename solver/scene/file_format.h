@@ -1,6 +1,7 @@
 // solver/scene/file_format.h
 //
-// Recognises files of other formats by their first bytes, when a scene or another text was expected.
+// Recognises the format of a file by its first bytes, for the error message if a scene file or another text
+// was expected.
 
 #pragma once
 
@@ -12,27 +13,28 @@ namespace penumbra {
 
 enum class FormatKind {
   kScene,     // a scene in another format; the user can export it as OBJ
-  kPacked,    // an archive, or compressed
+  kPacked,    // an archive or a compressed file
   kEncoding,  // text in an encoding such as UTF-16
-  kSolution,  // written by `penumbra solve -o`
-  kHdf5,      // HDF5 files of other programs
-  kOther      // pictures, documents, programs
+  kSolution,  // a solution file, written by `penumbra solve -o`
+  kHdf5,      // an HDF5 file of another program
+  kOther      // a picture, a document, a program, ...
 };
 
 struct ForeignFormat {
   FormatKind kind = FormatKind::kOther;
-  std::string_view name;  // "a Blender file"
+  std::string_view name;  // such as "a Blender file"
 };
 
-// The number of bytes that FindForeignFormat() needs.
+// The number of bytes at the beginning of a file that FindForeignFormat() needs.
 inline constexpr std::size_t kFormatBytes = 512;
 
-// The format of a file that begins with these bytes; nullopt if the format is unknown or is line-based text
-// such as OBJ, MTL and CSV.
+// Returns the format of a file that begins with the bytes `beginning`; nullopt if the format is unknown or is
+// line-based text such as OBJ, MTL and CSV.
 std::optional<ForeignFormat> FindForeignFormat(std::string_view beginning);
 
-// The message for a file that should have been `wanted` ("an OBJ file"), for example "this is a Blender file;
-// export OBJ, and give that".
+// The error message for a file of the format `format`, if a file of the kind `wanted` was expected, such as
+// "an OBJ file". For a Blender file, for example, the message is "this is a Blender file; export OBJ, and
+// give that".
 std::string ForeignFormatMessage(const ForeignFormat& format, std::string_view wanted);
 
 }  // namespace penumbra

@@ -1,6 +1,7 @@
 // solver/scene/foreign_formats.h
 //
-// The formats that are read through Assimp: how they are recognised, and in which frame they give lengths.
+// The file formats that are read by the library Assimp: how the formats are recognised, and which unit of
+// length and up axis they use.
 
 #pragma once
 
@@ -16,32 +17,35 @@
 namespace penumbra {
 
 struct ForeignFormatEntry {
-  std::string name;                  // "glTF"
-  std::vector<std::string> endings;  // without the dot; the first tells Assimp the format
-  std::string description;           // of FindForeignFormat() for its first bytes; empty if nothing shows it
-  AssimpImport import;               // without the ending
-  UpAxis up = UpAxis::kZ;            // as the format defines it, or as its programs use it
+  std::string name;                  // such as "glTF"
+  std::vector<std::string> endings;  // file endings without the dot; the first tells Assimp the format
+  // The value of ForeignFormat::name for files of this format; empty if their first bytes do not show the
+  // format.
+  std::string description;
+  AssimpImport import;     // AssimpImport::ending is not set
+  UpAxis up = UpAxis::kZ;  // up axis, by the format's definition or by custom
 };
 
 const std::vector<ForeignFormatEntry>& ForeignFormats();
 
-// The entry for a file with these first bytes, whatever its name; null if nothing shows that it is one of
-// them.
+// The format of a file that begins with the given bytes, whatever its name; null if the bytes show none of
+// the formats of ForeignFormats().
 const ForeignFormatEntry* FormatByContent(std::string_view beginning);
-// The entry for this ending, without the dot; null if there is none.
+// The format of files with the given ending, without the dot; null if no format has this ending.
 const ForeignFormatEntry* FormatByEnding(std::string_view ending);
 
-// How a file gives its lengths, and whether the file or its format says so.
+// The unit of length and the up axis of a file, and whether the file or its format defines them.
 struct ForeignFrame {
   SceneFrame frame;
   bool unit_said = false, up_said = false;
 };
 
-// The frame that the content of a COLLADA file gives: the first `unit` and `up_axis`. By its standard, metres
-// and y up if the file does not say.
+// The unit of length and the up axis of a COLLADA file, given by its first elements `unit` and `up_axis`. If
+// a COLLADA file lacks the elements `unit` and `up_axis`, the COLLADA standard defines metres and y up.
 ForeignFrame ColladaFrame(std::string_view bytes);
 
-// The frame of a file of this format. `read` is the scene in the file.
+// The unit of length and the up axis of a file of the given format. `read` is the scene that Assimp has read
+// from the file.
 ForeignFrame FrameOf(const ForeignFormatEntry& format, std::string_view bytes, const ForeignScene& read);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // solver/scene/geometry_difference.h
 //
 // Compares the geometry of two scenes. Scenes of equal geometry have the same form factors and visibility,
-// whatever their materials.
+// even if their materials differ.
 
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace penumbra {
 
-// The first difference, as a phrase that follows "the scenes differ: "; nullopt if all faces and all patches
-// are equal to the bit. Names, materials and objects are not compared.
+// Describes the first difference in geometry, as a phrase that follows "the scenes differ: "; nullopt if all
+// faces and all patches are equal to the bit. Names, materials and objects are not compared.
 std::optional<std::string> GeometryDifference(const Scene& one, const Scene& other);
 
 }  // namespace penumbra

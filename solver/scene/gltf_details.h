@@ -1,6 +1,6 @@
 // solver/scene/gltf_details.h
 //
-// What the JSON part of a glTF 2.0 file says and Assimp 5.2 does not pass on.
+// Details of the JSON part of a glTF 2.0 file that the library Assimp 5.2 does not report.
 
 #pragma once
 
@@ -12,15 +12,16 @@
 namespace penumbra {
 
 struct GltfDetails {
-  // By material, the factor of its emission: `emissiveStrength` of KHR_materials_emissive_strength.
+  // Maps the index of a material to the factor on its emission: `emissiveStrength` of the glTF extension
+  // KHR_materials_emissive_strength.
   std::map<int, double> emissive_strength;
-  std::vector<int> metallic;  // materials that say that they are metallic
-  // The extensions without which, as the file says, it cannot be read, and which concern the geometry.
+  std::vector<int> metallic;  // indices of materials that are declared metallic
+  // The glTF extensions that concern the geometry and that the file declares as required.
   std::vector<std::string> required;
 };
 
-// The details in the bytes of a .gltf or .glb file; none if the bytes are damaged or of another version, as
-// the reader of the whole file will tell.
+// Finds the details in the bytes of a .gltf or .glb file. The returned GltfDetails are empty if the bytes are
+// damaged or of another glTF version; the reader of the whole file then reports the error.
 GltfDetails FindGltfDetails(std::string_view bytes);
 
 }  // namespace penumbra

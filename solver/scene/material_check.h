@@ -1,6 +1,7 @@
 // solver/scene/material_check.h
 //
-// Checks the materials of files that are not OBJ. (The reader of MTL files does the same line by line.)
+// Checks the materials of scene files other than OBJ files. (The reader of MTL files makes the same checks
+// for each line.)
 
 #pragma once
 
@@ -12,10 +13,10 @@
 
 namespace penumbra {
 
-// Makes the materials that a file gives usable: multiplies emittances by pi if
-// SceneOptions::emission_is_radiance says so, and clamps reflectances to SceneOptions::max_reflectance.
-// Appends a warning if reflectances were clamped. Throws InputError, which names the material, if a
-// reflectance is not in [0, 1) or an emittance is negative or not finite.
+// Multiplies the emittances of the materials by pi if SceneOptions::emission_is_radiance is true, and clamps
+// reflectances to SceneOptions::max_reflectance. Appends a warning if reflectances were clamped. Throws
+// InputError, whose message names the material, if a reflectance is not in [0, 1) or an emittance is negative
+// or not finite.
 void CheckMaterials(std::string_view file, const SceneOptions& options, std::vector<Material>& materials,
                     std::vector<std::string>& warnings);
 

@@ -1,7 +1,7 @@
 // solver/scene/mgf_colour.h
 //
-// Colours of the Materials and Geometry Format: CIE chromaticities, spectra and colour temperatures, and
-// their conversion from and to red, green and blue by the primaries of MGF's own conversion.
+// Colours of the Materials and Geometry Format (MGF): CIE chromaticities, spectra and colour temperatures.
+// Colours are converted from and to RGB with the primaries that MGF's own conversion uses.
 
 #pragma once
 
@@ -11,20 +11,22 @@
 
 namespace penumbra {
 
-// CIE XYZ of a colour.
+// Converts an RGB colour to CIE XYZ.
 Vec3 MgfXyz(const Rgb& rgb);
-// The inverse of MgfXyz(). Colours outside the range of the primaries lose what is negative.
+// Converts CIE XYZ to an RGB colour, the inverse of MgfXyz(). For colours outside the gamut of the primaries,
+// negative channels become 0.
 Rgb MgfRgb(const Vec3& xyz);
 
-// XYZ of the chromaticity (x, y) with luminance Y = 1. REQUIRES: y > 0.
+// CIE XYZ of the colour with the chromaticity (x, y) and the luminance Y = 1. REQUIRES: y > 0.
 Vec3 ChromaticityXyz(double x, double y);
 
-// XYZ, with luminance 1, of a spectrum given at equal steps of wavelength from `low` to `high` [nm], and
-// linear between them. The colour matching functions are the fits of Wyman, Sloan and Shirley (2013), which
-// are off by 1 % of their maximum. Zero if the spectrum has no luminance.
+// CIE XYZ, scaled to the luminance 1, of a spectrum. The spectrum has the given values at equal steps of
+// wavelength from `low` to `high` [nm], and is linear between these wavelengths. The colour matching
+// functions are the fits of Wyman, Sloan and Shirley (2013), whose error is 1 % of their maximum. The result
+// is zero if the spectrum has no luminance.
 Vec3 SpectrumXyz(double low, double high, std::span<const double> values);
 
-// XYZ, with luminance 1, of a black body of this temperature [K].
+// CIE XYZ, scaled to the luminance 1, of a black body with the given temperature [K].
 Vec3 BlackBodyXyz(double temperature);
 
 }  // namespace penumbra

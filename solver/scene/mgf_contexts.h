@@ -1,6 +1,6 @@
 // solver/scene/mgf_contexts.h
 //
-// The vertices, colours and materials that the statements of an MGF file define and refer to.
+// The named vertices, colours and materials of an MGF file, which its statements define and use.
 
 #pragma once
 
@@ -20,21 +20,22 @@ struct MgfVertex {
 };
 
 struct MgfColour {
-  Vec3 xyz = Vec3::Ones();  // of luminance 1
+  Vec3 xyz = Vec3::Ones();  // CIE XYZ, scaled to the luminance 1
 };
 
 struct MgfMaterial {
   int sides = 2;
-  Rgb reflectance = Rgb::Zero(), emittance = Rgb::Zero();  // diffuse
+  Rgb reflectance = Rgb::Zero(), emittance = Rgb::Zero();  // diffuse reflectance and diffuse emittance
   bool specular = false, transmits = false;
 };
 
-// All contexts of one kind, one of which is current.
+// All contexts of one kind (vertices, colours or materials), one of which is the current context.
 template <class Value>
 class MgfContexts {
  public:
-  // Obeys `KEY [id [= [template]]]`; `words` are those behind the key. Throws InputError, without a place,
-  // for names that are not defined.
+  // Executes an MGF statement `KEY [id [= [template]]]`, which defines or selects the current context;
+  // `words` are the words of the statement behind KEY. Throws InputError, without file name and line, for
+  // names that are not defined.
   void Select(std::span<const std::string_view> words) {
     if (words.size() > 3 || (words.size() > 1 && words[1] != "="))
       throw InputError("it takes [NAME [= [TEMPLATE]]]");
@@ -56,7 +57,7 @@ class MgfContexts {
   }
 
  private:
-  std::map<std::string, Value, std::less<>> values_;  // the unnamed one under ""
+  std::map<std::string, Value, std::less<>> values_;  // the unnamed context has the key ""
   std::string name_;
 };
 

@@ -1,9 +1,10 @@
 // solver/scene/mgf_reader.h
 //
-// The Materials and Geometry Format (Ward 1996), which RenderPark reads: all its surfaces, transformations
-// and arrays. The number of `ed` is emittance in W/m^2, as Ke is in OBJ files. Surfaces with `sides 2`, MGF's
-// default, get a second, reversed face each. Curved surfaces are cut into polygons (kCurveTolerance).
-// Specular and transmitting parts of materials are left out with a warning.
+// Reads the Materials and Geometry Format, MGF (Ward 1996), which the program RenderPark also reads, with all
+// surfaces, transformations and arrays. The number of an `ed` statement is the emittance in W/m^2, like Ke in
+// MTL files. For each face of a surface with `sides 2`, the default of MGF, a reversed face is added. Curved
+// surfaces are cut into polygons (kCurveTolerance). Specular and transmitting parts of materials are left out
+// with a warning.
 
 #pragma once
 
@@ -14,8 +15,8 @@
 
 namespace penumbra {
 
-// The scene in the file and in the files that it includes. Throws InputError with one line, "FILE:LINE:
-// error: what is wrong and how to mend it".
+// Reads the scene from the file and from the files that the file includes. Throws InputError with one line,
+// "FILE:LINE: error: what is wrong and how to mend it".
 Scene ReadMgf(const std::filesystem::path& path, const SceneOptions& options);
 
 // The reader of files whose names end in .mgf.

@@ -1,6 +1,7 @@
 // solver/scene/mtl_reader.h
 //
-// Wavefront MTL: `newmtl`, `Kd` (reflectance) and `Ke` (emittance [W/m^2]); everything else is ignored.
+// Reads Wavefront MTL files: the statements `newmtl`, `Kd` (reflectance) and `Ke` (emittance [W/m^2]); all
+// other statements are ignored.
 
 #pragma once
 
@@ -13,16 +14,16 @@
 
 namespace penumbra {
 
-// A material, and the 1-based line of its `newmtl`.
+// A material, and the line number, counted from 1, of the `newmtl` statement that defines the material.
 struct DefinedMaterial {
   Material material;
   int line = 0;
 };
 
-// The materials of the text, in their order. A material without Kd has the reflectance 0.5 in each channel.
-// A `newmtl` without a name defines a material with an empty name, with a warning.
-// `file` is the name of the text in messages. Values that were clamped or read in an unusual way add a line
-// to `warnings`. Throws InputError.
+// Returns the materials that the MTL text defines, in the order of the text. A material without Kd has the
+// reflectance 0.5 in each channel. A `newmtl` statement without a name defines a material with an empty name,
+// and adds a warning. `file` is the name of the MTL file in messages. For values that were clamped or read in
+// an unusual way, a line is added to `warnings`. Throws InputError if the text is not valid.
 std::vector<DefinedMaterial> ReadMtlText(std::string_view text, std::string_view file,
                                          const SceneOptions& options, std::vector<std::string>& warnings);
 

@@ -9,9 +9,10 @@
 
 namespace penumbra {
 
-// The scene that a user names: a file or a built-in scene. If a file and a built-in scene have the same name,
-// the file is read. The first of SceneReaders() that recognises the name reads the scene; a file that no
-// reader recognises is read as OBJ. Throws InputError.
+// Reads the scene with the name that a user has given: a file or a built-in scene. If a file and a built-in
+// scene have the same name, the file is read. The scene is read by the first reader in the list
+// SceneReaders() that recognises the name; a file that no reader recognises is read as OBJ. Throws InputError
+// if the scene cannot be read.
 Scene ReadNamedScene(const std::string& name, const SceneOptions& options);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // solver/scene/obj_writer.h
 //
-// Writes scenes as Wavefront OBJ with MTL. ReadObj() gives the same scene again: the same faces in the same
-// order, every number to the bit.
+// Writes scenes as Wavefront OBJ with MTL. Reading the written file by ReadObj() gives the same faces in the
+// same order, with every number equal to the bit.
 
 #pragma once
 
@@ -13,11 +13,12 @@
 
 namespace penumbra {
 
-// The text of the OBJ file; `mtl_name` is the name of the material library, a file in the same folder.
-// Dropped faces become faces without area, so that the other faces keep their numbers. Names that ReadObj()
-// could not read back are changed. Cameras are omitted.
+// Returns the text of the OBJ file of the scene; `mtl_name` is the name of the material library, a file in
+// the same folder. Faces that were dropped while reading the scene are written as faces without area, so that
+// the other faces keep their numbers. Names that ReadObj() could not read back are changed. Cameras are not
+// written.
 std::string ObjText(const Scene& scene, std::string_view mtl_name);
-// The text of the material library: Kd is reflectance, Ke is emittance [W/m^2].
+// Returns the text of the MTL material library: Kd is reflectance, Ke is emittance [W/m^2].
 std::string MtlText(const Scene& scene);
 
 SceneWriterRegistry::Method ObjWriterMethod();

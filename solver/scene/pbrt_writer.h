@@ -9,9 +9,10 @@
 
 namespace penumbra {
 
-// The scene for pbrt, version 4: the patches as triangles; one-sided diffuse area lights of radiance
-// emittance / pi on the fronts of emitters; the camera, with a path tracer and an EXR film of width x height
-// pixels (height <= width). A limitation of pbrt: visible backs of patches reflect like fronts.
+// Returns the scene as a text for the renderer pbrt, version 4. The patches are written as triangles; the
+// fronts of emitters become diffuse area lights with the radiance emittance / pi. The text selects a path
+// tracer, the camera, and an EXR image of width x height pixels (height <= width). Because of a limitation of
+// pbrt, the backs of patches reflect like fronts.
 std::string PbrtText(const Scene& scene, const Camera& camera, int width, int height);
 
 SceneWriterRegistry::Method PbrtWriterMethod();

@@ -1,7 +1,7 @@
 // solver/scene/ply_reader.h
 //
-// PLY files (Turk 1994): polygons in text or binary form. Read here because Assimp 5.2 never ends on
-// truncated PLY files, and rounds their doubles.
+// Reads PLY files (Turk 1994): polygons in text or binary form. The library Assimp 5.2 is not used for PLY
+// files because it hangs on truncated PLY files and rounds doubles to single precision.
 
 #pragma once
 
@@ -12,9 +12,9 @@
 
 namespace penumbra {
 
-// The scene in the bytes of the file `path`: one object, "default", of 50 % grey faces. Colours and other
-// properties are left out with a warning. Throws InputError with one line, "FILE: error: what is wrong and
-// how to mend it".
+// Returns the scene in the bytes of the PLY file `path`: one object called "default", whose faces have the
+// reflectance 0.5. Colours and other properties in the file are left out with a warning. Throws InputError
+// with one line, "FILE: error: what is wrong and how to mend it".
 Scene ReadPly(std::string_view bytes, const std::string& path, const SceneOptions& options);
 
 // The reader of files that begin with "ply".

@@ -1,6 +1,7 @@
 // solver/scene/polygon_soup.h
 //
-// Collects the polygons that a reader of surfaces finds, by object and material, and makes a scene of them.
+// Collects the polygons that a scene reader finds in a file, with their objects and materials, and makes a
+// scene of the polygons.
 
 #pragma once
 
@@ -20,21 +21,24 @@ class PolygonSoup {
  public:
   PolygonSoup(const std::string& path, const SceneOptions& options);
 
-  // The index of the object with this name, which may be new.
+  // Returns the index of the object called `name`; adds an object if none has this name.
   std::int32_t ObjectNamed(const std::string& name);
-  // The index of a material with this name and these values. If another one has the name, the new one gets a
-  // number behind its name.
+  // Returns the index of a material with the same name, reflectance and emittance as `material`; adds the
+  // material if none is equal. If another material has the same name but other values, a number is appended
+  // to the name of the added material.
   std::int32_t MaterialLike(const Material& material);
-  // A polygon in the frame of the file; `line` is where it stands. Throws InputError if a coordinate is no
-  // number or too large.
+  // Adds a polygon, whose coordinates have the unit and the axes of the file; `line` is the line of the file.
+  // Throws InputError if a coordinate is no number or too large.
   void Add(Polygon3 polygon, std::int32_t material, std::int32_t object, int line);
-  // Coordinates are rounded to this unit, per axis of the file. The largest counts.
+  // Declares the unit to which coordinates are rounded, for each axis of the file; of several calls, the
+  // largest unit counts.
   void AddStep(const Vec3& step) { step_ = step_.cwiseMax(step); }
 
   std::vector<std::string>& warnings() { return scene_.warnings; }
   const std::string& path() const { return path_; }
 
-  // The scene of all polygons. The warnings begin with a note on what was read as `format`.
+  // Returns the scene of all added polygons. The scene's warnings begin with a note that says what was read;
+  // `format` is the name of the file format.
   Scene Finish(std::string_view format);
 
  private:

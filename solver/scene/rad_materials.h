@@ -1,6 +1,6 @@
 // solver/scene/rad_materials.h
 //
-// What Radiance's materials are to a solver that knows diffuse surfaces only.
+// Converts the materials of Radiance scenes to diffuse materials, the only kind that the solver knows.
 
 #pragma once
 
@@ -16,23 +16,26 @@
 namespace penumbra {
 
 struct RadMaterial {
-  Material material;         // its emittance is radiance [W/(m^2 sr)]
-  bool two_sided = true;     // lights shine from their fronts only
-  bool passed_over = false;  // surfaces of it are left out: they are clear, or nothing
+  Material material;         // Material::emittance holds a radiance [W/(m^2 sr)]
+  bool two_sided = true;     // false for lights, which emit from their fronts only
+  bool passed_over = false;  // true if surfaces of this material are left out: the material is clear or void
   std::string left_out;  // what is left out of the material, such as "specular parts"; empty if nothing is
 };
 
 class RadMaterials {
  public:
-  // Whether the type is one of a material, a pattern, a texture or a mixture, and not of a surface.
+  // True if a Radiance primitive of the type `type` is a material, a pattern, a texture or a mixture, not a
+  // surface.
   static bool IsModifier(std::string_view type);
 
-  // Defines a modifier. Throws InputError, without a place, if it has too few numbers.
+  // Adds the modifier that the primitive defines: a material, a pattern, a texture or a mixture. Throws
+  // InputError, without file name and line, if the primitive has too few numbers.
   void Define(const RadPrimitive& primitive);
-  // Gives a modifier a further name.
+  // Gives an existing modifier a second name, as an `alias` primitive requires.
   void Alias(const RadPrimitive& primitive);
 
-  // The material of a surface with this modifier. Throws InputError, without a place, if it is not defined.
+  // Returns the material of a surface whose modifier is called `modifier`. Throws InputError, without file
+  // name and line, if the modifier is not defined.
   const RadMaterial& Find(std::string_view modifier) const;
 
  private:

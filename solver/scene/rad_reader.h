@@ -1,11 +1,12 @@
 // solver/scene/rad_reader.h
 //
-// Scene descriptions of Radiance: polygons, spheres, cones, cylinders and rings with diffuse materials and
-// lights. The commands `!xform` and `!genbox` are obeyed here, without a shell; other commands are refused.
-// The numbers of lights are radiance, which times pi is emittance. Materials reflect on both sides, as in
-// Radiance, so that each of their surfaces gets a second, reversed face; lights shine from their fronts.
-// Curved surfaces are cut into polygons (kCurveTolerance). What is not diffuse is left out, named in
-// warnings.
+// Reads scene descriptions of the renderer Radiance: polygons, spheres, cones, cylinders and rings with
+// diffuse materials and lights. The reader itself executes the commands `!xform` and `!genbox`, without a
+// shell; other commands in the file are an error. The numbers that define a light in Radiance are its
+// radiance, which is multiplied by pi to give the emittance. Materials reflect on both sides, as in Radiance,
+// so that a reversed face is added for each face; lights emit from their fronts only. Curved surfaces are cut
+// into polygons (kCurveTolerance). Materials, or parts of materials, that are not diffuse are left out, and
+// warnings name them.
 
 #pragma once
 
@@ -16,8 +17,8 @@
 
 namespace penumbra {
 
-// The scene in the file and in the files that its commands name. Throws InputError with one line, "FILE:LINE:
-// error: what is wrong and how to mend it".
+// Reads the scene from the file and from the files that the commands in the file name. Throws InputError with
+// one line, "FILE:LINE: error: what is wrong and how to mend it".
 Scene ReadRad(const std::filesystem::path& path, const SceneOptions& options);
 
 // The reader of files whose names end in .rad.

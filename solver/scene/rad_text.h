@@ -1,6 +1,6 @@
 // solver/scene/rad_text.h
 //
-// The primitives and commands in the text of a Radiance scene description.
+// Splits the text of a Radiance scene description into primitives and commands.
 
 #pragma once
 
@@ -10,17 +10,19 @@
 
 namespace penumbra {
 
-// "MODIFIER TYPE IDENTIFIER" with its arguments; or an alias, whose target is the only string; or a command,
-// a line that begins with '!', whose type is "!" and whose strings are its words.
+// A Radiance primitive "MODIFIER TYPE IDENTIFIER" with its arguments. For an alias, the only string is the
+// name of the target. For a command, which is a line that begins with '!', the type is "!" and the strings
+// are the words of the line.
 struct RadPrimitive {
   int line = 0;
   std::string modifier, type, identifier;
   std::vector<std::string> strings;
-  std::vector<std::string> reals;  // as written, checked to be finite numbers
+  std::vector<std::string> reals;  // number arguments as written in the file; all are finite
 };
 
-// All primitives of the text, in order. Comments begin with '#', anywhere. Throws InputError,
-// "FILE:LINE: error: ...", if the text ends in a primitive or an argument is no number.
+// Returns all primitives and commands of the text, in the order of the text. Comments begin with '#' at any
+// position in a line. Throws InputError, "FILE:LINE: error: ...", if the text ends within a primitive or if
+// an argument is no number.
 std::vector<RadPrimitive> ReadRadText(std::string_view text, std::string_view file);
 
 }  // namespace penumbra

@@ -1,9 +1,9 @@
 // solver/scene/scene.h
 //
-// A scene: the faces as the user gave them, and the patches that the solver uses, convex planar polygons of
-// three or four vertices (the thesis's Quadrilaterals).
+// A scene consists of the faces that the user gave and of the patches that the solver uses. Patches are
+// convex planar polygons of three or four vertices (called quadrilaterals in the thesis).
 //
-// Units: lengths in metres; emittance (radiant exitance) in W/m^2; reflectance in [0, 1).
+// Lengths are in metres, emittance (radiant exitance) is in W/m^2, and reflectance is in [0, 1).
 
 #pragma once
 
@@ -18,15 +18,16 @@
 
 namespace penumbra {
 
-// Index of a patch in Scene::patches.
+// The index of a patch in Scene::patches.
 using PatchId = std::int32_t;
 inline constexpr PatchId kNoPatch = -1;
 
-// Index of a solid in Scene::solids.
+// The index of a convex solid in Scene::solids.
 using SolidId = std::int32_t;
 inline constexpr SolidId kNoSolid = -1;
 
-// Limit for emittances [W/m^2], so that products with areas and sums over faces do not overflow.
+// The largest permitted emittance [W/m^2], so that products of emittances and areas, and sums over faces, do
+// not overflow.
 inline constexpr double kLargestEmittance = 1e100;
 
 struct Material {
@@ -35,10 +36,11 @@ struct Material {
   Rgb emittance = Rgb::Zero();  // [W/m^2]
 };
 
-// A polygon as the user gave it, such as an `f` line of an OBJ file. Output files call the index of a face in
-// Scene::faces `patch`. Dropped faces keep their index.
+// A face is a polygon as the user gave it, such as an `f` line of an OBJ file. In output files, the index of
+// a face in Scene::faces is called `patch`. A face that is dropped because it has no area keeps its index in
+// Scene::faces.
 struct Face {
-  Polygon3 vertices;          // as given; empty if the face was dropped
+  Polygon3 vertices;          // vertices as given; empty if the face was dropped
   std::int32_t material = 0;  // index in Scene::materials
   std::int32_t object = 0;    // index in Scene::objects
 };
@@ -49,34 +51,34 @@ struct Object {
   std::vector<std::int32_t> faces;
 };
 
-// A convex planar polygon of three or four vertices, the root of a quadtree of elements.
+// A patch is a convex planar polygon of three or four vertices, the root of a quadtree of elements.
 struct Patch {
   std::array<Vec3, 4> vertex;  // counter-clockwise seen from the front; vertex[3] is unused in a triangle
-  std::int32_t size = 0;       // 3 or 4
+  std::int32_t size = 0;       // number of vertices, 3 or 4
   std::int32_t material = 0;   // index in Scene::materials
   std::int32_t object = 0;     // index in Scene::objects
-  Vec3 normal = Vec3::Zero();  // unit, front
+  Vec3 normal = Vec3::Zero();  // unit normal of the front
   double area = 0;             // [m^2]
-  double extent = 0;           // the largest absolute coordinate [m]: the scale of rounding
-  std::vector<std::int32_t> faces;  // the covered faces: one, or two that were merged
+  double extent = 0;           // the largest absolute coordinate [m], the scale of rounding errors
+  std::vector<std::int32_t> faces;  // indices of the faces that form the patch: one, or two that were joined
 
   std::span<const Vec3> Vertices() const { return {vertex.data(), static_cast<std::size_t>(size)}; }
 };
 
-// A patch with these vertices; computes normal, area and extent. REQUIRES: the polygon has 3 or 4 vertices,
-// is convex, and has an area > 0.
+// Makes a patch with the given vertices, and computes its normal, area and extent. REQUIRES: the polygon has
+// 3 or 4 vertices, is convex, and has an area > 0.
 Patch MakePatch(std::span<const Vec3> vertices, std::int32_t material, std::int32_t object,
                 std::vector<std::int32_t> faces);
 
-// Patches that are sides of one convex body. Seen from any point outside the body, a single outline bounds
-// the region that the body hides.
+// A convex solid: patches that are sides of one convex body. Seen from any point outside the body, a single
+// outline bounds the region that the body hides.
 struct ConvexSolid {
   struct Side {
-    PatchId patch = kNoPatch;    // first patch of the side; kNoPatch: missing, for instance below a block
-    Vec3 normal = Vec3::Zero();  // unit, outwards
-    std::vector<std::int32_t> corner;  // in ConvexSolid::corners, counter-clockwise seen from outside
-    std::vector<std::int32_t>
-        edge;  // of the edge from each corner to the next: both sides use the same number
+    PatchId patch = kNoPatch;    // first patch of the side; kNoPatch if the side is missing, as below a block
+    Vec3 normal = Vec3::Zero();  // unit normal, outwards
+    std::vector<std::int32_t> corner;  // indices in ConvexSolid::corners, counter-clockwise seen from outside
+    // Number of the edge from each corner to the next; the two sides at an edge use the same number.
+    std::vector<std::int32_t> edge;
   };
   Polygon3 corners;  // [m]
   std::vector<Side> sides;
@@ -88,22 +90,22 @@ struct Camera {
   Vec3 eye = Vec3::Zero();
   Vec3 look_at = Vec3::UnitY();
   Vec3 up = Vec3::UnitZ();
-  double vertical_fov = 45;  // degrees
+  double vertical_fov = 45;  // vertical angle of view in degrees
 };
 
 struct Scene {
   std::string name;
-  std::vector<Material> materials;  // not empty if there are patches
+  std::vector<Material> materials;  // materials of the faces; not empty if there are patches
   std::vector<Object> objects;
   std::vector<Face> faces;
-  // Per axis, the unit to which the file's coordinates are rounded [m]; 0 if they are exact. Planes, edges
-  // and corners count as one if they differ by no more than coordinate_step.
+  // For each axis, the unit to which the coordinates in the file are rounded [m]; 0 if the coordinates are
+  // exact. Planes, edges and corners count as equal if they differ by no more than coordinate_step.
   Vec3 coordinate_step = Vec3::Zero();
   std::vector<Patch> patches;
-  std::vector<ConvexSolid> solids;    // of the current patches: FindConvexSolids()
-  std::vector<SolidId> solid_of;      // per patch; kNoSolid if it belongs to none
-  std::vector<Camera> cameras;        // may be empty
-  std::vector<std::string> warnings;  // one line each: repairs, dropped faces, suspected mistakes
+  std::vector<ConvexSolid> solids;    // the convex solids that FindConvexSolids() has found among the patches
+  std::vector<SolidId> solid_of;      // index of the solid of each patch; kNoSolid if it belongs to none
+  std::vector<Camera> cameras;        // cameras of the scene; may be empty
+  std::vector<std::string> warnings;  // one line for each repair, dropped face or suspected mistake
 
   const Material& MaterialOf(PatchId patch) const { return materials[patches[patch].material]; }
 
@@ -112,7 +114,7 @@ struct Scene {
     return i < solid_of.size() ? solid_of[i] : kNoSolid;
   }
 
-  // The index of the face that contains the point p of the patch; the lowest index if p lies on several
+  // The index of the face that contains the point p of the given patch; the lowest index if p lies on several
   // faces.
   std::int32_t FaceAt(PatchId patch, const Vec3& p) const;
 

@@ -1,7 +1,7 @@
 // solver/scene/scene_assembler.h
 //
-// What all readers of scene files do with the faces that they read: faces are checked and repaired, turned
-// and repeated as the options ask, and made into patches.
+// The common last step of all scene readers: checks and repairs the faces that were read, reverses or
+// duplicates them if the options say so, and makes patches from them.
 
 #pragma once
 
@@ -16,11 +16,12 @@
 
 namespace penumbra {
 
-// The largest absolute value of a coordinate [m]: products of three coordinates and their squares stay
-// finite.
+// The largest permitted absolute value of a coordinate [m], so that products of three coordinates, and the
+// squares of such products, stay finite.
 inline constexpr double kLargestCoordinate = 1e36;
 
-// How often something happened, and where first.
+// Counts how often an event occurred, such as the repair of a face, and stores the line of the first
+// occurrence.
 struct Tally {
   int count = 0, first_line = 0;
 
@@ -29,36 +30,39 @@ struct Tally {
   }
 };
 
-// "1 face", "2 faces".
+// The number with the noun in singular or plural: "1 face", "2 faces".
 std::string Plural(int count, std::string_view noun, std::string_view one = "", std::string_view many = "s");
 
 class SceneAssembler {
  public:
-  // All three must outlive the assembler. `file` is the name in messages.
+  // All arguments must outlive the assembler. `file` is the name of the file in messages.
   SceneAssembler(std::string_view file, const SceneOptions& options, Scene& scene)
       : file_(file), options_(options), scene_(scene) {}
 
-  // The limits of all corners of faces that will be added [m]. Throws InputError if they are so close to one
-  // another that areas cannot be computed: within 1e-36 m.
+  // Checks the bounding box of all faces that will be added; `low` and `high` are its corners [m]. Throws
+  // InputError if all sides of the box are shorter than 1e-36 m, so that areas cannot be computed.
   void CheckSize(const Vec3& low, const Vec3& high) const;
 
-  // The rounding of the differences of two vertices of faces that will be added [m]. The default is 0.
+  // Sets the largest rounding error of the difference of two vertices of a face [m], for faces that will be
+  // added. Unless SetRounding() is called, differences of vertices count as free of rounding errors.
   void SetRounding(double rounding) { rounding_ = rounding; }
 
-  // Appends the face to scene.faces. Repeated vertices are removed; a face without area keeps its place but
-  // loses its vertices. `line` is where the face stands in the file; 0 if the file has no lines. Throws
-  // InputError if the face crosses itself or is far from planar, and, with SceneOptions::strict, if it needs
-  // a repair. The caller enters the face in Object::faces.
+  // Appends the face to scene.faces. Repeated vertices of the face are removed; a face without area keeps its
+  // index but loses its vertices. `line` is the line of the face in the file; 0 if the file has no lines.
+  // Throws InputError if the face crosses itself or is far from planar. If SceneOptions::strict is set, also
+  // throws InputError if the face needs a repair. The caller must add the face to Object::faces.
   void Add(Face face, int line);
 
-  // Ends the scene after the last face: turns and repeats faces (SceneOptions::flip and two_sided), appends
-  // the warnings about repairs, changes the materials, sets scene.coordinate_step, builds the patches.
+  // Completes the scene after the last face. Finish() reverses the faces (SceneOptions::flip), adds backs
+  // (SceneOptions::two_sided), appends warnings about repairs, and changes the materials
+  // (SceneOptions::change_materials). Finally, Finish() sets scene.coordinate_step and builds the patches.
   void Finish(const Vec3& coordinate_step);
 
-  // Appends a warning, "FILE:LINE: warning: COUNT WHAT OUTCOME"; none if the tally is zero.
+  // Appends a warning of the form "FILE:LINE: warning: COUNT WHAT OUTCOME"; appends nothing if the count is
+  // zero.
   void Warn(const Tally& tally, std::string_view what, std::string_view outcome);
 
-  // Throws InputError if SceneOptions::strict is set.
+  // Throws InputError with the message `message` if SceneOptions::strict is set.
   void Refuse(int line, std::string_view message) const;
 
  private:
@@ -71,10 +75,12 @@ class SceneAssembler {
   std::string file_;
   const SceneOptions& options_;
   Scene& scene_;
-  std::vector<int> lines_;  // of the faces that were added
+  std::vector<int> lines_;  // line in the file of each face that was added
   double rounding_ = 0;     // FaceTolerances::rounding
   Tally repeated_, flat_, uneven_;
-  double largest_off_plane_ = 0, largest_off_share_ = 0;  // of uneven faces [m]; of their diameters
+  // The largest deviation of uneven faces from their planes [m], and the same as a fraction of the face's
+  // diameter.
+  double largest_off_plane_ = 0, largest_off_share_ = 0;
 };
 
 }  // namespace penumbra

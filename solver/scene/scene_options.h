@@ -15,24 +15,27 @@ struct Material;
 
 // Options for reading a scene file.
 struct SceneOptions {
-  bool emission_is_radiance = false;  // Ke is radiance [W/(m^2 sr)], not emittance: multiply by pi
-  bool two_sided = false;  // repeat every face, reversed, after the last: face n + i is the back of face i
-  std::optional<double> max_reflectance =
-      std::nullopt;  // in [0, 1): larger reflectances are clamped instead of refused
-  // Faces that are off their plane by up to this part of their diameter are cut into triangles; those that
-  // are farther off are refused. Nothing stands for kCutTolerance.
+  bool emission_is_radiance = false;  // if true, Ke is radiance [W/(m^2 sr)]; times pi, it is emittance
+  bool two_sided = false;             // if true, a reversed face n + i is added for each of the n faces i
+  // The upper limit of reflectances, in [0, 1), to which larger reflectances are clamped. If max_reflectance
+  // is not set, reflectances outside [0, 1) are an error.
+  std::optional<double> max_reflectance = std::nullopt;
+  // A face that is not planar is cut into triangles if (distance of a vertex from the face's plane) /
+  // (diameter of the face) is at most max_off_plane; otherwise the face is an error. If max_off_plane is not
+  // set, kCutTolerance is used.
   std::optional<double> max_off_plane = std::nullopt;
-  // A function that may change the materials that were read. The reader calls the function before patches are
-  // built, because emittance decides which of two overlapping faces is visible.
+  // A function that may change the materials of the scene that was read. The scene reader calls
+  // change_materials before patches are built, because emittance decides which of two overlapping faces is
+  // visible.
   std::function<void(std::vector<Material>&)> change_materials = nullptr;
-  bool strict = false;  // refuse what is otherwise repaired with a warning
-  bool flip = false;    // reverse the vertices of every face
-  // The unit in which the file gives lengths, and the file's axis that points up. A member that is not set
-  // follows the file, or else the file's format; if both say nothing, the unit is the metre and z points up.
+  bool strict = false;  // if true, faces that would be repaired with a warning are errors
+  bool flip = false;    // if true, the order of the vertices of every face is reversed
+  // The unit of length of the file, and the axis of the file that points up. If `unit` or `up` is not set,
+  // the file or else its format defines the value; otherwise the unit is the metre, and z points up.
   std::optional<LengthUnit> unit = std::nullopt;
   std::optional<UpAxis> up = std::nullopt;
-  // A function that is called with the path of every material library before the library is opened; it may
-  // throw.
+  // A function that is called with the path of every material library before the library is opened; the
+  // function may throw an exception.
   std::function<void(const std::string& path)> before_library = nullptr;
 };
 

@@ -14,10 +14,11 @@
 
 namespace penumbra {
 
-// The scene that a user has named, with the data by which a reader decides whether it can read the scene.
+// The scene that a user has named, with the data by which a scene reader decides whether it can read the
+// scene.
 struct SceneSource {
-  std::string name;            // as it was given
-  bool is_file = false;        // it is a file, a pipe or a device, but no folder
+  std::string name;            // the name as the user gave it
+  bool is_file = false;        // true if the name is that of a file, a pipe or a device, but not of a folder
   std::string_view beginning;  // the first kFormatBytes bytes of a regular file, or fewer
 };
 
@@ -28,20 +29,21 @@ class SceneReader {
   // The endings of the names of the files that this reader reads, without the dot.
   virtual std::vector<std::string> Endings() const { return {}; }
 
-  // Whether the first bytes of the source show that it is of a format of this reader. Asked first, of all
-  // readers: a file is what it contains, whatever its name.
+  // True if the first bytes of the source show a file format that the reader reads. All readers are asked by
+  // RecognisesContent() before Recognises(), because the content of a file determines its format, not its
+  // name.
   virtual bool RecognisesContent(const SceneSource& source) const;
 
-  // Whether this reader can read the source. By default, true if the source is a file whose name has one of
-  // Endings().
+  // True if the reader can read the source `source`. By default, a reader recognises files whose name has one
+  // of the endings Endings().
   virtual bool Recognises(const SceneSource& source) const;
 
-  // The scene, including its patches. Throws InputError with the message "NAME:LINE: error: what is wrong and
-  // how to mend it".
+  // Reads the scene called `name`, and builds its patches. Throws InputError with the message "NAME:LINE:
+  // error: what is wrong and how to mend it".
   virtual Scene Read(const std::string& name, const SceneOptions& options) const = 0;
 };
 
-// SceneReaders() holds all readers.
+// The registry of scene readers; SceneReaders() holds all readers.
 using SceneReaderRegistry = Registry<const SceneReader>;
 
 }  // namespace penumbra

@@ -6,10 +6,11 @@
 
 namespace penumbra {
 
-// The registry of all scene readers. The first reader reads the files that no reader recognises.
+// The registry of all scene readers. The first reader of the registry reads the files that no reader
+// recognises.
 SceneReaderRegistry& SceneReaders();
 
-// True if one of the readers reads files with the ending of this path.
+// True if some scene reader reads files whose names end like `path`.
 bool HasSceneEnding(const std::string& path);
 
 }  // namespace penumbra

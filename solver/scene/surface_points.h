@@ -1,6 +1,6 @@
 // solver/scene/surface_points.h
 //
-// Evenly distributed points on surfaces.
+// Computes evenly distributed points on the surfaces of a scene.
 
 #pragma once
 
@@ -12,9 +12,9 @@
 
 namespace penumbra {
 
-// Maps (s, t) in the unit square to a point of a convex triangle or quadrilateral. Uniformly distributed (s,
-// t) give points that are uniformly distributed over the area. A triangle may have four vertices, the last
-// one repeated.
+// Maps (s, t) in the unit square to a point of a convex triangle or quadrilateral. If (s, t) is uniformly
+// distributed, the points are uniformly distributed over the area of the polygon. A triangle may be given
+// with four vertices, the last vertex repeated.
 Vec3 PointOn(std::span<const Vec3> polygon, double s, double t);
 
 struct SurfacePoint {
@@ -23,16 +23,16 @@ struct SurfacePoint {
 };
 
 // Stratified random points: divides the fronts of all patches into `count` parts of equal area, one patch
-// after the other, and chooses one random point in each part. The same seed gives the same points. REQUIRES:
-// the scene has patches.
+// after the other, and chooses one random point in each part. Equal seeds give equal points. REQUIRES: the
+// scene has patches.
 std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::size_t count, std::uint64_t seed);
-// Chooses points with a density in proportion to weight / area of the patch, instead of a constant density;
-// `weights` has one entry per patch. REQUIRES: at least one weight is not 0.
+// Chooses stratified random points whose density on a patch is proportional to (weight of the patch) / (area
+// of the patch). `weights` has one entry for each patch. REQUIRES: at least one weight is not 0.
 std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::span<const double> weights, std::size_t count,
                                        std::uint64_t seed);
 
-// Like the function above, but chooses points on the listed patches only. weights[i] is the weight of
-// patches[i]. REQUIRES: at least one weight is not 0.
+// Like SpreadPoints() with weights for all patches, but chooses points only on the patches listed in
+// `patches`. The weight of patches[i] is weights[i]. REQUIRES: at least one weight is not 0.
 std::vector<SurfacePoint> SpreadPoints(const Scene& scene, std::span<const PatchId> patches,
                                        std::span<const double> weights, std::size_t count,
                                        std::uint64_t seed);

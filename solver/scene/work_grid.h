@@ -1,7 +1,7 @@
 // solver/scene/work_grid.h
 //
 // Regular grids of points at which the light on a horizontal plane is measured, such as the working plane of
-// a room. z is up.
+// a room. The z axis points up.
 
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace penumbra {
 
-// A point of a grid, in the column and the row of its position; row 0 has the smallest y.
+// A point of a grid, with its column and its row; column 0 has the smallest x, row 0 the smallest y.
 struct GridPoint {
   int column = 0, row = 0;
   Vec3 position = Vec3::Zero();  // [m]
@@ -21,22 +21,24 @@ struct GridPoint {
 
 struct WorkGrid {
   int columns = 0, rows = 0;
-  double spacing = 0;             // between neighbouring columns, and rows [m]
+  double spacing = 0;             // distance of neighbouring columns, and of neighbouring rows [m]
   Vec2 first = Vec2::Zero();      // x and y of column 0 and row 0 [m]
-  std::vector<GridPoint> points;  // row by row; a column may lack points in some rows
+  std::vector<GridPoint> points;  // sorted by row, then by column; some rows and columns may lack points
 };
 
-// The most points of a grid.
+// The largest permitted number of points of a grid.
 inline constexpr double kMostGridPoints = 1e7;
 
-// The grid over the horizontal extent of the faces: as many points as fit at this spacing along x and y, the
-// whole centred, each `height` above the highest of the faces that look up there [m]. Where no face looks up,
-// there is no point. Throws InputError, without a file name, if no face looks up or the points are too many.
+// Makes a grid over the horizontal extent of the given faces. The grid is centred, and has as many points as
+// fit along x and y at the distance `spacing` [m]. Each point lies at the height `height` [m] above the
+// highest of the given faces that look upwards at its x and y. Positions where no given face looks upwards
+// have no point. Throws InputError, without a file name, if no face looks upwards or if the grid would have
+// too many points.
 WorkGrid GridOverFaces(const Scene& scene, std::span<const std::int32_t> faces, double height,
                        double spacing);
 
-// The grid over the horizontal extent of the scene, all points at the height z [m]. Throws InputError,
-// without a file name, if the scene is empty or the points are too many.
+// Makes a grid over the horizontal extent of the scene, with all points at the height z [m]. Throws
+// InputError, without a file name, if the scene is empty or if the grid would have too many points.
 WorkGrid GridAtHeight(const Scene& scene, double z, double spacing);
 
 }  // namespace penumbra

@@ -1,7 +1,8 @@
 // tests/display/brute_force.h
 //
-// What a pixel shows, found by meeting its ray with every triangle in binary64. Slow; the reference of the
-// rasteriser's tests.
+// Finds the triangle that each pixel of a picture shows, by intersecting the pixel's ray with every triangle
+// in binary64. Intersection with every triangle is slow, and serves as the reference for the tests of the
+// rasteriser.
 
 #pragma once
 
@@ -32,12 +33,14 @@ struct Triangles {
   }
 };
 
-// Where the ray of a picture's point meets the plane of a triangle.
+// The intersection of the viewing ray through a point of the picture with the plane of a triangle.
 struct Meeting {
-  bool front = false;        // whether the triangle turns its front to the eye
-  double depth = 0;          // [m], of the plane at this point
-  double pixels_inside = 0;  // distance to the nearest edge's line [pixels], negative outside
-  double s = 0, t = 0;       // barycentric coordinates of vertices 1 and 2
+  bool front = false;  // true if the triangle's front faces the eye
+  double depth = 0;    // depth of the intersection [m]
+  // The distance of the picture's point to the line of the nearest edge [pixels], negative outside the
+  // triangle.
+  double pixels_inside = 0;
+  double s = 0, t = 0;  // barycentric coordinates of the intersection, for vertices 1 and 2
 };
 
 inline Meeting Meet(const PixelRays& rays, double x, double y, const Triangles& mesh, std::size_t id) {
@@ -63,16 +66,21 @@ inline Meeting Meet(const PixelRays& rays, double x, double y, const Triangles& 
   return meeting;
 }
 
-// How a drawn picture agrees with the reference.
+// Counts of pixels where a drawn picture agrees with the reference or not.
 struct Agreement {
   int pixels = 0;
-  int wrong = 0;  // a triangle that is not there, or one that another hides; or none where one must be
-  int loose = 0;  // right, yet at an edge, where more than one answer is
+  // The number of wrong pixels: they show a triangle that the ray misses or that another triangle hides, or
+  // no triangle where there is one.
+  int wrong = 0;
+  // The number of pixels that differ from the reference but are acceptable, because several triangles meet in
+  // the pixel.
+  int loose = 0;
   std::size_t first_wrong = 0;
 };
 
-// Compares ids with the nearest triangle of each pixel's ray. Within two fringes of an edge, and at depths
-// that differ by less than 1e-5, either side is right.
+// Compares the triangle drawn in each pixel with the nearest triangle on the pixel's ray. Within a distance
+// of 2 * kFringe pixels from an edge, the triangle on either side of the edge is accepted. CompareIds()
+// accepts either of two triangles whose depths differ by a factor of less than 1 + 1e-5.
 inline Agreement CompareIds(const PixelRays& rays, int width, int height, const Triangles& mesh,
                             const std::vector<std::uint32_t>& ids) {
   constexpr double kNear = 2 * static_cast<double>(kFringe);
@@ -97,7 +105,8 @@ inline Agreement CompareIds(const PixelRays& rays, int width, int height, const 
         right = nearest_id == kNoTriangle;
       } else {
         const Meeting m = Meet(rays, x + 0.5, y + 0.5, mesh, ids[at]);
-        // At the fringe the plane's depth means little: it may rise without bound.
+        // Near the edges of a triangle, the depth of its plane is not compared, because it may rise without
+        // bound.
         const bool inner = m.pixels_inside > kNear;
         right = m.front && m.pixels_inside > -kNear && (!inner || m.depth <= nearest * kDepth);
       }

@@ -1,8 +1,8 @@
 // tests/display/synthetic_room.h
 //
-// Scenes with a mesh whose every value is known, for the display's tests and benchmarks: an axis-aligned room
-// seen from inside, boxes in it, each side a patch that is cut into cells x cells quadrilaterals with shaken
-// inner vertices.
+// Scenes with a mesh whose every irradiance is known, for tests and benchmarks of the display. The synthetic
+// scene is an axis-aligned room with boxes in it, seen from inside. Each side of the room and of a box is a
+// patch that is cut into cells x cells quadrilaterals, whose inner vertices are moved at random.
 
 #pragma once
 
@@ -23,7 +23,8 @@ struct SyntheticScene {
 
 using IrradianceField = std::function<Rgb(const Vec3& position, const Vec3& normal)>;
 
-// Adds a triangle of patch `patch` whose interpolant takes the field's values at its six samples.
+// Adds a triangle on the patch `patch` whose interpolant has the values of `field` at the triangle's six
+// sample points.
 inline void AddMeshTriangle(const std::array<std::uint32_t, 3>& vertex, PatchId patch,
                             const IrradianceField& field, SyntheticScene* out) {
   IrradianceMesh& mesh = out->mesh;
@@ -36,15 +37,16 @@ inline void AddMeshTriangle(const std::array<std::uint32_t, 3>& vertex, PatchId 
   mesh.irradiance.push_back(QuadraticInterpolant::Quadratic(samples));
 }
 
-// What a surface is made of.
+// The material, mesh and irradiance of a surface.
 struct SyntheticSurface {
   int material = 0;
-  int cells = 1;     // along each side, of two triangles
-  double shake = 0;  // below 1/2: moves inner vertices by that fraction of a cell
+  int cells = 1;     // number of quadrilaterals (of two triangles each) along each side
+  double shake = 0;  // inner vertices move by at most this fraction of a cell, below 1/2
   IrradianceField field;
 };
 
-// Adds the parallelogram with corner p and sides u and v, front along u x v, as a patch of triangles.
+// Adds the parallelogram with corner p and sides u and v as a patch of triangles. The front of the
+// parallelogram faces the direction u x v.
 inline void AddParallelogram(const Vec3& p, const Vec3& u, const Vec3& v, const SyntheticSurface& surface,
                              Random* random, SyntheticScene* out) {
   const int cells = surface.cells;
@@ -76,7 +78,7 @@ inline void AddParallelogram(const Vec3& p, const Vec3& u, const Vec3& v, const 
     }
 }
 
-// Adds the six sides of an axis-aligned box, fronts outward or inward.
+// Adds the six sides of an axis-aligned box, with fronts facing outward or inward.
 inline void AddBox(const Vec3& low, const Vec3& high, bool inward, const SyntheticSurface& surface,
                    Random* random, SyntheticScene* out) {
   const Vec3 size = high - low;
@@ -95,14 +97,15 @@ inline void AddBox(const Vec3& low, const Vec3& high, bool inward, const Synthet
   side(low + x, y, z);
 }
 
-// A smooth field, quadratic in the position on each plane [W/m^2].
+// Returns the irradiance of a smooth field, which is quadratic in the position on each plane [W/m^2].
 inline Rgb QuadraticField(const Vec3& p, const Vec3& normal) {
   const double light = 20 + 4 * p.z() * p.z() + 2 * p.x() * (6 - p.x()) + p.y() * (5 - p.y()) +
                        3 * p.x() * p.y() + 5 * normal.dot(Vec3(0.3, 0.5, 0.8));
   return light * Rgb(1, 0.9, 0.75);
 }
 
-// A room of 6 x 5 x 3 m with five boxes in it and a light below its ceiling; 2 (36 cells^2 + 1) triangles.
+// Makes a room of 6 x 5 x 3 m with five boxes in it and a light below its ceiling. The mesh of the room has 2
+// (36 cells^2 + 1) triangles.
 inline SyntheticScene MakeRoom(int cells, double shake = 0.3, std::uint64_t seed = 1) {
   SyntheticScene room;
   room.scene.materials = {{"wall", Rgb(0.7, 0.7, 0.65), Rgb::Zero()},
@@ -122,7 +125,7 @@ inline SyntheticScene MakeRoom(int cells, double shake = 0.3, std::uint64_t seed
   return room;
 }
 
-// A camera that sees all kinds of things in the room.
+// A camera whose view of the room contains the boxes, the light and the walls.
 inline Camera RoomCamera() { return {"room", {5.6, 0.4, 1.9}, {2, 3.5, 0.8}, Vec3::UnitZ(), 60}; }
 
 }  // namespace penumbra

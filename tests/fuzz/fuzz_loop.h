@@ -1,7 +1,7 @@
 // tests/fuzz/fuzz_loop.h
 //
-// What the fuzzers share: a loop over seeded runs, each of which can be repeated by itself, and changes to
-// texts that were valid.
+// Functions that all fuzzers share: a loop over seeded runs, each of which can be repeated alone, and random
+// changes to valid texts.
 
 #pragma once
 
@@ -15,13 +15,18 @@
 
 namespace penumbra::fuzz {
 
-// Calls `run` with a generator of its own, for PROGRAM [RUNS [SEED [FIRST]]]. Where a run crashes or takes
-// longer than kLongestRun, its number is told: PROGRAM 1 SEED NUMBER repeats it. Returns an exit status.
+// Loop() calls `run` many times, each time with a differently seeded random generator. The command line of a
+// fuzzer is PROGRAM [RUNS [SEED [FIRST]]], with the number of runs, the seed and the number of the first run.
+// If a run of a fuzzer crashes or takes longer than kLongestRun, the program prints the number N of the run.
+// The command PROGRAM 1 SEED N repeats the run with the number N. Loop() returns the exit status of the
+// program.
 int Loop(int argc, char** argv, std::uint64_t runs, const std::function<void(Random&)>& run);
 
-inline constexpr unsigned kLongestRun = 60;  // [s], of a few milliseconds' work under sanitizers
+// The longest allowed time of one run of a fuzzer [s]. Even with sanitizers, a run of a fuzzer normally takes
+// a few milliseconds.
+inline constexpr unsigned kLongestRun = 60;
 
-// Ends the program, with what is wrong.
+// Prints the text `what`, which says what is wrong, and ends the program.
 [[noreturn]] void Fail(const std::string& what);
 
 template <class Choices>
@@ -29,14 +34,15 @@ const auto& Pick(const Choices& choices, Random& random) {
   return choices[random.Index(static_cast<std::uint32_t>(std::size(choices)))];
 }
 
-// A number as somebody writes it, or tries to.
+// Returns a random number as a text, in a valid or a malformed notation.
 std::string NumberText(Random& random);
 
-// The text after some changes: bytes, words of the dictionary, numbers, lines; cut off, repeated, exchanged.
+// Returns the text after random changes of bytes, words, numbers and lines. The changes by Mutated() insert,
+// replace, delete, repeat or move parts of the text, take words from `dictionary`, or cut the text off.
 std::string Mutated(std::string text, std::span<const std::string_view> dictionary, Random& random);
 
-// Ends the program unless the message is one line that names the file, without control characters, and of a
-// length that can be read.
+// Ends the program unless the error message is a single line of moderate length that names the file and
+// contains no control characters.
 void CheckMessage(std::string_view message, std::string_view file);
 
 }  // namespace penumbra::fuzz

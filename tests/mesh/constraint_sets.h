@@ -1,7 +1,7 @@
 // tests/mesh/constraint_sets.h
 //
-// Sets of discontinuities made from bytes, nasty on purpose, and what must hold of the mesh that they give.
-// For the corpus of tests and for fuzzing.
+// Makes difficult sets of discontinuities from bytes, and checks the mesh that results from a set. The sets
+// of discontinuities are used in tests with stored inputs and in fuzzing.
 
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace penumbra::mesh_test {
 
-// Reads bytes, then zeros.
+// Reads the given bytes one by one, and then an endless sequence of zeros.
 class Bytes {
  public:
   explicit Bytes(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -28,7 +28,7 @@ class Bytes {
   std::size_t at_ = 0;
 };
 
-// A patch, its quadtree and discontinuities on it.
+// A scene with one patch, the patch's quadtree, and discontinuities on the patch.
 struct ConstraintSet {
   Scene scene = EmptyScene();
   ElementForest forest;
@@ -52,7 +52,8 @@ struct ConstraintSet {
     forest = ElementForest(scene);
   }
 
-  // From fractions in [0, 1] of the patch's lattice.
+  // Returns the point of the patch whose lattice coordinates are the fractions s and t, in [0, 1], of the
+  // lattice's size.
   Vec2 At(double s, double t) const {
     const Patch& patch = scene.patches[0];
     const auto at = [](double x) { return static_cast<std::int32_t>(x * kLatticeSize); };
@@ -70,8 +71,9 @@ struct ConstraintSet {
   }
 };
 
-// Two bytes of header, then seven a segment: the ends on a lattice of sixteenths, each moved by nothing or by
-// 1e-14 to 1e-7; or tied to the segment before: collinear, parallel, ending on it.
+// Makes a constraint set from two bytes of header and seven bytes for each segment. The end points of a
+// segment lie on a lattice of sixteenths of the patch, and may be moved by 1e-14 to 1e-7. A segment may also
+// be collinear with the preceding segment, parallel to the preceding segment, or end on it.
 inline ConstraintSet SetFromBytes(std::span<const std::uint8_t> input) {
   Bytes bytes(input);
   ConstraintSet set;
@@ -98,15 +100,15 @@ inline ConstraintSet SetFromBytes(std::span<const std::uint8_t> input) {
     if (!set.found.empty() && (kind & 3) != 0) {
       const auto& [c, d] = set.found.back().end;
       const double fraction = more / 128.0 - 0.5;
-      if ((kind & 3) == 1) {  // collinear
+      if ((kind & 3) == 1) {  // collinear with the preceding segment
         b = c + (0.5 + fraction) * (d - c);
         a = c + fraction * (d - c);
-      } else if ((kind & 3) == 2) {  // parallel, near
+      } else if ((kind & 3) == 2) {  // parallel and near to the preceding segment
         const Vec2 side(-(d - c).y(), (d - c).x());
         const Vec2 offset = std::pow(10.0, -14 + static_cast<double>(more & 7)) * side.normalized();
         a = c + offset;
         b = d + offset;
-      } else {  // ends on it
+      } else {  // end on the preceding segment
         b = c + fraction * (d - c);
       }
     }
@@ -115,9 +117,9 @@ inline ConstraintSet SetFromBytes(std::span<const std::uint8_t> input) {
   return set;
 }
 
-// Stops the program unless the mesh of the set is whole: areas add up, all triangles run counter-clockwise,
-// it conforms (Validate), and every active line is covered by edges that lie on discontinuities, except where
-// segments had to be dropped.
+// Stops the program unless the mesh of the constraint set is valid: triangles are counter-clockwise, their
+// areas add up to the patch's area, and the mesh conforms (Validate). CheckSet() also requires that edges on
+// discontinuities cover every active line, unless segments had to be dropped.
 inline PatchTriangulation CheckSet(const ConstraintSet& set) {
   DiscontinuityOptions options;
   options.max_leaf_dsets = set.max_leaf_dsets;
@@ -126,7 +128,8 @@ inline PatchTriangulation CheckSet(const ConstraintSet& set) {
   mesh.Validate(set.scene.patches[0]);
   if (mesh.dropped_segments > 0) return mesh;
   const Frame frame = PolygonFrame(set.scene.patches[0].Vertices());
-  // Segments end this far from a border, or bend to it: kLeafReach along, and some snaps across.
+  // Near the border of a leaf, a segment may end up to kLeafReach too early, and may be bent sideways by a
+  // few snap distances.
   const double reach = 70 * SnapDistance(set.scene.patches[0]);
   for (std::size_t leaf = 0; leaf < dsets.leaves.size(); ++leaf) {
     const Polygon2 outline = LeafOutline(set.forest[dsets.leaves[leaf]], frame);

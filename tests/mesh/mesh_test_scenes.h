@@ -18,7 +18,7 @@
 
 namespace penumbra::mesh_test {
 
-// A point as a key: zeros have one sign.
+// A point as a key for sorted containers, in which 0 and -0 are equal.
 using Place = std::tuple<double, double, double>;
 inline Place PlaceOf(const Vec3& p) { return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0}; }
 
@@ -36,7 +36,7 @@ inline Scene EmptyScene() {
   return scene;
 }
 
-// A horizontal square; up tells where its front looks.
+// Adds a horizontal square; its front faces upwards if `up` is true, and downwards otherwise.
 inline PatchId AddSquare(Scene& scene, const Vec3& centre, double half, bool up, std::int32_t material = 0) {
   const double x = centre.x(), y = centre.y(), z = centre.z();
   const Vec3 a(x - half, y - half, z), b(x + half, y - half, z), c(x + half, y + half, z),
@@ -44,7 +44,8 @@ inline PatchId AddSquare(Scene& scene, const Vec3& centre, double half, bool up,
   return up ? AddPatch(scene, {a, b, c, d}, material) : AddPatch(scene, {a, d, c, b}, material);
 }
 
-// The six (or, without a bottom, five) faces of a box, fronts outward; returns the first.
+// Adds the six faces of a box, or five without the bottom, with fronts facing outward. Returns the first
+// patch of the box.
 inline PatchId AddBox(Scene& scene, const Vec3& low, const Vec3& high, bool bottom) {
   const auto at = [&](int i, int j, int k) {
     return Vec3(i ? high.x() : low.x(), j ? high.y() : low.y(), k ? high.z() : low.z());
@@ -58,8 +59,9 @@ inline PatchId AddBox(Scene& scene, const Vec3& low, const Vec3& high, bool bott
   return first;
 }
 
-// A square light over a floor, turned and `aside` metres off the middle, and between them three boards at
-// three heights, of whose inner edges no two lie in one plane: they leave a triangular hole about the middle.
+// Makes a scene with a rotated square light above a floor, `aside` metres off the middle, and three boards
+// between light and floor. The three boards lie at three heights, and no two of their inner edges lie in one
+// plane. The inner edges of the three boards enclose a triangular hole in the middle.
 inline Scene ThreeBoards(double half, double aside = 0) {
   Scene scene = EmptyScene();
   AddSquare(scene, {0, 0, 0}, 4, true);
@@ -80,7 +82,8 @@ inline Scene ThreeBoards(double half, double aside = 0) {
   return scene;
 }
 
-// Turns all patches by `degrees` about the x axis, then about z, so that nothing is axis-aligned any more.
+// Rotates all patches by `degrees` about the x axis and then about the z axis, so that no edge is
+// axis-aligned any more.
 inline void Tilt(Scene& scene, double degrees) {
   const double angle = degrees * M_PI / 180;
   const Eigen::Matrix3d turn =
@@ -93,7 +96,7 @@ inline void Tilt(Scene& scene, double degrees) {
   FindConvexSolids(scene);
 }
 
-// Rounds all coordinates to so many decimals, as a text file does.
+// Rounds all coordinates to `decimals` decimals, as a text file does.
 inline void RoundCoordinates(Scene& scene, int decimals) {
   const double unit = std::pow(10.0, -decimals);
   for (Patch& patch : scene.patches) {
@@ -104,7 +107,7 @@ inline void RoundCoordinates(Scene& scene, int decimals) {
   FindConvexSolids(scene);
 }
 
-// Splits about `splits` random leaves of the patch, and balances.
+// Splits random leaves of the patch's quadtree, `splits` times at most, and then balances the quadtree.
 inline void RefineAtRandom(ElementForest& forest, PatchId patch, Random& random, int splits, int max_level) {
   for (int i = 0; i < splits; ++i) {
     ElementId id = ElementForest::Root(patch);
@@ -114,7 +117,7 @@ inline void RefineAtRandom(ElementForest& forest, PatchId patch, Random& random,
   forest.Balance(patch);
 }
 
-// A made-up discontinuity on the patch between two points of its plane.
+// Makes an artificial discontinuity on the patch, between two points of the patch's plane.
 inline Discontinuity Segment(const Vec2& a, const Vec2& b, double weight,
                              DiscontinuityDegree degree = DiscontinuityDegree::kD2) {
   Discontinuity d;

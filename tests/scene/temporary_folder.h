@@ -11,7 +11,7 @@
 
 namespace penumbra::scene_test {
 
-// A test with a folder of its own, named after the test: other tests run at the same time.
+// A test that has its own temporary folder, named after the test, because other tests run at the same time.
 class TestWithFolder : public testing::Test {
  protected:
   TestWithFolder() {
@@ -22,7 +22,7 @@ class TestWithFolder : public testing::Test {
   }
   ~TestWithFolder() override { std::filesystem::remove_all(folder_); }
 
-  // Writes a file and returns its path.
+  // Writes a file in the temporary folder and returns the file's path.
   std::string Write(const std::string& name, std::string_view text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return (folder_ / name).string();

@@ -1,8 +1,9 @@
 // tests/transport/ashdown_room.h
 //
-// ROOM.WLD of Ashdown, Radiosity: A Programmer's Perspective (1994): a closed room with two lights and a
-// bench, rebuilt from the numbers there. LIGHT.ENT, as printed, lacks three vertices; here they are where its
-// faces need them.
+// The scene ROOM.WLD from Ashdown, Radiosity: A Programmer's Perspective (1994), rebuilt from the numbers in
+// the book. Ashdown's room is a closed room with two lights and a bench. The printed file LIGHT.ENT lacks
+// three vertices. The vertices that are missing in LIGHT.ENT are placed where the faces of the light need
+// them.
 
 #pragma once
 
@@ -13,10 +14,11 @@
 
 namespace penumbra::scene_test {
 
-// Turns about x, then about y, by multiples of 90 degrees, scales first and moves last.
+// A transformation that scales, then rotates about the x axis and then about the y axis by multiples of 90
+// degrees, and finally moves.
 struct Placing {
   Vec3 scale = Vec3::Ones();
-  int quarter_x = 0, quarter_y = 0;  // turns by 90 degrees, counter-clockwise towards the origin
+  int quarter_x = 0, quarter_y = 0;  // numbers of 90-degree turns, counter-clockwise seen from the axis's tip
   Vec3 move = Vec3::Zero();
 
   Vec3 operator()(const Vec3& v) const {
@@ -40,8 +42,8 @@ inline void AddPlaced(Scene& scene, const std::vector<Vec3>& vertices, const std
   Add(scene, polygon, material);
 }
 
-// A slab of 1 x 1 x 0.02: five strips that emit 1 on one side, five that emit 0.5 on the other, four blue
-// sides.
+// Adds a light: a slab of 1 x 1 x 0.02 with four blue sides. Five strips on one face of the light have
+// emittance 1, and five strips on the other face have emittance 0.5.
 inline void AddAshdownLight(Scene& scene, const Placing& placing) {
   const std::int32_t bright = AddColour(scene, Rgb::Zero(), 1), dim = AddColour(scene, Rgb::Zero(), 0.5),
                      blue = AddColour(scene, {0, 0, 0.5});
@@ -95,10 +97,10 @@ inline Scene AshdownRoom() {
   const Rgb white = Rgb::Constant(0.8);
   wall({0.2, 0.3, 0.3}, {{1, 1.6, 1}, 0, 0, {0, 0, 0}});        // floor
   wall(Rgb::Constant(0.95), {{1, 1.6, 1}, 2, 0, {0, 1.6, 1}});  // ceiling
-  wall({0.95, 0, 0}, {{1, 1, 1}, 3, 0, {0, 0, 1}});             // y = 0
-  wall(white, {{1, 1.6, 1}, 0, 1, {0, 0, 1}});                  // x = 0
-  wall(white, {{1, 1, 1}, 1, 0, {0, 1.6, 0}});                  // y = 1.6
-  wall(white, {{1, 1.6, 1}, 0, 3, {1, 0, 0}});                  // x = 1
+  wall({0.95, 0, 0}, {{1, 1, 1}, 3, 0, {0, 0, 1}});             // wall at y = 0
+  wall(white, {{1, 1.6, 1}, 0, 1, {0, 0, 1}});                  // wall at x = 0
+  wall(white, {{1, 1, 1}, 1, 0, {0, 1.6, 0}});                  // wall at y = 1.6
+  wall(white, {{1, 1.6, 1}, 0, 3, {1, 0, 0}});                  // wall at x = 1
   AddAshdownLight(scene, {{0.8, 0.05, 1}, 2, 0, {0.1, 0.2, 0.8}});
   AddAshdownLight(scene, {{0.8, 0.05, 1}, 2, 0, {0.1, 1.4, 0.8}});
   AddAshdownBench(scene, {{0.16, 0.16, 0.08}, 0, 0, {0.1, 0.2, 0}});

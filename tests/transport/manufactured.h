@@ -13,23 +13,27 @@
 
 namespace penumbra {
 
-// A chosen radiosity, smooth over each patch [W/m^2]. Called from several threads.
+// A chosen radiosity as a function of position, smooth over each patch [W/m^2]. A RadiosityField is called
+// from several threads at once.
 using RadiosityField = std::function<Rgb(PatchId patch, const Vec3& position)>;
 
-// The irradiance from the field at a point on the front of a patch [W/m^2]. For fields that are smooth on the
-// scale of a patch, exact with any blockers, except for kSourceQuadratureError.
+// Returns the irradiance that the chosen radiosity causes at a point on the front of a patch [W/m^2]. If the
+// chosen radiosity is smooth on the scale of a patch, the irradiance is exact with any blockers, except for
+// the error kSourceQuadratureError.
 Rgb FieldIrradiance(const Scene& scene, const PatchVisibility& visibility, const RadiosityField& field,
                     PatchId patch, const ReceiverPoint& at);
 
-// E = B - rho H at a point of a patch [W/m^2]: with this emittance everywhere, the field is the solution. May
-// be negative, which is valid in an equation but not for a light.
+// Returns the emittance E = B - rho H at a point of a patch [W/m^2], where B is the chosen radiosity, rho the
+// reflectance and H the irradiance. With the emittance B - rho H everywhere, B is the solution of the
+// radiosity equation. The manufactured emittance may be negative, which is valid in the radiosity equation
+// but not for a real light.
 Rgb ManufacturedEmittance(const Scene& scene, const PatchVisibility& visibility, const RadiosityField& field,
                           PatchId patch, const Vec3& position);
 
-// The scene with each patch cut into divisions x divisions tiles. Each tile is a patch and emits the mean of
-// the manufactured emittance over the tile; tiles are in the order of their patches. As the tiles shrink, the
-// radiosity of this scene converges to the field. REQUIRES: `divisions` is a power of two; the means are not
-// negative.
+// Returns the scene with each patch cut into divisions x divisions tiles. Each tile is a patch and emits the
+// mean of the manufactured emittance over the tile. Tiles are in the order of the patches that contain them.
+// As the tiles shrink, the radiosity of the tiled scene converges to the chosen radiosity. REQUIRES:
+// `divisions` is a power of two, and the mean emittances of tiles are not negative.
 Scene ManufacturedScene(const Scene& scene, const PatchVisibility& visibility, const RadiosityField& field,
                         int divisions);
 

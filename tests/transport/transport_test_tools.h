@@ -1,6 +1,6 @@
 // tests/transport/transport_test_tools.h
 //
-// One-line ways to irradiance for the tests of transport.
+// Functions by which tests of light transport compute irradiance in one line.
 
 #pragma once
 
@@ -26,7 +26,7 @@ inline ReceiverPoint Receiver(const Vec3& position, const Vec3& normal, const Ve
   return at;
 }
 
-// What the emitters send to a point, seen with all patches as candidates.
+// Returns the direct irradiance from all emitters at a point, where every patch may block light.
 inline PointIrradianceResult Direct(const Scene& scene, const ReceiverPoint& at,
                                     const OcclusionMethod* method = nullptr) {
   const PatchVisibility unused;
@@ -35,10 +35,12 @@ inline PointIrradianceResult Direct(const Scene& scene, const ReceiverPoint& at,
   return PointIrradiance(scene, unused, SourceSet::Emitters(scene), options).Anywhere(at);
 }
 
-// The oracles of the library; tests may add others to the registry.
+// The names of the library's refinement oracles, which decide whether links between elements are accurate
+// enough. Tests may add other refinement oracles to the registry.
 inline const std::vector<std::string> kOracles = {"transport", "visibility", "gradient", "thesis"};
 
-// All exact ways to a visible form factor by name, and null: the default.
+// Returns all exact methods for the form factor of the visible part of a source, with their names. The method
+// named "auto" is null, which stands for the default method.
 struct NamedMethod {
   std::string name;
   std::unique_ptr<const OcclusionMethod> method;

@@ -1,6 +1,7 @@
 // tests/transport/truth_files.h
 //
-// Reference values with 12 to 30 digits: those of tests/truth, or of the folder that PENUMBRA_TRUTH names.
+// Reads reference values with 12 to 30 digits from tests/truth, or from the folder that the environment
+// variable PENUMBRA_TRUTH names.
 
 #pragma once
 
@@ -21,8 +22,8 @@ namespace penumbra::truth {
 
 using nlohmann::json;
 
-// The reference values of that file. Throws std::runtime_error, so that the test fails, if the file is
-// missing or holds no case.
+// Returns the reference values in the file `name`. Throws std::runtime_error, so that the test fails, if the
+// file of reference values is missing or contains no case.
 inline json Load(const std::string& name) {
   const char* given = std::getenv("PENUMBRA_TRUTH");
   const std::filesystem::path path =
@@ -46,7 +47,7 @@ inline Polygon3 ToPolygon(const json& j) {
 
 inline double ToDouble(const json& j) { return std::stod(j.get<std::string>()); }
 
-// The scene of a case with `faces` that have a reflectance and an emittance.
+// Returns the scene of a test case that lists `faces` with a reflectance and an emittance each.
 inline Scene FacesOf(const json& c) {
   Scene scene;
   scene.objects.resize(1);
@@ -58,8 +59,8 @@ inline Scene FacesOf(const json& c) {
   return scene;
 }
 
-// The unit cube of a case of radiosity_constant_basis.json or radiosity_continuous.json, or its pair of unit
-// squares.
+// Returns the scene of a test case of radiosity_constant_basis.json or radiosity_continuous.json: a unit cube
+// or a pair of unit squares.
 inline Scene UnitScene(const json& c) {
   Scene scene;
   const json& rho = c["rho"];
@@ -79,7 +80,8 @@ inline Scene UnitScene(const json& c) {
   return scene;
 }
 
-// A point of such a scene by the coordinates of radiosity_continuous.json: on which patch, and where.
+// Returns a point of a UnitScene(), given by the coordinates in radiosity_continuous.json: the patch on which
+// the point lies, and its position.
 inline std::pair<PatchId, Vec3> UnitPoint(const json& c, const std::string& surface, double a, double b) {
   if (surface == "floor") return {0, {a, b, 0}};
   if (surface == "ceiling") return {1, {a, b, 1}};

@@ -12,13 +12,14 @@
 
 namespace penumbra::viewer_test {
 
-// A floor under a lamp, and a smaller square between that throws a shadow. Nothing reflects but the floor.
+// Makes a scene with a floor under a lamp, and a smaller square between them that throws a shadow on the
+// floor. Only the fronts of the floor and of the square reflect light.
 inline std::shared_ptr<const Scene> ShadowScene() {
   Scene scene = mesh_test::EmptyScene();
   scene.name = "shadow";
-  mesh_test::AddSquare(scene, {0, 0, 0}, 1, true);             // 0: floor
-  mesh_test::AddSquare(scene, {0, 0, 2}, 0.5, false, 1);       // 1: lamp
-  mesh_test::AddSquare(scene, {0.1, 0.05, 1}, 0.3, false, 0);  // 2: blocker
+  mesh_test::AddSquare(scene, {0, 0, 0}, 1, true);             // patch 0: floor
+  mesh_test::AddSquare(scene, {0, 0, 2}, 0.5, false, 1);       // patch 1: lamp
+  mesh_test::AddSquare(scene, {0.1, 0.05, 1}, 0.3, false, 0);  // patch 2: blocker
   for (std::size_t i = 0; i < scene.patches.size(); ++i) {
     const auto vertices = scene.patches[i].Vertices();
     scene.faces.push_back({{vertices.begin(), vertices.end()}, scene.patches[i].material, 0});
@@ -37,7 +38,8 @@ inline viewer::ViewerOptions Options(bool solve) {
   return options;
 }
 
-// Frames until nothing is being computed; false after half a minute.
+// Draws frames until the viewer computes nothing any more. Settle() returns false if the viewer computes for
+// more than half a minute.
 inline bool Settle(viewer::Viewer& viewer, int width = 96, int height = 64) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   while (std::chrono::steady_clock::now() < end) {
@@ -72,7 +74,7 @@ inline void Drag(viewer::Viewer& viewer, viewer::MouseButton button, double x0, 
   viewer.Handle(Button(viewer::InputEvent::Kind::kButtonUp, button, x1, y1, 0));
 }
 
-// Where the camera sees a point.
+// Returns the place on the screen where the camera shows a point.
 inline viewer::ScreenPoint PlaceOf(const viewer::Viewer& viewer, const Vec3& point, int width = 96,
                                    int height = 64) {
   return viewer::Project(MakePixelRays(viewer.view().camera, width, height), point);

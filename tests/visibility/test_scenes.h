@@ -30,7 +30,8 @@ inline PatchId Add(Scene& scene, const Polygon3& polygon, std::int32_t material)
   return static_cast<PatchId>(scene.patches.size()) - 1;
 }
 
-// The six faces of a box: bottom, top, then the sides. Fronts outwards, or inwards (a room).
+// Adds the six faces of a box in the order bottom, top, sides. The fronts of the box's faces look outwards,
+// or inwards if the box is a room.
 inline void AddBox(Scene& scene, const Vec3& low, const Vec3& high, bool inwards,
                    const std::array<std::int32_t, 6>& material) {
   const auto at = [&](int i) {
@@ -61,7 +62,8 @@ inline Vec3 RandomPoint(Random& random, double half) {
   return {x, y, random.Uniform(-half, half)};
 }
 
-// A rigid motion: a random turn, then a random shift within a box of the given half side.
+// A rigid motion: a rotation followed by a shift. RandomMotion() takes a random rotation, and a random shift
+// in a cube of the given half side.
 struct Motion {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   Vec3 shift = Vec3::Zero();
@@ -76,7 +78,8 @@ inline Motion RandomMotion(Random& random, double half) {
   return motion;
 }
 
-// The scene with every vertex moved, its coordinates rounded anew, and its solids found.
+// Returns the scene with every vertex moved by `map`, and finds the convex solids again. The coordinates of
+// the moved vertices are rounded again.
 template <class Map>
 Scene Mapped(const Scene& scene, const Map& map) {
   Scene moved = scene;
@@ -89,8 +92,9 @@ Scene Mapped(const Scene& scene, const Map& map) {
   return moved;
 }
 
-// The room [0,4]^3 with a light under (or in) the ceiling and boxes on or above the floor, all coordinates
-// multiples of 1/4, so that planes, edges and vertices coincide again and again. Materials: 0 grey, 1 light.
+// Makes a room [0,4]^3 with a light at or below the ceiling and boxes on or above the floor. All coordinates
+// are multiples of 1/4, so that planes, edges and vertices often coincide. Material 0 of the scene is grey,
+// and material 1 is the light.
 inline Scene FurnishedRoom(Random& random, int boxes) {
   Scene scene;
   const std::int32_t grey = AddMaterial(scene, 0.5, 0), light = AddMaterial(scene, 0, 10);
@@ -108,7 +112,8 @@ inline Scene FurnishedRoom(Random& random, int boxes) {
   return scene;
 }
 
-// Whether a patch cuts the segment, by doubles; it counts as `wider` than it is by that much [m].
+// Returns true if the patch cuts the segment from p to q, computed in doubles. In Cuts(), the patch counts as
+// larger by `wider` [m] on all sides.
 inline bool Cuts(const Patch& patch, const Vec3& p, const Vec3& q, double wider) {
   const double hp = patch.normal.dot(p - patch.vertex[0]), hq = patch.normal.dot(q - patch.vertex[0]);
   if (!(std::min(hp, hq) < -std::abs(wider) && std::max(hp, hq) > std::abs(wider))) return false;

@@ -6,10 +6,12 @@
 
 namespace penumbra {
 
-// The method `rays-book`: as `rays`, but each ray stands for a disk, A / n cos cos / (pi r^2 + A / n), as
-// printed (Wallace, Elmquist and Haines 1989; Ashdown 1994, eq. 5.46). The formula never exceeds 1 at small
-// distances, and is too small on the average: by 1.7 % for n = 16 before a square at a distance of its side.
-// The error includes the difference from the unbiased formula.
+// The form-factor method `rays-book` casts n rays from a point to random points of an area A. Each of the n
+// rays to the area A stands for a disk of area A / n and adds (A / n) cos cos / (pi r^2 + A / n) to the form
+// factor (Wallace, Elmquist and Haines 1989; Ashdown 1994, eq. 5.46). The sum of this disk formula over the
+// rays never exceeds 1 at small distances r, but is too small on average. For n = 16 rays to a square at a
+// distance of one side of the square, the disk formula is 1.7 % too small. The stated error of a form factor
+// includes the difference between the disk formula and the unbiased formula (RayFormula::kUnbiased).
 LinkFormFactorRegistry::Method BookRaysFormFactorMethod();
 
 }  // namespace penumbra

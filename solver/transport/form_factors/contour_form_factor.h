@@ -6,11 +6,13 @@
 
 namespace penumbra {
 
-// The method `contour`: the double integral of ln r along both boundaries, 1 / (2 pi A) times it (Goral,
-// Torrance, Greenberg and Battaile 1984; Ashdown 1994, 5.2). The inner integral along an edge has a closed
-// form, the outer one is a Kronrod rule; its error is the difference from the Gauss rule. Stokes' theorem
-// knows no blockers: past blockers, the value is multiplied by (visible part) / (whole) of the point form
-// factors at a few points of the sender, and the error includes the change of this ratio from 4 points to 16.
+// The form-factor method `contour`: F = 1 / (2 pi A) * (double integral of ln r along the boundaries of both
+// polygons) (Goral, Torrance, Greenberg and Battaile 1984; Ashdown 1994, 5.2). The inner integral along an
+// edge has a closed form; a Kronrod rule approximates the outer integral. The error of the outer integral is
+// estimated by the difference between the Kronrod rule and its Gauss rule. The contour integral ignores
+// blockers. If there are blockers, F is multiplied by the ratio (mean form factor to the visible part of the
+// target) / (mean form factor to the whole target) over 16 points of the sender. The error of a form factor
+// past blockers includes the change of the visible ratio from 4 points to 16 points.
 LinkFormFactorRegistry::Method ContourFormFactorMethod();
 
 }  // namespace penumbra

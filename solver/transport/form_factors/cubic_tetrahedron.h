@@ -9,13 +9,14 @@
 
 namespace penumbra {
 
-// The three triangular faces of a cube's corner that stands above the point, its diagonal along the normal
-// (Beran-Koehn and Pavicic 1991; Ashdown 1994, 5.8). Each face spans [-2, 1] x [-2, 1] with resolution x
-// resolution cells, of which half lie above the horizon. The horizon halves the cells along the diagonal.
+// The three faces of a cubic tetrahedron: the corner of a cube above a point, with the cube's diagonal along
+// the surface normal (Beran-Koehn and Pavicic 1991; Ashdown 1994, 5.8). Each face of the cubic tetrahedron
+// spans [-2, 1] x [-2, 1] with resolution x resolution cells, of which half lie above the horizon. The
+// horizon cuts the cells along the face's diagonal into halves.
 std::vector<PlaneGrid> CubicTetrahedronPlanes(int resolution, CellRule rule = CellRule::kExact);
 
-// The method `cubic-tetrahedron`: 142 cells along a side unless the options say otherwise, about as many
-// cells as a hemicube of 100.
+// The form-factor method `cubic-tetrahedron`, by default with 142 cells along a side of each face. All faces
+// of this cubic tetrahedron together have about as many cells as a hemicube of resolution 100.
 LinkFormFactorRegistry::Method CubicTetrahedronMethod();
 
 }  // namespace penumbra

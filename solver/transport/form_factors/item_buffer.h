@@ -14,15 +14,17 @@
 
 namespace penumbra {
 
-// A convex part of a patch that is drawn. It hides what lies behind it from both sides.
+// A convex part of a patch (planar polygon of the scene) that is drawn into the item buffer. A drawn polygon
+// hides all that lies behind it, whichever of its sides faces the eye.
 struct DrawnPolygon {
   PatchId patch = kNoPatch;
-  std::span<const Vec3> vertices;  // [m], in the patch's plane
-  std::int32_t target = -1;        // where its cells count, if its front is seen; -1: it only hides
+  std::span<const Vec3> vertices;  // vertices [m], in the plane of the patch
+  // index of the form factor to which the polygon's cells add if its front is visible; -1: the polygon only
+  // hides others
+  std::int32_t target = -1;
 };
 
-// Where the point stands: its patch, which it does not see, and the axes of its frame, with z along the
-// normal.
+// The point from which the form factors are computed, with the axes of its frame; z is the surface normal.
 struct Eye {
   PatchId own = kNoPatch;
   Vec3 position = Vec3::Zero();  // [m]
@@ -31,18 +33,20 @@ struct Eye {
 
 class ItemBuffer {
  public:
-  // Draws the polygons; those whose plane contains the eye are invisible. Of two polygons in one cell the
-  // nearer wins, where the ray through the cell's sample point meets their planes. Of two in the plane of one
-  // patch, a target wins. The grid must outlive the object.
+  // Draws the polygons into the cells of the grid; polygons whose plane contains the eye are invisible. If
+  // two polygons cover a cell's sample point, the ItemBuffer stores the polygon that is nearer along the ray
+  // through the sample point. If two polygons of the same patch cover a cell's sample point, the ItemBuffer
+  // stores the polygon with a target index (target >= 0). The grid must outlive the ItemBuffer.
   ItemBuffer(const PlaneGrid& grid, const Scene& scene, const Eye& eye,
              std::span<const DrawnPolygon> polygons);
 
-  // Adds `weight` * (form factor of each cell) to the factor of the target that is seen in the cell.
+  // For each cell in which a target is visible, adds `weight` * (form factor of the cell) to factors[target].
   void AddFactors(double weight, std::span<double> factors) const;
 
  private:
   struct Cell {
-    double distance = 0;  // to the plane, in units of the ray's length to the cell; 0: nothing is seen
+    // distance to the polygon, in units of the ray's length to the cell; 0: the cell shows no polygon
+    double distance = 0;
     PatchId patch = kNoPatch;
     std::int32_t target = -1;
   };
@@ -54,7 +58,7 @@ class ItemBuffer {
 
   const PlaneGrid& grid_;
   std::vector<Cell> cells_;
-  std::vector<Vec3> view_, clipped_;  // reused from polygon to polygon
+  std::vector<Vec3> view_, clipped_;  // buffers that are reused from polygon to polygon
   std::vector<Vec2> outline_;
 };
 

@@ -6,7 +6,8 @@
 
 namespace penumbra {
 
-// All methods to compute form factors, of links and between areas; the first is the default.
+// The registry of all methods that compute form factors, for links between elements and for pairs of areas.
+// The first method in the registry is the default.
 LinkFormFactorRegistry& LinkFormFactorMethods();
 
 }  // namespace penumbra

@@ -6,10 +6,11 @@
 
 namespace penumbra {
 
-// The method `malley`: F = hits / rays, for rays that leave the sender at random points in cosine-distributed
-// directions, as points of a disk lifted to the hemisphere above (Malley 1988; Ashdown 1994, 5.22). The rays
-// of a sender are the same for all targets, so that the form factors to all that it sees in a closed room add
-// up to 1. A link takes 4096 rays unless the options say otherwise. The error is the standard error.
+// The form-factor method `malley`: F = (rays that hit the target) / (all rays). The rays leave random points
+// of the sender in cosine-distributed directions: points of a disk lifted to the hemisphere (Malley 1988;
+// Ashdown 1994, 5.22). A sender casts the same rays for all targets, so that its form factors to all surfaces
+// of a closed room add up to 1. By default, the method `malley` casts 4096 rays for the form factor of a
+// link. The error of the form factor is the standard error of the hit rate.
 LinkFormFactorRegistry::Method MalleyFormFactorMethod();
 
 }  // namespace penumbra

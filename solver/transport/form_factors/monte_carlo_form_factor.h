@@ -6,10 +6,11 @@
 
 namespace penumbra {
 
-// The method `monte-carlo`: the double integral over both areas, at pairs of random points: F = (area of the
-// target) * mean of V cos cos / (pi r^2). A link takes 256 pairs of points unless the options say otherwise.
-// The error is the standard error. Where areas touch, the values have no finite variance: the mean still
-// converges, but slower than 1 / sqrt(n), and now and then by more than the error says.
+// The form-factor method `monte-carlo` integrates over both areas at random pairs of points: F = (area of the
+// target) * mean of V cos cos / (pi r^2). By default, the method `monte-carlo` takes 256 pairs of points for
+// the form factor of a link. The error of the form factor is the standard error of the mean. If the two areas
+// touch, the samples have no finite variance: the mean converges more slowly than 1 / sqrt(n), and the true
+// error occasionally exceeds the stated error.
 LinkFormFactorRegistry::Method MonteCarloFormFactorMethod();
 
 }  // namespace penumbra

@@ -1,6 +1,7 @@
 // solver/transport/form_factors/pair_form_factor.h
 //
-// Form factors that are found pair by pair, by rays or by integrals: what these methods have in common.
+// The common parts of those form-factor methods that treat one pair of areas at a time, by rays or by
+// integrals.
 
 #pragma once
 
@@ -13,38 +14,41 @@
 
 namespace penumbra {
 
-// A part of a patch that sends, one that receives, and what may stand between them.
+// A sending polygon and a target polygon, with the patches that may block the sight between them.
 struct SightedPair {
   const Scene& scene;
   PatchId sender_patch = kNoPatch, target_patch = kNoPatch;
-  std::span<const Vec3> sender, target;  // convex [m]
-  std::span<const PatchId> blockers;     // one at least of every blocked segment's
+  std::span<const Vec3> sender, target;  // convex polygons [m]
+  std::span<const PatchId> blockers;     // patches, with at least one blocker of every blocked segment
   std::size_t rays = 0;
-  Random of_sender, of_pair;  // the same for all pairs of a sender; of this pair alone
+  // random generators; of_sender: the same generator for all targets of a sender; of_pair: for this pair only
+  Random of_sender, of_pair;
 
   const Vec3& SenderNormal() const { return scene.patches[static_cast<std::size_t>(sender_patch)].normal; }
   const Vec3& TargetNormal() const { return scene.patches[static_cast<std::size_t>(target_patch)].normal; }
 };
 
-// F(sender -> target) with an estimate of its error. May be called from several threads.
+// A function that returns F(sender -> target) with an estimate of its error. Several threads may call a
+// PairRule at once.
 using PairRule = std::function<FormFactorEstimate(const SightedPair&)>;
 
-// True if no blocker of the pair crosses the segment.
+// True if no blocker of the pair intersects the segment between the two points.
 bool InSight(const SightedPair& pair, const Vec3& from, const Vec3& to);
 
 // Maps (s, t) in the unit square to a point of a convex polygon: uniform (s, t) give uniform points.
 Vec3 UniformPoint(std::span<const Vec3> polygon, double s, double t);
 
-// cos cos / (pi r^2) between two points [1/m^2]; 0 if one of them lies behind the other's plane.
+// cos cos / (pi r^2) between two points [1/m^2]; the value is 0 if one point lies behind the plane of the
+// other.
 double PointKernel(const SightedPair& pair, const Vec3& at_sender, const Vec3& at_target);
 
 // The mean of random values and its standard error.
 class SampleMean {
  public:
-  // `most` is the value if nothing blocked the sight.
+  // Adds one sample; `most` is the value that the sample would have without blockers.
   void Add(double value, double most);
-  // The error is the standard error, together with (the largest unblocked value) / count, so that it is not 0
-  // because all samples were blocked by chance.
+  // The estimated error is sqrt((standard error)^2 + (largest unblocked value / count)^2). The term (largest
+  // unblocked value / count)^2 keeps the error above 0 if all samples happen to be blocked.
   FormFactorEstimate Estimate() const;
 
  private:
@@ -54,12 +58,13 @@ class SampleMean {
 
 class PairFormFactor final : public LinkFormFactorMethod {
  public:
-  // `link_rays`: rays for the form factor of a link, unless the options say otherwise. `sampled`: the errors
-  // of pairs are independent standard errors.
+  // `link_rays` is the default number of rays for the form factor of a link. `sampled` is true if the error
+  // of each pair's form factor is an independent standard error.
   PairFormFactor(PairRule rule, std::size_t link_rays, bool sampled, const LinkFormFactorOptions& options);
 
   void Find(ReceiverLinks* links, const ExecutionContext& context) const override;
-  // The rays are shared out among the senders by area. Standard errors add up as squares, others as they are.
+  // Each sending part casts a number of rays in proportion to its area. The error of a sum over pairs is the
+  // root of the sum of squared errors if the pairs have standard errors, and the sum of errors otherwise.
   std::optional<FormFactorEstimate> Between(const Scene& scene, std::span<const AreaPart> from,
                                             std::span<const AreaPart> to,
                                             const ExecutionContext& context) const override;

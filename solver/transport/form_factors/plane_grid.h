@@ -11,32 +11,36 @@
 
 namespace penumbra {
 
-// How the form factor of a cell is found.
+// How the form factor of a cell of the plane is computed.
 enum class CellRule {
-  kExact,   // the form factor of the cell's square: all cells of a hemicube add up to 1
-  kCentre,  // (kernel at the cell's centre) * (area), as printed by Ashdown (1994, eq. 5.15, 5.18 and 5.25)
+  kExact,  // the exact form factor of the cell's square: all cells of a hemicube add up to 1
+  // (integrand of the form factor at the cell's centre) * (area), as printed by Ashdown (1994, eq. 5.15, 5.18
+  // and 5.25)
+  kCentre,
 };
 
-// A plane at distance 1 from the point, seen along `ahead`. The axes are orthonormal, in the point's frame,
-// whose z axis is the normal there.
+// A plane at distance 1 from the point in the direction `ahead`. The axes `right`, `up` and `ahead` are
+// orthonormal, in the frame of the point, whose z axis is the surface normal.
 struct PlaneGrid {
   Vec3 right = Vec3::UnitX(), up = Vec3::UnitY(), ahead = Vec3::UnitZ();
   Vec2 low = Vec2::Zero();  // coordinates of the corner of cell (0, 0), along `right` and `up`
   double cell = 1;          // side of a cell
   int columns = 0, rows = 0;
-  // True for the faces of a cubic tetrahedron. The horizon then halves cell (columns - 1 - row, row) of each
-  // row; the upper right half lies above. Cells to the left of it lie below the horizon.
+  // True if the plane is a face of a cubic tetrahedron. In each row of a cubic tetrahedron's face, the
+  // horizon cuts cell (columns - 1 - row, row) into halves, of which the upper right one lies above the
+  // horizon. In a cubic tetrahedron's face, cells to the left of the halved cell lie below the horizon.
   bool halved = false;
   std::vector<double> delta;  // the form factor of each cell, row by row
 
-  // The first column of a row that lies above the horizon as a whole.
+  // The column of the first cell that lies completely above the horizon, in the given row.
   int FirstWhole(int row) const { return halved ? columns - row : 0; }
 };
 
-// Sets the form factors of all cells.
+// Computes PlaneGrid::delta, the form factors of all cells.
 void FindDeltas(PlaneGrid* grid, CellRule rule = CellRule::kExact);
 
-// The sum of all form factors: the fraction of the diffuse flux that leaves the point through the plane.
+// The sum of the form factors of all cells: the fraction of the point's diffuse flux that passes through the
+// plane.
 double SumOfDeltas(const PlaneGrid& grid);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // solver/transport/form_factors/projected_form_factor.h
 //
-// Form factors by drawing what a point sees on planes before it: what hemicube, cubic tetrahedron and single
-// plane have in common.
+// The common parts of hemicube, cubic tetrahedron and single plane: form factors are found by drawing the
+// scene, as seen from a point, on planes around the point.
 
 #pragma once
 
@@ -14,20 +14,25 @@
 
 namespace penumbra {
 
-// Makes the planes for a resolution, which it rounds up as it needs, with the form factors of their cells.
+// A function that makes the planes for a resolution, with the form factors of their cells; it may round the
+// resolution up.
 using PlaneMaker = std::function<std::vector<PlaneGrid>(int resolution)>;
 
-// The mean over a few points of the receiver, or of the sender of a form factor between areas. The planes are
-// turned about the normal by a seeded random angle at each point (Ashdown 1994, 5.10). A link takes the
-// points of Cubature(): 4 of a quadrilateral, 3 of a triangle.
+// Computes a form factor as the mean of point form factors, each of which is found by drawing the scene on
+// planes around the point. The points from which the scene is projected lie on the receiver of a link, or on
+// the sender of a form factor between areas. At each point, the planes are turned about the normal by a
+// seeded random angle (Ashdown 1994, 5.10). For a link, the points are those of Cubature(): 4 on a
+// quadrilateral, 3 on a triangle.
 //
-// A form factor between areas takes four times as many points on each part of the sender. Its error is
-// |difference from a quarter of the points at half the resolution|, plus the flux that misses all planes,
-// plus (the largest cell) / sqrt(number of points), since a target may be missed by less than a cell at each
-// point. It indicates the error and does not bound it.
+// For a form factor between areas, each part of the sender has four times as many sample points as the
+// receiver of a link. The error of a form factor between areas is a sum of three terms, an estimate and not a
+// bound. The error of a form factor between areas contains |change if a quarter of the points and half the
+// resolution are used|. The error of a form factor between areas also contains the fraction of the flux that
+// misses all planes. The error of a form factor between areas also contains (largest form factor of a cell) /
+// sqrt(number of points), because the drawn image of a target is up to one cell too large or too small.
 class ProjectedFormFactor final : public LinkFormFactorMethod {
  public:
-  // `standard`: the resolution if the options ask for none.
+  // `standard` is the resolution of the planes if LinkFormFactorOptions::resolution is 0.
   ProjectedFormFactor(const PlaneMaker& planes, int standard, const LinkFormFactorOptions& options);
 
   void Find(ReceiverLinks* links, const ExecutionContext& context) const override;

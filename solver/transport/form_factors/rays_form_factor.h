@@ -6,8 +6,8 @@
 
 namespace penumbra {
 
-// The method `rays`: rays to random points of the source, by the unbiased formula (FactorBySourceRays). A
-// link takes 64 rays, 16 from each of 4 points, unless the options say otherwise.
+// The form-factor method `rays` casts rays to random points of the source and uses the unbiased formula
+// (RayFormula::kUnbiased). By default, the form factor of a link takes 64 rays, 16 from each of 4 points.
 LinkFormFactorRegistry::Method RaysFormFactorMethod();
 
 }  // namespace penumbra

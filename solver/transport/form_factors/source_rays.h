@@ -9,7 +9,7 @@
 
 namespace penumbra {
 
-inline constexpr std::size_t kSourceRays = 16;  // Ashdown's, "excellent"
+inline constexpr std::size_t kSourceRays = 16;  // Ashdown (1994) calls the result of 16 rays "excellent"
 
 // The two formulas for the form factor of a point to an area A by n rays to random points of the area.
 enum class RayFormula {
@@ -17,13 +17,14 @@ enum class RayFormula {
   kDisks,  // (A / n) sum V cos cos / (pi r^2 + A / n), as printed: each ray stands for a disk of area A / n
 };
 
-// The form factor of a point of the sender to the target by n rays.
+// The form factor of a point of the sender to the target, from `rays` rays to random points of the target.
 FormFactorEstimate PointFactorByRays(const SightedPair& pair, const Vec3& at, std::size_t rays,
                                      RayFormula formula, Random* random);
 
-// The mean over the points of Cubature() on the sender, each with pair.rays / (number of points) rays, at
-// least 1; with more than 1000 rays, on 4 pieces of the sender. The error is the standard error, together
-// with the difference from a coarser rule, which tells how far the points suffice.
+// The mean of PointFactorByRays() over the points of Cubature() on the sender. Each point of the sender casts
+// max(1, pair.rays / (number of points)) rays. With more than 1000 rays, the points of the sender are those
+// of Cubature() on 4 quarters of the sender. The error of FactorBySourceRays() is (standard error) +
+// |difference from a rule with fewer points|, which tells whether the points suffice.
 FormFactorEstimate FactorBySourceRays(const SightedPair& pair, RayFormula formula);
 
 }  // namespace penumbra

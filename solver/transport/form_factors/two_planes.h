@@ -9,13 +9,13 @@
 
 namespace penumbra {
 
-// A broad plane, as SinglePlane(), with finer cells where it is near (Recker, George and Greenberg 1990;
-// Ashdown 1994, 5.21): an inner plane of a seventh of the side has resolution x resolution cells, and so has
-// the outer plane, whose cells behind the inner one count as empty. The resolution is rounded up to a
-// multiple of 14.
+// A broad plane above the point, as in SinglePlane(), with finer cells in the middle (Recker, George and
+// Greenberg 1990; Ashdown 1994, 5.21). The inner plane has a seventh of the outer plane's side; each of the
+// two planes has resolution x resolution cells. Cells of the outer plane that the inner plane covers have
+// form factor 0. The resolution of the two planes is rounded up to a multiple of 14.
 std::vector<PlaneGrid> TwoPlanes(int resolution, CellRule rule = CellRule::kExact);
 
-// The method `two-planes`: 112 cells along a side unless the options say otherwise.
+// The form-factor method `two-planes`, by default with 112 cells along a side of each of the two planes.
 LinkFormFactorRegistry::Method TwoPlanesMethod();
 
 }  // namespace penumbra

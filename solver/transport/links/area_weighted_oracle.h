@@ -1,13 +1,15 @@
 // solver/transport/links/area_weighted_oracle.h
 //
-// Oracles that estimate the transport error of a link (thesis 4.4.1), in W/m^2 of irradiance, for the largest
-// channel. Because point form factors are exact for sources of any size, a link has only two errors. The
-// receiver error B * deviation(F) arises because the irradiance varies over the receiver. The source error F
-// * spread(B) * variation(F) arises because the radiosity varies within the source's quarters. The oracle
-// multiplies both the receiver error and the source error by sqrt(receiver area / reference area), and
-// compares the products with eps. The factor sqrt(receiver area / reference area) has two effects: the sum of
-// the squared link errors equals the squared error over the scene; and refinement ends even along edges where
-// walls meet, where form factors vary at every scale.
+// Refinement oracles that estimate the transport error of a link between two elements (thesis 4.4.1), in
+// W/m^2 of irradiance, for the largest channel. Because point form factors are exact for sources of any size,
+// a link has only two errors: a receiver error and a source error. The receiver error, B * deviation(F) for
+// source radiosity B and form factor F, arises because the irradiance varies over the receiver. The source
+// error, F * spread(B) * variation(F) for source radiosity B and form factor F, arises because the radiosity
+// varies within the source's quarters. The AreaWeightedOracle multiplies both errors of a link by
+// sqrt(receiver area / reference area), and compares the products with eps and with a fraction of eps. The
+// factor sqrt(receiver area / reference area) has two effects. The first effect of the area factor: the sum
+// of the squared link errors equals the squared error over the scene. The second effect of the area factor:
+// refinement ends even along edges where walls meet, where form factors vary at every scale.
 
 #pragma once
 
@@ -15,8 +17,8 @@
 
 namespace penumbra {
 
-// Splits the end of the link, receiver or source, that causes the larger error. Derived classes define
-// deviation(F), the deviation of the form factor over the receiver.
+// Splits that end of a link, receiver or source, that causes the larger transport error. Derived classes
+// define deviation(F), the deviation of the form factor over the receiver.
 class AreaWeightedOracle : public RefinementOracle {
  public:
   explicit AreaWeightedOracle(const OracleOptions& options) : options_(options) {}

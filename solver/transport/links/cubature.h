@@ -1,7 +1,7 @@
 // solver/transport/links/cubature.h
 //
-// Sample points on a receiver for the mean of point form factors (the thesis's third method, 4.2, with the
-// points of a cubature rule instead of random points).
+// Sample points on a receiver for the mean of point form factors. Cubature() follows the thesis's third
+// method for form factors (4.2), with the points of a cubature rule instead of random points.
 
 #pragma once
 
@@ -14,13 +14,14 @@ namespace penumbra {
 
 struct CubaturePoint {
   Vec3 position;      // [m]
-  double weight = 0;  // the weights of a rule add up to 1
+  double weight = 0;  // the weights of a cubature rule add up to 1
 };
 
-// A cubature rule for the mean over a convex planar polygon. The rule for a triangle has 3 points and is
-// exact for polynomials of degree 2. The rule for a quadrilateral has 2 x 2 Gauss-Legendre points and is
-// exact for degree 3 in each parameter. Other polygons are cut into a fan of triangles. Before the rule is
-// applied, each polygon is split into four polygons, `refinement` times in succession.
+// A cubature rule for the mean over a convex planar polygon. The cubature rule for a triangle has 3 points
+// and is exact for polynomials of degree 2. The cubature rule for a quadrilateral has 2 x 2 Gauss-Legendre
+// points and is exact for degree 3 in each parameter. Polygons of more than four vertices are cut into a fan
+// of triangles. Before the cubature rule is applied, each polygon is split into four polygons, `refinement`
+// times in succession.
 std::vector<CubaturePoint> Cubature(std::span<const Vec3> polygon, int refinement = 0);
 
 }  // namespace penumbra

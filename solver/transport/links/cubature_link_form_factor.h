@@ -6,8 +6,8 @@
 
 namespace penumbra {
 
-// The default method: the form factor of a link is the mean of exact point form factors at a few points of
-// the receiver (FindByCubature).
+// The default form-factor method, `cubature`: the form factor of a link is the mean of exact point form
+// factors at a few points of the receiver (FindByCubature).
 LinkFormFactorRegistry::Method CubatureLinkFormFactorMethod();
 
 }  // namespace penumbra

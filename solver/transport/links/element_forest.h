@@ -1,12 +1,12 @@
 // solver/transport/links/element_forest.h
 //
-// The quadtrees of elements, one for each patch (the thesis's Tree, 4.1): their geometry and topology only.
-// Radiosities are stored elsewhere, in arrays indexed by ElementId.
+// The quadtrees of elements, one quadtree for each patch (the thesis's Tree, 4.1), with geometry and topology
+// only. Radiosities of elements are stored elsewhere, in arrays indexed by ElementId.
 //
 // All corners of elements lie on the integer lattice of their patch. With N = kLatticeSize, the corners of a
 // quadrilateral are (0,0), (N,0), (N,N) and (0,N); those of a triangle are (0,0), (N,0) and (0,N). Equal
-// lattice points have bit-identical positions: neighbours, shared corners and hanging vertices are found by
-// comparing integers, not distances.
+// lattice points have bit-identical positions in space, so that neighbours, shared corners and hanging
+// vertices are found by comparing integers, not distances.
 
 #pragma once
 
@@ -54,10 +54,11 @@ Vec3 LatticePosition(const Patch& patch, const LatticePoint& p);
 struct Element {
   PatchId patch = kNoPatch;
   ElementId parent = kNoElement;
-  ElementId first_child = kNoElement;  // the four children have consecutive ids; kNoElement: a leaf
-  std::int32_t level = 0;              // 0: the root
-  std::int32_t size = 0;               // corners: 3 or 4
-  std::array<LatticePoint, 4> corner;  // counter-clockwise; the fourth is unused in a triangle
+  // the four children have consecutive ids; kNoElement if the element is a leaf
+  ElementId first_child = kNoElement;
+  std::int32_t level = 0;              // 0 for the root element
+  std::int32_t size = 0;               // number of corners: 3 or 4
+  std::array<LatticePoint, 4> corner;  // corners, counter-clockwise; the fourth is unused in a triangle
   std::array<Vec3, 4> vertex;          // positions of the corners [m]
   double area = 0;                     // [m^2]
 
@@ -66,18 +67,20 @@ struct Element {
   std::span<const LatticePoint> Corners() const { return {corner.data(), static_cast<std::size_t>(size)}; }
 };
 
-// The corners of the element's four children [m], whether or not the children exist.
+// The corners of the four quarters of an element [m], in the order of its children, whether or not the
+// children exist.
 std::array<std::array<Vec3, 4>, 4> Quarters(const Element& element);
 
-// All quadtrees of a scene. Ids stay valid while trees grow; references to elements do not.
+// All quadtrees of a scene. ElementIds stay valid while the quadtrees grow; references to elements do not.
 class ElementForest {
  public:
   ElementForest() = default;
-  // One root for each patch; the root of patch p is element p. The scene must outlive the forest.
+  // Makes one root element for each patch; the root of patch p is element p. The scene must outlive the
+  // ElementForest.
   explicit ElementForest(const Scene& scene);
 
-  // The same elements of a scene with the same patches, but perhaps with other materials. The other scene
-  // must outlive the result.
+  // A copy of the quadtrees that refers to the scene `other`, which must have the same patches but may have
+  // other materials. The scene `other` must outlive the copy.
   ElementForest Of(const Scene& other) const;
 
   const Scene& scene() const { return *scene_; }
@@ -87,24 +90,25 @@ class ElementForest {
   static ElementId Root(PatchId patch) { return patch; }
 
   // Splits a leaf into four children: a triangle at its edge midpoints, a quadrilateral at its edge midpoints
-  // and centre. Returns the first child. REQUIRES: the level of the leaf is below kMaxLevel.
+  // and centre. Subdivide() returns the id of the leaf's first child. REQUIRES: the level of the leaf is
+  // below kMaxLevel.
   ElementId Subdivide(ElementId leaf);
 
-  // Undoes the newest subdivisions until `count` elements are left. REQUIRES: size() was `count` at some
-  // time.
+  // Undoes the newest subdivisions until `count` elements are left. REQUIRES: the forest had exactly `count`
+  // elements at some time.
   void Truncate(std::size_t count);
 
-  // Subdivides leaves until the levels of leaves that share an edge differ by at most one. Returns the number
-  // of leaves split.
+  // Subdivides leaves until the levels of leaves that share an edge differ by at most one. Balance() returns
+  // the number of leaves that were subdivided.
   std::size_t Balance(PatchId patch);
 
-  // The leaves of a patch, in depth-first order.
+  // The leaves (elements without children) of a patch's quadtree, in depth-first order.
   std::vector<ElementId> Leaves(PatchId patch) const;
   // The leaves of all patches, patch by patch.
   std::vector<ElementId> AllLeaves() const;
 
   // The leaf of the patch that contains the point. For a point on a border between leaves, or outside the
-  // patch because of rounding, the result is one of the nearest leaves. REQUIRES: the point lies in the
+  // patch because of rounding, LeafAt() returns one of the nearest leaves. REQUIRES: the point lies in the
   // patch's plane.
   ElementId LeafAt(PatchId patch, const Vec3& point) const;
 

@@ -6,9 +6,9 @@
 
 namespace penumbra {
 
-// The most accurate method: the exact form factor between two areas (AreaFormFactor), with an error of at
-// most LinkFormFactorOptions::tolerance; row sums and reciprocity hold to the same tolerance. Link::variation
-// and Link::share are computed by FindByCubature().
+// The most accurate form-factor method, `exact`: the form factor between two areas (AreaFormFactor), with an
+// error of at most LinkFormFactorOptions::tolerance. Row sums and reciprocity of the exact form factors hold
+// to LinkFormFactorOptions::tolerance. Link::variation and Link::share are computed by FindByCubature().
 LinkFormFactorRegistry::Method ExactLinkFormFactorMethod();
 
 }  // namespace penumbra

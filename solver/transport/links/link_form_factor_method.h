@@ -1,6 +1,6 @@
 // solver/transport/links/link_form_factor_method.h
 //
-// The interface of methods that compute the form factors of links.
+// The interface of methods that compute the form factors of links (interactions between two elements).
 
 #pragma once
 
@@ -22,30 +22,34 @@ struct LinkView {
   // A subset of the link's blockers that contains, for every blocked segment between the ends of the link, at
   // least one patch that blocks the segment.
   std::vector<PatchId> blockers;
-  Polygon3 lit;             // the receiver's part before the source's plane [m]; empty: all of the receiver
-  double lit_fraction = 1;  // area of that part / area of the receiver
+  Polygon3 lit;  // the part of the receiver before the source's plane [m]; empty: the whole receiver
+  // (area of the receiver's part before the source's plane) / (area of the receiver)
+  double lit_fraction = 1;
 };
 
-// The links of one receiver, with a LinkView for each link.
+// All links of one receiver, with a LinkView (blockers, and the receiver's part before the source's plane)
+// for each link.
 struct ReceiverLinks {
   const ElementForest& forest;
   ElementId receiver = kNoElement;
   LinkSet set;
-  std::vector<LinkView> views;  // one for each link
+  std::vector<LinkView> views;  // one LinkView for each link
 };
 
 class LinkFormFactorMethod {
  public:
   virtual ~LinkFormFactorMethod() = default;
 
-  // Sets form_factor, variation, share and source_variation of all links. On entry, the four members have the
-  // values for a link that transports no light. The part of the receiver behind the source's plane counts as
-  // dark. May be called from several threads. The values are useless if the context is cancelled.
+  // Sets the members form_factor, variation, share and source_variation of all links. Before the call of
+  // Find(), form_factor, variation, share and source_variation have the values of a link that transports no
+  // light. The part of the receiver behind the source's plane counts as unlit. Several threads may call
+  // Find() at once. If the computation is cancelled (ExecutionContext), the links' values must not be used.
   virtual void Find(ReceiverLinks* links, const ExecutionContext& context) const = 0;
 
-  // The form factor of several parts together to several others, past all patches of the scene: sum A_i F_ij
-  // / sum A_i. The method says what its error means. nullopt if the method knows links only. The value is
-  // useless if the context is cancelled.
+  // The form factor sum A_i F_ij / sum A_i of all parts i in `from` to all parts j in `to`; any patch of the
+  // scene may block light. Each form-factor method documents what its error estimate means. Between() returns
+  // nullopt if the method computes form factors of links only. If the computation is cancelled
+  // (ExecutionContext), the form factor must not be used.
   virtual std::optional<FormFactorEstimate> Between(const Scene& /*scene*/,
                                                     std::span<const AreaPart> /*from*/,
                                                     std::span<const AreaPart> /*to*/,
@@ -53,29 +57,31 @@ class LinkFormFactorMethod {
     return std::nullopt;
   }
 
-  // True if Find() looks once from the receiver and finds the form factors of all its links together. Such
-  // methods cost less from one element that sends to many than from the many that receive.
+  // True if Find() computes the form factors of all links of the receiver in one view from the receiver, as a
+  // hemicube does. For one shooter and many receivers, one view from the shooter then costs less than a view
+  // from each receiver.
   virtual bool SeesAllAtOnce() const { return false; }
 };
 
-// The upper bound of LinkFormFactorOptions::resolution: the planes of one view then take some 600 MB.
+// The upper bound of LinkFormFactorOptions::resolution. At the upper bound, the planes of one hemicube or
+// similar view take some 600 MB.
 inline constexpr std::uint64_t kMostResolution = 4096;
 
 struct LinkFormFactorOptions {
-  // For the exact method: the allowed error of a form factor with blockers [1], and the largest number of
-  // points for one form factor.
+  // Options of the method `exact`: `tolerance` is the allowed error of a form factor with blockers [1], and
+  // `max_points` the largest number of points for one form factor.
   double tolerance = 1e-7;
   std::size_t max_points = 100'000;
-  std::size_t resolution =
-      0;                   // cells along a side of the planes of hemicubes and their like; 0: the method's
-  std::size_t rays = 0;    // rays for one form factor, where methods cast rays; 0: as many as the method
-                           // takes for links
-  std::uint64_t seed = 1;  // of random turns and rays
-  // If true, only the form factors of links are needed: variations and shares may stay as they are.
+  // number of cells along a side of the planes of hemicubes and similar methods; 0: the default of the
+  // method
+  std::size_t resolution = 0;
+  std::size_t rays = 0;    // number of rays for one form factor; 0: the default of the method
+  std::uint64_t seed = 1;  // seed of random rotations of planes and of random rays
+  // If true, Find() needs to compute only Link::form_factor, not Link::variation and Link::share.
   bool factors_only = false;
 };
 
-// LinkFormFactorMethods() lists all methods.
+// The type of the registry LinkFormFactorMethods(), which lists all form-factor methods.
 using LinkFormFactorRegistry = Registry<const LinkFormFactorMethod, LinkFormFactorOptions>;
 
 }  // namespace penumbra

@@ -1,7 +1,8 @@
 // solver/transport/links/link_former.h
 //
-// Makes links. The blockers of a child link are those blockers of the parent link that intersect the child's
-// own tube (Teller and Hanrahan 1993). A given method computes the form factors.
+// Makes links between elements. The blockers of a child link are those blockers of the parent link that
+// intersect the child's tube, the convex hull of source and receiver (Teller and Hanrahan 1993). A
+// LinkFormFactorMethod computes the form factors of the links.
 
 #pragma once
 
@@ -14,16 +15,17 @@
 
 namespace penumbra {
 
-// A source that may be linked to a receiver, with the blockers of the parent link.
+// A source element that may be linked to a receiver, with the blockers of the parent link.
 struct LinkCandidate {
   ElementId source = kNoElement;
   std::span<const PatchId> blockers;
 };
 
-// The links of one receiver to all candidates that the receiver may see, in the order of the candidates.
-// Link::first_blocker of the first link is 0. Candidates that do not face the receiver, or that one blocker
-// hides completely, get no link. The form factor is the mean over the whole receiver; points of the receiver
-// behind the source's plane contribute 0. The result is useless if the context is cancelled.
+// Makes the links of one receiver to all candidate sources that the receiver may see, in the order of the
+// candidates. Link::first_blocker of the first link is 0. Candidate sources that do not face the receiver, or
+// that one blocker hides completely, get no link. The form factor of a link is the mean over the whole
+// receiver; points of the receiver behind the source's plane contribute 0. If the computation is cancelled
+// (ExecutionContext), the links must not be used.
 LinkSet FormLinks(const ElementForest& forest, ElementId receiver, std::span<const LinkCandidate> candidates,
                   const LinkFormFactorMethod& form_factors,
                   const ExecutionContext& context = ExecutionContext());

@@ -1,7 +1,7 @@
 // solver/transport/links/push_pull.h
 //
-// Gathering over links and push-pull through the quadtrees (thesis 4.3; Hanrahan, Salzman and Aupperle 1991):
-// one application of the transport operator of a solution's links.
+// Gathering light over links and push-pull through the quadtrees (thesis 4.3; Hanrahan, Salzman and Aupperle
+// 1991). A gather with push-pull applies the light transport operator of the links once.
 
 #pragma once
 
@@ -14,24 +14,24 @@
 
 namespace penumbra {
 
-// The order in which a sweep updates the elements.
+// The order in which a sweep (a gather over all links) updates the elements.
 enum class IterationScheme : std::uint8_t {
-  kJacobi,       // all elements from the light before the sweep (the thesis)
-  kGaussSeidel,  // patch after patch, each from the newest light
+  kJacobi,       // all elements gather the light from before the sweep (as in the thesis)
+  kGaussSeidel,  // patch after patch gathers the newest light
 };
 
 class PushPull {
  public:
-  // The object reads and changes the irradiances and radiosities of `solution`, which must outlive the
-  // object.
+  // The PushPull reads and changes the irradiances and radiosities of `solution`, which must outlive the
+  // PushPull.
   explicit PushPull(RadiositySolution& solution);
 
-  // Must be called after links or elements have changed. Rebuilds the index of links, gives new elements the
-  // light of their parents, and undoes Balance().
+  // Update() must be called after links or elements have changed. Update() rebuilds the index of links, gives
+  // new elements the light of their parents, and undoes Balance().
   void Update();
 
-  // Scales the light that links bring to each leaf, such that unit radiosity of all elements gives leaf
-  // leaves()[i] the irradiance closure[i] [1].
+  // Scales the light that links bring to each leaf. After Balance(), the irradiance of the leaf leaves()[i]
+  // is closure[i] if all elements have radiosity 1.
   void Balance(std::span<const double> closure);
   bool IsBalanced() const { return !scale_.empty(); }
 
@@ -41,19 +41,19 @@ class PushPull {
     return first_link_[static_cast<std::size_t>(receiver) + 1];
   }
 
-  // The leaves, patch by patch, in the order of their creation.
+  // All leaves (elements without children), patch by patch, in the order of their creation.
   std::span<const ElementId> leaves() const { return leaves_; }
 
-  // One sweep: sets the irradiance of each leaf to the light of its links plus correction[leaf] [W/m^2], and
-  // updates the leaf's radiosity. `correction` is indexed by ElementId, or empty. Returns the largest change
-  // of a leaf's radiosity for each channel [W/m^2].
+  // Makes one sweep: sets the irradiance of each leaf to the light of its links plus correction[leaf]
+  // [W/m^2], and updates the leaf's radiosity. `correction` is indexed by ElementId, or empty. Sweep()
+  // returns the largest change of a leaf's radiosity for each channel [W/m^2].
   Rgb Sweep(IterationScheme scheme, std::span<const Rgb> correction);
 
   // Sets the irradiance of a leaf [W/m^2] and the resulting radiosity.
   void Light(ElementId leaf, const Rgb& irradiance);
-  // Sets the light of every parent to the area-weighted mean of its children.
+  // Sets irradiance and radiosity of every parent element to the area-weighted means over its children.
   void Pull();
-  // Computes RadiositySolution::radiosity_spread and spread_below.
+  // Computes RadiositySolution::radiosity_spread and spread_below of all elements.
   void UpdateSpreads();
 
   // The irradiance [W/m^2] that all elements receive over the links if the elements have the given
@@ -74,16 +74,18 @@ class PushPull {
   Rgb LightPatch(std::size_t patch, std::span<Rgb> pushed, std::span<const Rgb> correction);
 
   RadiositySolution& solution_;
-  std::vector<std::size_t> first_link_;      // of each element
-  std::vector<std::size_t> first_of_patch_;  // of each patch, in order_
-  std::vector<ElementId> order_;             // patch by patch, parents before children
+  std::vector<std::size_t> first_link_;      // index of each element's first link
+  std::vector<std::size_t> first_of_patch_;  // index of each patch's first element in order_
+  std::vector<ElementId> order_;             // all elements, patch by patch, parents before children
   std::vector<ElementId> leaves_;
-  std::vector<double> scale_;  // by element: the factor on the links' light, for leaves; or empty
+  // for each leaf, indexed by ElementId, the factor by which Balance() scales the light of links; or empty
+  std::vector<double> scale_;
 };
 
-// Sets the irradiance of all leaves, from `element`, which is indexed by ElementId, and of all fragments
-// [W/m^2], and the radiosities and spreads that follow from them. No light is reflected any further.
-// REQUIRES: there is one value for each element and each fragment.
+// Sets the irradiance of all leaves and of all fragments (parts of cut leaves) [W/m^2], and computes the
+// resulting radiosities and RadiositySolution::radiosity_spread. ReplaceIrradiance() adds no light by further
+// reflections. REQUIRES: `element` has one value for each ElementId, and `fragment` one value for each
+// fragment.
 void ReplaceIrradiance(std::span<const Rgb> element, std::span<const Rgb> fragment,
                        RadiositySolution& solution);
 

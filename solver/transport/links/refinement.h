@@ -1,6 +1,7 @@
 // solver/transport/links/refinement.h
 //
-// Refinement of links (thesis 4.4): chooses the links that are split, and the links that replace them.
+// Refinement of links between elements (thesis 4.4): chooses the links to be split, and the new links that
+// replace the split links.
 
 #pragma once
 
@@ -14,16 +15,17 @@
 
 namespace penumbra {
 
-// New links, and the links that they replace. The spans LinkCandidate::blockers refer to memory of the
-// solution's links.
+// New links, and the old links that the new links replace. The spans LinkCandidate::blockers refer to memory
+// of the solution's links.
 struct RefinementPlan {
-  std::vector<char> dropped;  // one flag for each link
+  std::vector<char> dropped;  // dropped[l] is 1 if old link l is replaced
   std::vector<LinkGroup> groups;
   std::size_t links_split = 0;
 };
 
-// Lets the oracle judge every link once. In the solution's forest, subdivides the elements that the oracle
-// wants to split. REQUIRES: `push_pull` is up to date with the solution's links.
+// Lets the refinement oracle judge every link once, and subdivides the elements of the solution's forest that
+// the oracle wants to split. REQUIRES: PushPull::Update() was called after the last change of the solution's
+// links.
 RefinementPlan PlanRefinement(RadiositySolution& solution, const PushPull& push_pull,
                               const RefinementOracle& oracle);
 

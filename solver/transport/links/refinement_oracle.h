@@ -1,7 +1,7 @@
 // solver/transport/links/refinement_oracle.h
 //
-// Refinement oracles decide which links have too large an error, and which end of such a link, receiver or
-// source, must be split (thesis 4.4).
+// Refinement oracles decide which links between elements have too large an error, and whether the receiver or
+// the source of an inaccurate link must be split (thesis 4.4).
 
 #pragma once
 
@@ -14,19 +14,21 @@ namespace penumbra {
 
 enum class Refinement : std::uint8_t { kAccept, kSplitReceiver, kSplitSource };
 
-// Judges links. Every oracle is a class in a file of its own; RefinementOracles() lists all oracles.
+// The interface of refinement oracles, which judge links. RefinementOracles() lists all refinement oracles.
 class RefinementOracle {
  public:
   virtual ~RefinementOracle() = default;
-  // Decides, given the current radiosities of the solution, whether to accept the link or which of its ends
-  // to split. May be called from several threads.
+  // Decides, given the current radiosities of the solution, whether to accept the link, to split its receiver
+  // or to split its source. Several threads may call Judge() at once.
   virtual Refinement Judge(const RadiositySolution& solution, const Link& link) const = 0;
 };
 
 struct OracleOptions {
-  double eps = 0.1;           // [W/m^2]
-  double min_area = 1e-5;     // [m^2]; an element smaller than four times this is not split
-  double reference_area = 1;  // [m^2]; area of an element for which eps is meant
+  double eps = 0.1;  // [W/m^2]
+  // smallest area of an element [m^2]; an element smaller than 4 * min_area is not split
+  double min_area = 1e-5;
+  // the area of an element [m^2] at which the error of a link is compared with eps itself
+  double reference_area = 1;
 };
 
 using OracleRegistry = Registry<const RefinementOracle, OracleOptions>;

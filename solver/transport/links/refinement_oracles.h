@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// All refinement oracles; the first is the default.
+// The registry of all refinement oracles; the first oracle in the registry is the default.
 OracleRegistry& RefinementOracles();
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // solver/transport/links/solution.h
 //
-// The result of the hierarchical solver (thesis, chapter 4): quadtrees, links with their blockers, and the
-// light of every element.
+// The solution of a radiosity solver (thesis, chapter 4): quadtrees of elements, links between elements with
+// their blockers, and the light of every element.
 
 #pragma once
 
@@ -17,26 +17,26 @@
 namespace penumbra {
 
 // The transport of light from a source element to a receiver element. Receiver and source may be at any level
-// of their quadtrees. Any two points that see each other have exactly one link in each direction between
-// elements that contain them.
+// of their quadtrees. For any two points that see each other, exactly one link in each direction connects
+// elements that contain the two points.
 struct Link {
   ElementId receiver = kNoElement, source = kNoElement;
   double form_factor =
-      0;  // F(receiver <- source) [1]: mean irradiance of the receiver per unit radiosity of the source
+      0;  // F(receiver <- source) [1]: (mean irradiance of the receiver) / (radiosity of the source)
   double variation = 0;  // root mean square deviation of the point form factors over the receiver [1]
   // share[k] = (form factor of quarter k of the source) / (form factor of the source); the sum over k is 1.
-  // With the fractions share[k], a source that has children sends the radiosities of its children instead of
-  // its mean radiosity.
+  // Weighted by the fractions share[k], a source that has children sends the radiosities of its four children
+  // instead of its mean radiosity.
   std::array<float, 4> share = {0.25F, 0.25F, 0.25F, 0.25F};
   // The root mean square deviation, over the source's quarters, of (form factor of the quarter) / (area of
-  // the quarter), divided by the mean of this ratio.
+  // the quarter), divided by the mean of (form factor of the quarter) / (area of the quarter).
   float source_variation = 0;
-  Visibility visibility = Visibility::kVisible;  // kVisible if and only if there are no blockers
+  Visibility visibility = Visibility::kVisible;  // kVisible if and only if the link has no blockers
   std::uint32_t first_blocker = 0, blocker_count = 0;
 };
 
 struct LinkSet {
-  std::vector<Link> links;  // ordered by receiver, then by source
+  std::vector<Link> links;  // links ordered by receiver, then by source
   std::vector<PatchId> blockers;
 
   std::span<const PatchId> Blockers(const Link& link) const {
@@ -44,17 +44,18 @@ struct LinkSet {
   }
 };
 
-// A convex piece of a leaf with its own radiosity. Leaves are cut along contacts, because the irradiances on
-// the two sides of a contact are unrelated. Leaves are also cut where radiosity varies, if other surfaces are
-// so close that the variation affects them.
+// A convex piece of a leaf (element without children) with its own radiosity. Leaves are cut along contacts,
+// where other surfaces touch the leaf, because the irradiances on the two sides of a contact are unrelated.
+// Leaves are also cut where radiosity varies and other surfaces are so close that the variation affects their
+// irradiance.
 struct Fragment {
   ElementId leaf = kNoElement;
-  Polygon3 polygon;                                       // [m], counter-clockwise from the front
-  double area = 0;                                        // [m^2]
+  Polygon3 polygon;  // vertices [m], counter-clockwise as seen from the front
+  double area = 0;   // [m^2]
   Rgb irradiance = Rgb::Zero(), radiosity = Rgb::Zero();  // [W/m^2]
 };
 
-// The fragments of a leaf. REQUIRES: `fragments` is sorted by leaf.
+// The fragments (convex pieces) of a leaf. REQUIRES: `fragments` is sorted by leaf.
 std::span<const Fragment> FragmentsOf(std::span<const Fragment> fragments, ElementId leaf);
 
 // The upper bound of RadiositySolution::rays_per_point.
@@ -63,27 +64,29 @@ inline constexpr std::size_t kMostRaysPerPoint = 10'000'000;
 struct RadiositySolution {
   ElementForest forest;
   LinkSet links;
-  // The fragments of all leaves that are cut, ordered by leaf. The irradiance and the radiosity of a leaf
-  // that is cut are the area-weighted means of its fragments.
+  // The fragments (convex pieces) of all leaves that are cut, ordered by leaf. The irradiance and the
+  // radiosity of a cut leaf are the area-weighted means over its fragments (convex pieces).
   std::vector<Fragment> fragments;
-  // For each element, its irradiance and its radiosity [W/m^2]. The value of a parent is the area-weighted
-  // mean of its children's values.
+  // The irradiance and the radiosity of each element [W/m^2]. Irradiance and radiosity of a parent element
+  // are the area-weighted means over its children.
   std::vector<Rgb> irradiance, radiosity;
   // For each element, the root mean square deviation of the radiosities of the leaves below the element from
-  // their mean [W/m^2]. The deviation of one leaf is the maximum over the channels.
+  // their mean [W/m^2]. In radiosity_spread, the deviation of one leaf's radiosity is the maximum over the
+  // channels.
   std::vector<double> radiosity_spread;
-  // The number of rays that each point casts to gather reflected light (FinalGather). If 0, points cast no
-  // rays, and PointIrradiance sums up the exact light of all leaves.
+  // The number of rays that each point casts to gather reflected light (FinalGather). If rays_per_point is 0,
+  // points cast no rays, and PointIrradiance sums up the exact light of all leaves.
   std::size_t rays_per_point = 0;
-  // For each element, the root mean square of radiosity_spread over its children [W/m^2]: the variation
-  // within the children, which remains if each child is represented by its mean radiosity.
+  // For each element, the root mean square of radiosity_spread over its children [W/m^2]: the error that
+  // remains if each child is represented by its mean radiosity.
   std::vector<double> spread_below;
 
   std::span<const Fragment> FragmentsOf(ElementId leaf) const {
     return penumbra::FragmentsOf(fragments, leaf);
   }
 
-  // The radiosity of the leaf or fragment that contains the point of the patch [W/m^2].
+  // The radiosity of the leaf, or of the fragment of a cut leaf, that contains the point of the patch
+  // [W/m^2].
   Rgb RadiosityAt(PatchId patch, const Vec3& point) const;
 };
 

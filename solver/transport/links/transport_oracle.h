@@ -6,8 +6,8 @@
 
 namespace penumbra {
 
-// An AreaWeightedOracle with deviation(F) = Link::variation, the deviation of the point form factors at the
-// points where the link was sampled.
+// A refinement oracle (AreaWeightedOracle) with deviation(F) = Link::variation, the deviation of the link's
+// point form factors over sample points of the receiver.
 OracleRegistry::Method TransportOracleMethod();
 
 }  // namespace penumbra

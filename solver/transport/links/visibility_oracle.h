@@ -6,8 +6,8 @@
 
 namespace penumbra {
 
-// Like the oracle of TransportOracleMethod(), but with twice the deviation for links with blockers, because
-// shadows may fall between the sample points.
+// A refinement oracle like that of TransportOracleMethod(), but with twice the deviation of the form factor
+// for links with blockers, because shadows may fall between the sample points.
 OracleRegistry::Method VisibilityOracleMethod();
 
 }  // namespace penumbra

@@ -1,8 +1,8 @@
 // solver/transport/points/factor_row.h
 //
-// The form factors of one point to nodes of the source trees: one row of the transport operator. Irradiance
-// is linear in the radiosities, so a row that is kept gives the irradiance for any later radiosities of the
-// same sources as a product, without a look at the scene.
+// A FactorRow holds the form factors of one point to nodes of the sources' quadtrees: one row of the light
+// transport operator. Irradiance is linear in the radiosities. For new radiosities of the same sources, a
+// stored FactorRow therefore gives the irradiance as a sum of products, without new visibility tests.
 
 #pragma once
 
@@ -16,34 +16,36 @@
 
 namespace penumbra {
 
-// The light of a node at the point: factor * (mean radiosity of the node) + (slope of the node) * moment.
+// The irradiance that one source node brings to the point: factor * (mean radiosity of the node) + (slope of
+// the node's radiosity) * moment.
 struct FactorTerm {
   double factor = 0;       // form factor to the visible part of the node [1]
-  std::int32_t node = -1;  // index in the source set
-  // What weighs the slope of the node's radiosity: factor * (centroid of the visible part - centre of the
-  // node), or a first-order estimate of it [m].
+  std::int32_t node = -1;  // index of the node in the SourceSet
+  // The weight of the slope of the node's radiosity: factor * (centroid of the node's visible part - centre
+  // of the node), or a first-order estimate of this product [m].
   std::array<float, 3> moment = {0, 0, 0};
-  // The error of the term, relative to factor * radiosity, is about `by_spread` times the spread of the node
-  // plus `by_residual` times its residual (SourceSet::Node).
+  // The relative error of the term is about by_spread * Node::spread + by_residual * Node::residual, where
+  // `spread` and `residual` describe the variation of radiosity over the source node (SourceSet::Node).
   float by_spread = 0, by_residual = 0;
 };
 
 struct FactorRow {
-  // The terms of one source.
+  // The terms of one source patch in the row.
   struct Source {
     PatchId patch = kNoPatch;
-    std::uint32_t first = 0, end = 0;  // range in `terms`
+    std::uint32_t first = 0, end = 0;  // range of the source's terms in `terms`
     float unhindered = 0;              // form factor to the whole patch without blockers [1]
   };
   std::vector<Source> sources;
   std::vector<FactorTerm> terms;
-  double returned = 0;  // the largest SentBack() of the sources [1]
+  // the largest fraction of the point's light that returns after one reflection at a source (SentBack) [1]
+  double returned = 0;
 };
 
-// The irradiance from the terms [first, end) of a row [W/m^2]. Linear in the radiosities of the set; it may
-// be negative by the error of the slopes.
+// The irradiance from the terms [first, end) of a row [W/m^2]. The irradiance from a range of terms is linear
+// in the radiosities of the SourceSet, and may be slightly negative because of errors of the slopes.
 Rgb Irradiance(const FactorRow& row, std::uint32_t first, std::uint32_t end, const SourceSet& sources);
-// The irradiance of the whole row, at least 0 [W/m^2].
+// The irradiance from all terms of the row, clamped to values >= 0 [W/m^2].
 Rgb Irradiance(const FactorRow& row, const SourceSet& sources);
 
 }  // namespace penumbra

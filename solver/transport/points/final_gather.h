@@ -1,13 +1,14 @@
 // solver/transport/points/final_gather.h
 //
 // Final gathering (Reichert 1992): the irradiance at a point from a solution whose light is known on average
-// over elements. Direct light comes by shadow rays (ShadowRays). Reflected light comes along rays in a fixed,
-// cosine-distributed pattern of directions: each ray brings the reflected radiosity of the element that it
-// hits. All points with the same normal use the same directions, so that neighbouring points differ smoothly
-// and show no noise. The cost does not depend on how many polygons a scene has, but for the logarithm in each
-// ray.
+// over elements. Direct light is computed by shadow rays (ShadowRays). Reflected light is gathered by rays in
+// a fixed, cosine-distributed pattern of directions: each ray brings the reflected radiosity of the element
+// that the ray hits. All points with the same normal use the same ray directions, so that the irradiance of
+// neighbouring points varies smoothly, without noise. The cost of a final gather grows only with the
+// logarithm of the number of polygons in the scene.
 //
-// The median relative error of n rays, measured in a scene of 5,802 patches, is about 0.1 / sqrt(n).
+// The median relative error of a final gather with n rays is about 0.1 / sqrt(n), measured in a scene of
+// 5,802 patches.
 
 #pragma once
 
@@ -24,42 +25,45 @@
 namespace penumbra {
 
 struct FinalGatherOptions {
-  std::size_t rays = 1024;  // for reflected light
+  std::size_t rays = 1024;  // number of rays for reflected light
   ShadowRayEffort shadows;
-  std::uint64_t seed = 0;  // of the pattern of directions
-  // If false, a ray brings the radiosity that the solution stores for the element at the hit. If true, the
-  // irradiance at the hit is computed anew: direct light by shadow rays from the hit, reflected light by one
-  // more ray. This is much slower. Errors of the stored elements then affect only light that was reflected
-  // at least twice, and the light of luminaires.
+  std::uint64_t seed = 0;  // seed of the pattern of ray directions
+  // If `regather` is false, a ray brings the radiosity that the solution stores for the element at the hit.
+  // If `regather` is true, the irradiance at the hit is computed anew: direct light by shadow rays from the
+  // hit, reflected light by one more ray. Gathering with `regather` is much slower. With `regather`, errors
+  // of the stored radiosities affect only light that was reflected at least twice, and the light of strongly
+  // reflecting elements.
   bool regather = false;
 };
 
 class FinalGather {
  public:
-  // Copies what is needed of the solution, whose scene must outlive the object.
+  // Copies the required data of the solution. The scene of the solution must outlive the FinalGather.
   explicit FinalGather(const RadiositySolution& solution, const FinalGatherOptions& options);
 
-  // The irradiance at a point [W/m^2]. `parts`, unless null, gets the direct light and the contributions, but
-  // no gradient. May be called from any thread.
+  // The irradiance at a point [W/m^2]. If `parts` is not null, At() sets the direct light and the
+  // contributions in `parts`, but no gradient. Any thread may call At().
   Rgb At(const ReceiverPoint& at, IrradianceParts* parts = nullptr) const;
 
-  // The most points that one call of AtAll() takes.
+  // The largest number of points in one call of AtAll().
   static constexpr std::size_t kTogether = RayCaster::kPacket;
-  // Sets irradiance[i] to the irradiance at points[i]. Rays of neighbouring points are traced together. The
-  // values differ from those of At() only because all points share the choice of weak luminaires
-  // (ShadowRays). REQUIRES: at most kTogether points with equal normals, and as many values.
+  // Sets irradiance[i] to the irradiance at points[i]. Rays of neighbouring points are traced together as a
+  // packet. Values of AtAll() differ from those of At() only because all points of a call send shadow rays to
+  // the same places on weak emitters (ShadowRays). REQUIRES: `points` has at most kTogether points, with
+  // equal normals; `irradiance` has the same size.
   void AtAll(std::span<const ReceiverPoint> points, std::span<Rgb> irradiance) const;
 
-  // Bit i of the result tells whether another surface stands on that of points[i], so near that light may
-  // jump there: the irradiance is then a limit for the point's approach. REQUIRES: as AtAll().
+  // Bit i of the result is set if another surface touches the surface at points[i], so that the irradiance
+  // may jump at the point. At a point whose bit is set, the irradiance is a one-sided limit from the
+  // direction ReceiverPoint::approach. REQUIRES: `points` has at most kTogether points, with equal normals.
   std::uint32_t AreOneSided(std::span<const ReceiverPoint> points) const;
 
-  // The same light, gathered in another way.
+  // A FinalGather from the same solution with other options.
   FinalGather With(const FinalGatherOptions& options) const;
   const FinalGatherOptions& options() const { return options_; }
 
  private:
-  // The parts that do not depend on the options.
+  // The data of a FinalGather that do not depend on FinalGatherOptions.
   struct Shared;
   FinalGather(std::shared_ptr<const Shared> shared, const FinalGatherOptions& options);
   void MakeDirections();
@@ -69,7 +73,7 @@ class FinalGather {
 
   std::shared_ptr<const Shared> shared_;
   FinalGatherOptions options_;
-  std::vector<Vec3> directions_;  // in the frame of the normal
+  std::vector<Vec3> directions_;  // ray directions, in a frame whose z axis is the surface normal
 };
 
 }  // namespace penumbra

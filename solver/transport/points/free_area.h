@@ -1,8 +1,8 @@
 // solver/transport/points/free_area.h
 //
-// The free area of each patch: the area that is not covered by other objects. For example, a box on a floor
-// covers a part of the floor, which no light reaches; the sum of the floor's form factors is therefore (free
-// area) / area instead of 1.
+// The free area of each patch: the area that other objects do not cover. For example, a box on a floor covers
+// a part of the floor, which no light reaches. The sum of the floor's form factors is therefore (free area) /
+// area instead of 1.
 
 #pragma once
 
@@ -15,29 +15,32 @@
 
 namespace penumbra {
 
-// A part of a patch's front between contacts, and what its middle sees.
+// One of the parts into which contacts (lines where other surfaces touch) divide a patch, with the kinds of
+// surfaces that the part's centroid sees.
 struct ContactPart {
   Polygon3 polygon;  // convex, in the plane of the patch
   double area = 0;   // [m^2]
   bool sees_fronts = false;
-  bool sees_sky = false;  // known only where it sees no fronts
+  bool sees_sky = false;  // computed only if sees_fronts is false
 };
 
-// The parts of each patch. The function uses several threads; the result does not depend on their number, and
-// is useless if the context is cancelled.
+// The parts into which contacts, the lines where other surfaces touch, divide each patch. ContactParts() uses
+// several threads; the parts do not depend on the number of threads. If the computation is cancelled
+// (ExecutionContext), the parts must not be used.
 std::vector<std::vector<ContactPart>> ContactParts(const Scene& scene,
                                                    const ExecutionContext& context = ExecutionContext());
 
-// The area of each group of faces' parts that nothing covers: what sees fronts or the sky [m^2]. `parts` are
-// the ContactParts() of the scene.
+// For each group of parts of faces, the area that no other object covers [m^2]: the area of those parts that
+// see the front of a patch, or the sky. `parts` is the result of ContactParts() for the scene.
 std::vector<double> UncoveredAreas(const Scene& scene, const std::vector<std::vector<ContactPart>>& parts,
                                    const std::vector<std::vector<AreaPart>>& groups);
 
-// Contacts divide a patch into parts. The free area of the patch is the total area of those parts that see
-// the front of another patch [m^2]. The result is exact, except for slivers that CutLeavesAtContacts() does
-// not cut off and for light through gaps that count as closed (ContactGap). In an open scene, the area of
-// a part that sees only the sky is not counted. The function uses several threads; the result does not depend
-// on their number. The result is useless if the context is cancelled.
+// Contacts, the lines where other surfaces touch a patch, divide the patch into parts. The free area of a
+// patch is the total area of those parts that see the front of another patch [m^2]. Free areas are exact,
+// except for slivers that CutLeavesAtContacts() does not cut off, and for light through gaps narrower than
+// ContactGap(), which count as closed. In an open scene, parts that see only the sky do not count as free
+// area. FreeAreas() uses several threads; the areas do not depend on the number of threads. If the
+// computation is cancelled (ExecutionContext), the areas must not be used.
 std::vector<double> FreeAreas(const Scene& scene, const ExecutionContext& context = ExecutionContext());
 
 }  // namespace penumbra

@@ -17,20 +17,23 @@
 namespace penumbra {
 
 struct PointIrradianceOptions {
-  // The method that computes which part of a source is visible. Null selects the fastest exact method.
+  // The method that computes which part of a source is visible. If `method` is null, the fastest exact
+  // visibility method is used.
   const OcclusionMethod* method = nullptr;
-  // The thesis does not use one-sided limits, but moves points and sources slightly (6.3, 6.4, Appendix A).
-  // The options nudge and source_push_off imitate the thesis, for comparison: a point with an approach
-  // direction is moved along the approach by `nudge` [m], and sources are moved along the receiver's normal
-  // by `source_push_off` [m].
+  // Where surfaces touch, the thesis does not use one-sided limits of irradiance, but moves points and
+  // sources slightly (6.3, 6.4, Appendix A). The options `nudge` and `source_push_off` imitate the thesis,
+  // for comparison. `nudge` is the distance [m] by which a point is moved in the direction of its one-sided
+  // limit (ReceiverPoint::approach). `source_push_off` is the distance by which sources are moved along the
+  // receiver's normal [m].
   double nudge = 0;
   double source_push_off = 0;
-  // If `method` is null and min_backprojection_segment is positive, the method is Backprojection, which
-  // collapses segments of blockers' outlines that are shorter than min_backprojection_segment * (diameter of
-  // the source's image).
+  // If `method` is null and min_backprojection_segment is positive, the visibility method is Backprojection.
+  // Backprojection then collapses segments of blockers' outlines that are shorter than
+  // min_backprojection_segment * (diameter of the source's image).
   double min_backprojection_segment = 0;
   // PointIrradiance::NearlyOnPatch() multiplies its tolerance by part_of_tolerance [1]. In nearly white
-  // rooms, the factor must be small: light that a sample omits is missing in each of many bounces.
+  // rooms, part_of_tolerance must be small, because light that a sample omits is missing in each of many
+  // bounces.
   double part_of_tolerance = 1;
 };
 
@@ -43,68 +46,71 @@ struct PatchContribution {
 // The gradient of irradiance [W/m^3]: row c holds the derivatives of channel c with respect to x, y and z.
 using IrradianceGradient = Eigen::Matrix3d;
 
-// The parts of the irradiance at a point.
+// Details of the irradiance at a point: the direct light, the gradient, and the contribution of each patch.
 struct IrradianceParts {
-  Rgb direct = Rgb::Zero();  // from emittance [W/m^2]
-  // The gradient with respect to the position of the point, with a fixed normal. Edges through the point
-  // contribute nothing to the gradient.
+  Rgb direct = Rgb::Zero();  // irradiance from emitted light, without reflection [W/m^2]
+  // The gradient of irradiance with respect to the position of the point, with a fixed normal. Edges of
+  // surfaces that pass through the point contribute nothing to the gradient.
   IrradianceGradient gradient = IrradianceGradient::Zero();
   std::vector<PatchContribution>
-      contributions;  // of the patches that light the point, in the order of AddSource()
+      // the contributions of all patches that light the point, in the order of the calls of AddSource()
+      contributions;
 };
 
-// The fraction of a point's light that returns to the point after one reflection at `source`: the maximum
-// over the channels of rho rho' F^2, where rho is the reflectance of `patch`, on which the point lies, rho'
-// is the reflectance of `source`, and F = `factor` is the form factor of the point to `source`.
+// The fraction of a point's light that returns to the point after one reflection at the patch `source`: the
+// maximum over the channels of rho rho' F^2, where rho is the reflectance of `patch`, on which the point
+// lies, rho' is the reflectance of `source`, and F = `factor` is the form factor of the point to `source`.
 double SentBack(const Scene& scene, PatchId patch, PatchId source, double factor);
 
-// The error that the terms of one source may cause, relative to `light`, the source's light without blockers:
-// (1 - returned)^2 tolerance * (a fifth of `known` / light), for the channel where it is smallest. `known` is
-// the irradiance of the point. A dim source may err more, since a point has many sources, whose errors have
-// different signs; in a slot, where the fraction `returned` of the light comes back (SentBack), errors add
-// up.
+// The allowed error of the light of one source, relative to `light`, the source's irradiance without
+// blockers. The allowed error is (1 - returned)^2 * tolerance * (known / light) / 5, in the channel where it
+// is smallest; `known` is the irradiance of the point. A dim source may have a larger relative error, since a
+// point has many sources, whose errors have different signs. In a narrow slot, a large fraction `returned` of
+// the light returns to its origin (SentBack), so that errors add up.
 double AggregateTolerance(double tolerance, double returned, const Rgb& light, const Rgb& known);
 
-// A Gathering must be a local variable, because it borrows its buffers from the thread that creates it
-// (Scratch).
+// Computes the irradiance at one point, source by source. A Gathering must be a local variable, because the
+// Gathering borrows buffers from the thread that creates it (Scratch).
 class Gathering {
  public:
   // If options.method is null, blockers are cut out of the whole quadtree of a source at once, which is
-  // fastest. If options.method is not null, the method computes the form factor of every polygon that
-  // blockers cover in part. `parts` may be null. All arguments must outlive the object.
+  // fastest. If options.method is not null, this method computes the form factor of every source polygon that
+  // blockers hide in part. `parts` may be null. All arguments must outlive the Gathering.
   Gathering(const Scene& scene, const SourceSet& sources, const ReceiverPoint& at,
             const PointIrradianceOptions& options, IrradianceParts* parts);
   ~Gathering();
   Gathering(const Gathering&) = delete;
   Gathering& operator=(const Gathering&) = delete;
 
-  // Adds the light of the patch `source`. The blockers are those candidates that lie between the point and
-  // the source. `own`, the receiver's patch, does not block.
+  // Adds the light of the patch `source`. Those patches of `candidates` that lie between the point and the
+  // source block light. The patch `own`, on which the receiver point lies, does not block light.
   void AddSource(PatchId source, std::span<const PatchId> candidates, PatchId own);
-  // Like AddSource() above, with all patches of the hierarchy as candidates. `screens` are patches that may
-  // hide large parts of the view.
+  // Adds the light of the patch `source`; all patches in the bounding volume hierarchy `patches` may block
+  // light. `screens` are patches that may hide large parts of the view at once.
   void AddSource(PatchId source, const PatchHierarchy& patches, std::span<const Screen> screens);
 
   // Makes subsequent calls of AddSource() add the form factor of each leaf l of the source set to factors[l].
   void RecordFactors(std::span<double> factors) { factors_ = factors; }
 
-  // From now on, adds the sources and their terms to the row. REQUIRES: AllowAggregates() has been called,
-  // and the options name no method.
+  // Makes subsequent calls of AddSource() append the form factors of the source to `row`. REQUIRES:
+  // AllowAggregates() has been called, and PointIrradianceOptions::method is null.
   void RecordRow(FactorRow& row) { row_ = &row; }
 
   // Allows subsequent calls of AddSource() to replace a subtree of a source by an aggregate, one polygon with
-  // one radiosity, for speed. The aggregates of a source may cause an error of about T max(L, c S), where L
-  // is the unoccluded light of the source, S the light of all sources added earlier, c < 1 a constant, T = (1
-  // - r)^2 * tolerance, and r the largest SentBack() of the sources added so far. Sources should therefore be
-  // added in order of decreasing brightness. S is at
-  // least `known`, the approximate irradiance of the point. At a point that is `mostly_hidden` from the
-  // light, the error may be about T c S. REQUIRES: the point lies on a patch.
+  // one radiosity, for speed. The aggregates of a source may cause an error of about tolerance *
+  // max(unoccluded light of the source, c * light of all sources added earlier), with a constant c < 1.
+  // Gathering reduces this tolerance by the factor (1 - r)^2, where r is the largest SentBack() of the
+  // sources added so far. Because the allowed error grows with the light of earlier sources, sources should
+  // be added in order of decreasing brightness. If `known`, the approximate irradiance of the point, exceeds
+  // the light of all sources added earlier, `known` replaces this light in the allowed error. If
+  // `mostly_hidden` is true, blockers hide most of the light at the point, and the allowed error does not
+  // depend on the unoccluded light of the source. REQUIRES: the point lies on a patch.
   void AllowAggregates(double tolerance, const Rgb& known = Rgb::Zero(), bool mostly_hidden = false);
-  // The irradiance from the sources added so far if no blocker hid any part of them [W/m^2]. Sources that are
-  // hidden completely are excluded. REQUIRES: AllowAggregates() was called.
+  // The irradiance that the sources added so far would give without blockers [W/m^2]. unhindered() excludes
+  // sources that blockers hide completely. REQUIRES: AllowAggregates() was called.
   const Rgb& unhindered() const { return unhindered_; }
-  // True if sources that contribute at most `light` in total may be omitted: in every channel, light <= T S /
-  // 4, with T and S as in the comment on AllowAggregates().
+  // True if sources that contribute at most `light` in total may be omitted: in every channel, `light` is at
+  // most (reduced tolerance of AllowAggregates()) / 4 * (light of the sources added so far).
   bool IsNegligible(const Rgb& light) const;
 
   const Rgb& irradiance() {
@@ -148,24 +154,25 @@ class Gathering {
   const OcclusionMethod* method_;
   IrradianceParts* parts_;
   PointView view_;
-  std::vector<Occluder>& occluders_;  // of the current source
+  std::vector<Occluder>& occluders_;  // occluders of the current source
   Scratch<Buffers> buffers_;
-  Clipper& clipper_;  // one of the buffers
+  Clipper& clipper_;  // the clipper in buffers_
   double tolerance_ = 0;
-  Rgb known_ = Rgb::Zero();       // approximate irradiance of the point; zero: unknown
-  bool mostly_hidden_ = false;    // see AllowAggregates()
-  Rgb unhindered_ = Rgb::Zero();  // see unhindered(); set if tolerance_ > 0
+  Rgb known_ = Rgb::Zero();     // approximate irradiance of the point; zero: unknown
+  bool mostly_hidden_ = false;  // true if blockers hide most of the light at the point; see AllowAggregates()
+  Rgb unhindered_ = Rgb::Zero();  // irradiance without blockers, unhindered(); set if tolerance_ > 0
   Rgb so_far_ = Rgb::Zero();      // approximate light of the completed sources; set if tolerance_ > 0
-  double returned_ = 0;           // largest SentBack() of the sources so far; set if tolerance_ > 0
-  // Data of the current source, if tolerance_ > 0: the tolerance for its light, its normal, and the
-  // unoccluded form factor of its polygon above the horizon.
+  // largest fraction of light that a source so far sends back (SentBack); set if tolerance_ > 0
+  double returned_ = 0;
+  // Data of the current source, if tolerance_ > 0: the tolerance for the source's light, the source's normal,
+  // and the unoccluded form factor of the source's part above the horizon.
   double tolerance_here_ = 0;
   Vec3 source_normal_ = Vec3::Zero();
   double whole_ = 0;
-  double factor_ = 0;  // of the current source, so far
+  double factor_ = 0;  // form factor of the current source, so far
   Rgb irradiance_ = Rgb::Zero();
-  std::span<double> factors_;  // for each leaf of the set; empty: not recorded
-  FactorRow* row_ = nullptr;   // null: not recorded
+  std::span<double> factors_;  // form factor of each leaf of the source set; empty: not recorded
+  FactorRow* row_ = nullptr;   // the row to which form factors are appended; null: none
 };
 
 }  // namespace penumbra

@@ -1,8 +1,9 @@
 // solver/transport/points/leaf_visibility.h
 //
-// The sources that each leaf sees, and the blockers before each source. The lists of a leaf are derived from
-// the lists of its patch: each level of the quadtree removes sources and blockers by means of narrower tubes,
-// so that few blockers remain to be tested at a point of the leaf.
+// The source patches that each leaf (undivided quadtree element) sees, and the blockers before each source.
+// The lists of sources and blockers of a leaf are derived from the lists of the leaf's patch. Each level of
+// the quadtree removes sources and blockers that lie outside narrower tubes (convex hulls of element and
+// source), so that few blockers remain to be tested at a point of the leaf.
 
 #pragma once
 
@@ -19,7 +20,7 @@ namespace penumbra {
 class LeafVisibility {
  public:
   LeafVisibility() = default;
-  // The object is useless if the context is cancelled.
+  // If the computation is cancelled (ExecutionContext), the LeafVisibility must not be used.
   LeafVisibility(const ElementForest& forest, const PatchVisibility& patches,
                  const ExecutionContext& context = ExecutionContext());
 
@@ -36,7 +37,7 @@ class LeafVisibility {
 
  private:
   std::vector<std::pair<std::size_t, std::size_t>>
-      range_;  // of each element, in pairs_; empty unless the element is a leaf
+      range_;  // range of each element's sources in pairs_; empty unless the element is a leaf
   std::vector<PatchPair> pairs_;
   std::vector<PatchId> blockers_;
 };
@@ -45,10 +46,10 @@ class LeafVisibility {
 // call after construction or Reset().
 class LeafVisibilityCache {
  public:
-  // Returns null if the context is cancelled.
+  // Get() returns null if the computation is cancelled (ExecutionContext).
   std::shared_ptr<const LeafVisibility> Get(const ElementForest& forest, const PatchVisibility& patches,
                                             const ExecutionContext& context);
-  // Must be called after leaves have changed.
+  // Reset() must be called after leaves have changed.
   void Reset() { found_.reset(); }
 
  private:

@@ -11,17 +11,18 @@
 
 namespace penumbra {
 
-// Among the patches that a polygon sees, those that may be the nearest ones to some point of the polygon. The
-// distances of patches() bound the solid angle that the polygon fills as seen from other patches.
+// Finds, among the patches that a polygon sees, those patches that may be the nearest patch to some point of
+// the polygon. The distance to the nearest patch bounds the solid angle that the polygon subtends at points
+// of other patches.
 class NearestPatches {
  public:
-  // The scene must outlive the object.
+  // The scene must outlive the NearestPatches object.
   NearestPatches(const Scene& scene, std::span<const Vec3> polygon, std::span<const PatchPair> seen);
 
   std::span<const PatchId> patches() const { return patches_; }
   // The distance from the point to the nearest point of the patch [m].
   double DistanceTo(PatchId patch, const Vec3& point) const;
-  // The distance from the point to the nearest of patches() [m]; infinite if patches() is empty.
+  // The distance from the point to the nearest patch in patches() [m]; infinite if patches() is empty.
   double Distance(const Vec3& point) const;
 
  private:

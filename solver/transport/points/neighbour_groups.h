@@ -1,6 +1,6 @@
 // solver/transport/points/neighbour_groups.h
 //
-// Groups of points whose rays can be traced together.
+// Groups of neighbouring points whose rays can be traced together as packets.
 
 #pragma once
 
@@ -12,8 +12,9 @@
 
 namespace penumbra {
 
-// The numbers of all points, each once, in groups of neighbours with equal normals: at most `most` in each
-// group, ordered along a curve that fills space. REQUIRES: most > 0.
+// Divides the points into groups of at most `most` neighbours with equal normals, and returns the indices of
+// the points in each group. Points with equal normals are ordered along a space-filling curve (Morton).
+// REQUIRES: most > 0.
 std::vector<std::vector<std::size_t>> GroupNeighbours(std::span<const ReceiverPoint> points,
                                                       std::size_t most);
 

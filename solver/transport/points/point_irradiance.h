@@ -1,12 +1,13 @@
 // solver/transport/points/point_irradiance.h
 //
-// IrradianceAtPoint() (thesis, chapter 6): the irradiance at a point from the leaves of a solution, with
-// exact form factors and exact visibility. Blockers are cut out of the sources, never sampled, unless the
-// solution says otherwise (RadiositySolution::rays_per_point): then FinalGather gives the irradiance.
+// The irradiance at a point from the leaves of a radiosity solution, with exact form factors and exact
+// visibility (the thesis's IrradianceAtPoint, chapter 6). Blockers are cut out of the sources analytically,
+// without sampling. Only if RadiositySolution::rays_per_point is positive, rays sample the irradiance instead
+// (FinalGather).
 //
-// At contacts (thesis 6.3, 6.4), the irradiance is a one-sided limit, and no small distance is involved: if
-// the plane of a source or a blocker contains the point, the point's approach direction decides on which side
-// of the plane the point lies.
+// At contacts, where surfaces touch, the irradiance is a one-sided limit (thesis 6.3, 6.4). The one-sided
+// limit is computed without a small offset: if the plane of a source or a blocker contains the point, the
+// point's approach direction decides on which side of the plane the point lies.
 
 #pragma once
 
@@ -32,20 +33,20 @@ namespace penumbra {
 
 struct PointIrradianceResult {
   Rgb irradiance = Rgb::Zero();  // [W/m^2]
-  // True if the irradiance is a limit that depends on the approach direction. A one-sided limit may be
-  // different for another approach direction; triangles on different sides of a contact must therefore not
-  // share a one-sided sample.
+  // True if the irradiance is a one-sided limit, which depends on the direction from which the point is
+  // approached. Triangles on different sides of a contact (line where another surface touches) must not share
+  // a one-sided irradiance sample, because their one-sided limits may differ.
   bool one_sided = false;
-  // The form factors that led to the value; null if they were not asked for.
+  // The form factors from which the irradiance was computed; null if they were not requested.
   std::shared_ptr<FactorRow> row = nullptr;
-  // The standard error of the irradiance, as far as it is known from independent samples [W/m^2].
+  // The standard error of the irradiance [W/m^2]; 0 if no independent samples give a standard error.
   Rgb deviation = Rgb::Zero();
 };
 
-// Sources that stand for those of some patches, at points that need them finer.
+// Finer sources that replace the sources of some patches, for points where the finer division matters.
 struct DividedSources {
-  std::vector<PatchId> patches;  // in ascending order
-  SourceSet sources;             // of these patches only
+  std::vector<PatchId> patches;  // patches whose sources are replaced, in ascending order
+  SourceSet sources;             // the finer sources of `patches`, and of no other patches
 };
 
 // A point on the front of a patch.
@@ -56,47 +57,51 @@ struct PatchPoint {
 
 class PointIrradiance {
  public:
-  // Irradiance from the leaves of a solution. If `leaves` is null, the constructor computes the visibility of
-  // the leaves. All arguments passed by reference must outlive the object.
+  // Computes irradiance from the leaves of a radiosity solution. If `leaves` is null, the constructor
+  // computes the visibility of the leaves. All arguments passed by reference must outlive the
+  // PointIrradiance.
   PointIrradiance(const RadiositySolution& solution, const PatchVisibility& visibility,
                   const PointIrradianceOptions& options = {},
                   std::shared_ptr<const LeafVisibility> leaves = nullptr);
-  // Irradiance from any set of sources, such as the emitters. For a point on a patch, `visibility` gives the
-  // sources and blockers to be tested.
+  // Computes irradiance from any set of sources, such as the emitters. For a point on a patch, `visibility`
+  // lists the sources and blockers to be tested.
   PointIrradiance(const Scene& scene, const PatchVisibility& visibility, SourceSet sources,
                   const PointIrradianceOptions& options = {});
 
-  // A copy of this object with other sources.
+  // A copy of this PointIrradiance with other sources.
   PointIrradiance WithSources(SourceSet sources) const;
 
-  // The irradiance at a point on the front of a patch. Tests only the sources that the leaf at the point may
-  // see and their blockers; without a solution, those that the patch may see. The patch itself neither lights
-  // nor blocks. If `parts` is not null, sets it to the parts of the irradiance. May be called from any
-  // thread.
+  // The irradiance at a point on the front of a patch. OnPatch() tests only the sources that the leaf at the
+  // point may see, and the blockers of these sources. Without a solution, OnPatch() tests the sources and
+  // blockers that the patch may see. The patch itself neither lights the point nor blocks light. If `parts`
+  // is not null, OnPatch() sets `parts` to the parts of the irradiance. Any thread may call OnPatch().
   PointIrradianceResult OnPatch(PatchId patch, const ReceiverPoint& at,
                                 IrradianceParts* parts = nullptr) const;
 
-  // Like OnPatch(), but within a relative tolerance; for the samples of interpolants. A subtree of a source
-  // may be replaced by one polygon with one radiosity if this changes the light of the source by a fraction
-  // of at most about `tolerance` (Gathering::AllowAggregates).
+  // Like OnPatch(), but with a relative error of about `tolerance`, for the samples of interpolants. A
+  // subtree of a source may be replaced by one polygon with one radiosity if this changes the light of the
+  // source by a fraction of at most about `tolerance` (Gathering::AllowAggregates).
   PointIrradianceResult NearlyOnPatch(PatchId patch, const ReceiverPoint& at, double tolerance) const;
 
-  // True if rays give the irradiance (RadiositySolution::rays_per_point > 0).
+  // True if the irradiance is sampled by rays (RadiositySolution::rays_per_point > 0).
   bool IsSampled() const { return gather_.has_value(); }
   // Sets results[i] to the irradiance at points[i], in parallel. Rays of neighbouring points are traced
-  // together, which takes less time than NearlyOnPatch() for each point. The values differ from those of
-  // NearlyOnPatch() only because neighbours share the choice of weak luminaires (ShadowRays); they do not
-  // depend on the number of threads.
-  // REQUIRES: IsSampled(), and the sizes are equal.
+  // together, which takes less time than a call of NearlyOnPatch() for each point. Values of SampleTogether()
+  // differ from those of NearlyOnPatch() only because neighbouring points send shadow rays to the same places
+  // on weak emitters (ShadowRays). The sampled values do not depend on the number of threads. REQUIRES:
+  // IsSampled() is true, and `points` and `results` have equal sizes.
   void SampleTogether(std::span<const PatchPoint> points, std::span<PointIrradianceResult> results) const;
 
-  // NearlyOnPatch(), and the row of form factors in the result, if CanRecord(). Every source that lights the
-  // point has terms in the row, however dim.
+  // Like NearlyOnPatch(), but also sets PointIrradianceResult::row to the form factors of the point, if
+  // CanRecord() is true. Every source that lights the point, however dim, has terms in the row of form
+  // factors.
   PointIrradianceResult RecordOnPatch(PatchId patch, const ReceiverPoint& at, double tolerance) const;
   bool CanRecord() const { return options_.method == nullptr && forest_ != nullptr && !gather_; }
-  // Replaces, in a row of these sources, the terms of sources that do not hold to a few times the tolerance
-  // for the present radiosities: since a node's radiosity varies too much, or a term has no node (-1). Adds
-  // the terms of `new_sources`. Returns the number of sources that were gathered. REQUIRES: CanRecord().
+  // Brings a row of form factors up to date with the present radiosities of sources(). Renew() replaces the
+  // terms of each source whose error would exceed a few times `tolerance`, because the radiosity varies too
+  // much over one of its nodes or because a term has no node (-1). Renew() also adds the terms of
+  // `new_sources`. Renew() returns the number of sources whose form factors were computed anew. REQUIRES:
+  // CanRecord() is true.
   std::size_t Renew(PatchId patch, const ReceiverPoint& at, double tolerance,
                     std::span<const PatchId> new_sources, FactorRow& row) const;
 
@@ -106,12 +111,12 @@ class PointIrradiance {
 
   const SourceSet& sources() const { return sources_; }
 
-  // The patches that a leaf of the solution sees. REQUIRES: the object was made from a solution.
+  // The patches that a leaf of the solution sees. REQUIRES: this PointIrradiance was made from a solution.
   std::span<const PatchPair> SeenFrom(ElementId leaf) const { return leaves_->SourcesOf(leaf); }
 
   // The irradiance at any point, also in free space. Any patch may light the point or block light; a bounding
-  // volume hierarchy finds the patches that matter. If `divided` is not null, it gives the light of the
-  // patches that it names. May be called from any thread.
+  // volume hierarchy finds the patches that matter. If `divided` is not null, the finer sources in `divided`
+  // replace the sources of the patches that `divided` lists. Any thread may call Anywhere().
   PointIrradianceResult Anywhere(const ReceiverPoint& at, IrradianceParts* parts = nullptr,
                                  const DividedSources* divided = nullptr) const;
 
@@ -123,7 +128,7 @@ class PointIrradiance {
   void GatherBrightestFirst(PatchId patch, const ReceiverPoint& at, DimSources dim,
                             Gathering& gathering) const;
   struct KnownLight {
-    Rgb arrives = Rgb::Zero(), unhindered = Rgb::Zero();  // with and without blockers [W/m^2]
+    Rgb arrives = Rgb::Zero(), unhindered = Rgb::Zero();  // irradiance with and without blockers [W/m^2]
     bool mostly_hidden = false;
   };
   KnownLight LightOf(const FactorRow& row) const;
@@ -139,15 +144,17 @@ class PointIrradiance {
 
   const Scene& scene_;
   const PatchVisibility& visibility_;
-  const ElementForest* forest_ = nullptr;  // the forest of leaves_; null without a solution
+  const ElementForest* forest_ = nullptr;  // the quadtrees of the solution; null without a solution
   SourceSet sources_;
   std::shared_ptr<const LeafVisibility> leaves_;
   PointIrradianceOptions options_;
-  std::shared_ptr<const OcclusionMethod> method_;  // the method that options_ names, if this object made it
-  PatchHierarchy patches_;                         // all patches
-  PatchHierarchy source_patches_;                  // the patches that send light
+  // the visibility method in options_, if this PointIrradiance made the method
+  std::shared_ptr<const OcclusionMethod> method_;
+  PatchHierarchy patches_;         // all patches of the scene
+  PatchHierarchy source_patches_;  // the patches that send light
   ScreenFinder screens_;
-  // For solutions with RadiositySolution::rays_per_point only: what NearlyOnPatch() returns, and all others.
+  // Set only if RadiositySolution::rays_per_point > 0: gather_ serves NearlyOnPatch(), and closer_gather_,
+  // with more rays, serves all other functions.
   std::optional<FinalGather> gather_, closer_gather_;
 };
 

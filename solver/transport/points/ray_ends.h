@@ -1,7 +1,7 @@
 // solver/transport/points/ray_ends.h
 //
-// The ends of rays between surfaces. Rays are traced in single precision, so that an end must lie a little
-// before its surface.
+// The end points of rays between surfaces. Rays are traced in single precision, so that the end point of a
+// ray must lie a little before its surface.
 
 #pragma once
 
@@ -11,13 +11,13 @@
 
 namespace penumbra {
 
-// The distance of the ends from their surfaces [m]. Single precision rounds coordinates to about a thirtieth
-// of ContactGap().
+// The distance of a ray's end points from their surfaces [m]. Single precision rounds coordinates to about a
+// thirtieth of ContactGap().
 inline double RayLift(const Scene& scene) { return 2 * ContactGap(scene); }
 
-// The start of the rays from a point. The start lies `lift` before the plane of the point. If the point has
-// an approach direction, the start is also moved by `lift` in that direction, away from surfaces at the
-// point.
+// The start of rays from a receiver point. The start of the rays lies at the distance `lift` [m] before the
+// plane of the receiver point. If ReceiverPoint::approach is set, the start of the rays is also moved by
+// `lift` in the direction `approach`, away from surfaces that touch the point.
 inline Vec3 RayStart(const ReceiverPoint& at, double lift) {
   Vec3 start = at.position + lift * at.normal;
   if (!at.approach.isZero(0)) start += lift * at.approach.normalized();

@@ -1,9 +1,10 @@
 // solver/transport/points/shadow_rays.h
 //
-// The light of chosen surfaces, the luminaires, by shadow rays: emitters, and small surfaces that reflect so
-// much that rays in random directions would find them too rarely. Rays decide how much of a luminaire a point
-// sees; the unoccluded light is exact. Where rays find that an emitter is partly hidden and its light
-// matters, more rays decide, or the blockers are cut out of it, as PointIrradiance does.
+// The light of luminaires at a point by shadow rays. Luminaires are the emitters, and small surfaces that
+// reflect so much light that rays in random directions would hit these surfaces too rarely. Shadow rays
+// estimate the visible fraction of a luminaire; the unoccluded light of the luminaire is exact. If an emitter
+// is found to be partly hidden and its light matters, more shadow rays are cast, or the blockers are cut out
+// of the emitter exactly, as in PointIrradiance.
 
 #pragma once
 
@@ -22,49 +23,52 @@
 
 namespace penumbra {
 
-// How accurate the light of luminaires shall be.
+// The effort for the light of luminaires: numbers of shadow rays and the condition for exact visibility.
 struct ShadowRayEffort {
-  // A luminaire that sends a twentieth of the unoccluded light of all, or more, gets divisions^2 rays, one to
-  // each of as many cells of equal area. Weaker ones get rays in proportion to their light. With 0 divisions,
-  // a single ray goes to one luminaire, chosen in proportion to the light of all: right on average over many
-  // seeds.
+  // A luminaire is divided into divisions^2 cells, with one shadow ray to each cell, if it sends at least a
+  // twentieth of the unoccluded light of all luminaires. Weaker luminaires get shadow rays in proportion to
+  // their light. If `divisions` is 0, a single ray goes to one luminaire, chosen with a probability in
+  // proportion to its light; the average over many seeds is right.
   int divisions = 4;
-  // An emitter that is partly hidden deserves more effort if its unoccluded light exceeds this times the
-  // light of all emitters that are seen. Otherwise the rays above decide which part of it is visible.
+  // A partly hidden emitter gets more effort (rays_if_hidden) if its unoccluded light exceeds closer_above *
+  // (light of all visible luminaires). If the unoccluded light is smaller, the divisions^2 shadow rays alone
+  // determine the visible fraction of the emitter.
   double closer_above = 0.02;
-  // The effort: this number of rays, or, if 0, its blockers are cut out of it exactly.
+  // The number of shadow rays to a partly hidden emitter that gets more effort. If rays_if_hidden is 0, the
+  // blockers are cut out of the emitter exactly.
   int rays_if_hidden = 0;
-  std::uint64_t seed = 0;  // of the places in the cells; 0: their centres
+  std::uint64_t seed = 0;  // seed of the places of ray ends in the cells; 0: the centres of the cells
 };
 
-// A surface that reflects much light, taken for constant.
+// A polygon that reflects much light, treated as a luminaire of constant radiosity.
 struct BrightReflector {
   PatchId patch = kNoPatch;
   Polygon3 polygon;             // [m]
-  Rgb radiosity = Rgb::Zero();  // the reflected part [W/m^2]
+  Rgb radiosity = Rgb::Zero();  // the reflected radiosity, without emittance [W/m^2]
 };
 
 class ShadowRays {
  public:
-  // The luminaires are the emitters, with their emittance, and the reflectors. Scene and caster must outlive
-  // the object.
+  // The luminaires are the emitters of the scene, with their emittance, and the given reflectors. `scene` and
+  // `caster` must outlive the ShadowRays.
   ShadowRays(const Scene& scene, const RayCaster& caster, std::span<const BrightReflector> reflectors = {});
 
-  // The most points that one call of AtAll() takes.
+  // The largest number of points in one call of AtAll().
   static constexpr std::size_t kTogether = RayCaster::kPacket;
   // Sets irradiance[i] to the light of the luminaires at points[i] [W/m^2]. Rays of neighbouring points are
-  // traced together. Adds the contributions, and the direct light of emitters, at the first point to `parts`,
-  // unless null; `parts` gets no gradient. The points share the places on weak luminaires to
-  // which rays go, so that a value depends on all points of the call, and on the effort. May be
-  // called from any thread. REQUIRES: at most kTogether points with equal normals, and as many values.
+  // traced together as a packet. If `parts` is not null, AtAll() adds the contributions of the luminaires,
+  // and the direct light of emitters, at the first point to `parts`; `parts` gets no gradient. All points of
+  // a call send rays to the same places on weak luminaires, so that the value at a point depends on the other
+  // points of the call. Any thread may call AtAll(). REQUIRES: `points` has at most kTogether points, with
+  // equal normals; `irradiance` has the same size.
   void AtAll(std::span<const ReceiverPoint> points, const ShadowRayEffort& effort, std::span<Rgb> irradiance,
              IrradianceParts* parts = nullptr) const;
-  // The same for one point.
+  // The light of the luminaires at a single point [W/m^2].
   Rgb At(const ReceiverPoint& at, const ShadowRayEffort& effort, IrradianceParts* parts = nullptr) const;
 
  private:
-  using Values = std::array<double, kTogether>;  // one for each point of a group
-  // A luminaire as a group of points sees it.
+  using Values = std::array<double, kTogether>;  // one value for each point of a group
+  // The unoccluded light of one luminaire at a group of points.
   struct Seen {
     Values light;  // estimate of the unoccluded light in the brightest channel [W/m^2]
     double total;
@@ -74,7 +78,7 @@ class ShadowRays {
     PatchId patch;
     bool emits;
     std::array<Vec3, 4> vertex;
-    std::size_t size;  // 3 or 4
+    std::size_t size;  // number of vertices: 3 or 4
     Vec3 centre, normal;
     double radius, area;
     Rgb radiosity;      // [W/m^2]
@@ -82,12 +86,13 @@ class ShadowRays {
     bool is_parallelogram;
 
     std::span<const Vec3> Vertices() const { return {vertex.data(), size}; }
-    // Uniformly distributed over the luminaire if (s, t) are uniformly distributed over the unit square.
+    // Maps (s, t) to a point of the luminaire; uniform (s, t) in the unit square give uniformly distributed
+    // points.
     Vec3 Place(double s, double t) const;
   };
   struct Group;
-  // Form factors of a luminaire, and of its visible part, from rays to places on it. Some functions omit a
-  // common factor.
+  // Sums over rays to places on a luminaire: `all` is proportional to the form factor of the whole luminaire,
+  // `visible` to that of its visible part.
   struct RaySums {
     Values all{}, visible{};
   };
@@ -109,7 +114,7 @@ class ShadowRays {
 
   const Scene& scene_;
   const RayCaster& caster_;
-  double lift_;  // of ends of rays from surfaces [m]
+  double lift_;  // distance of ray ends from surfaces [m]
   SourceSet sources_;
   PatchHierarchy patches_;
   std::vector<Luminaire> luminaires_;

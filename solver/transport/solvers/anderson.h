@@ -1,7 +1,7 @@
 // solver/transport/solvers/anderson.h
 //
-// Anderson acceleration: extrapolates a linear iteration, and thus reduces the number of sweeps in rooms of
-// high reflectance.
+// Anderson acceleration extrapolates a linear iteration, and thus reduces the number of sweeps (iterations of
+// the radiosity equation) in rooms of high reflectance.
 
 #pragma once
 
@@ -13,20 +13,22 @@
 namespace penumbra {
 
 // Anderson acceleration of x <- G(x), for each channel separately (Anderson 1965). For linear G, Anderson
-// acceleration is essentially GMRES restricted to the last steps (Walker and Ni 2011).
+// acceleration is essentially GMRES restricted to the last few iterations (Walker and Ni 2011).
 class AndersonAcceleration {
  public:
   // `weight` holds the weight of each unknown in scalar products: the area of its element.
   explicit AndersonAcceleration(std::vector<double> weight) : weight_(std::move(weight)) {}
 
-  // Records the step from x to g = G(x). Replaces g by the linear combination of the last steps with the
-  // smallest residual. If the residual has grown, forgets the earlier steps and leaves g unchanged.
+  // Records the iteration step from x to g = G(x). Replaces g by that linear combination of the last steps
+  // whose residual is smallest. If the residual g - x has grown since the last step, Improve() forgets the
+  // earlier steps and leaves g unchanged.
   void Improve(const std::vector<Rgb>& x, std::vector<Rgb>& g);
 
  private:
   struct Step {
-    std::vector<Rgb> residual, value;  // differences to the next step
-    std::deque<Rgb> product;  // scalar products of this residual with those of all steps up to this one
+    std::vector<Rgb> residual, value;  // the changes of G(x) - x and of G(x) from one step to the next
+    // scalar products of `residual` with `residual` of each kept step, up to and including this step
+    std::deque<Rgb> product;
   };
 
   Rgb Product(const std::vector<Rgb>& a, const std::vector<Rgb>& b) const;

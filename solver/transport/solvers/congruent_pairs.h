@@ -1,7 +1,7 @@
 // solver/transport/solvers/congruent_pairs.h
 //
-// Finds congruent pairs of polygons: regular meshes have many congruent pairs, and all pairs of the same
-// shape have the same form factor.
+// Finds congruent pairs of polygons. Regular meshes have many congruent pairs, and without blockers all pairs
+// of the same shape have the same form factor.
 
 #pragma once
 
@@ -13,10 +13,11 @@
 namespace penumbra {
 
 // The squared distances between the vertices of two convex polygons [m^2], in an order that depends neither
-// on the order of the two polygons nor on their first vertices or orientations. Pairs of equal shape are
-// images of each other under a rigid motion or a reflection. Without blockers, pairs of equal shape exchange
-// the same flux, up to rounding of the coordinates. The list is empty if one polygon is not completely before
-// the plane of the other, because distances alone do not distinguish front from back.
+// on the order of the two polygons nor on their first vertices or orientations. Pairs of polygons with equal
+// PairShape are images of each other under a rigid motion or a reflection. Without blockers, pairs of
+// polygons with equal PairShape exchange the same flux, up to rounding of the coordinates. The list of
+// distances is empty if one polygon is not completely before the plane of the other, because distances alone
+// do not distinguish front from back.
 using PairShape = std::vector<double>;
 PairShape ShapeOfPair(std::span<const Vec3> a, const Patch& patch_a, std::span<const Vec3> b,
                       const Patch& patch_b);

@@ -10,19 +10,23 @@
 
 namespace penumbra {
 
-// The difference between exact irradiance and the irradiance of the links (Stetter 1978). The struct holds
-// all data of the correction, so that a cancelled step can restore them.
+// Deferred correction (Stetter 1978): the difference between the exact irradiance of an element and the
+// irradiance that the hierarchical links bring. DeferredCorrection holds all data of the deferred correction,
+// so that a cancelled step of the solver can restore these data.
 struct DeferredCorrection {
-  std::vector<Rgb> of_element;   // of leaves: exact irradiance - irradiance of the links [W/m^2]; empty: none
-  std::vector<Rgb> of_fragment;  // of the solution's fragments: exact irradiance - that of the leaf [W/m^2]
-  // For each leaf in ascending order: the parts into which LeafCells has cut it. The list is empty before
-  // leaves have been cut for the first time.
+  // for each leaf: exact irradiance - irradiance of the links [W/m^2]; empty: no correction yet
+  std::vector<Rgb> of_element;
+  // for each fragment of a leaf: exact irradiance of the fragment - irradiance of the leaf [W/m^2]
+  std::vector<Rgb> of_fragment;
+  // For each leaf, in ascending order of ElementId: the parts into which CutLeaf() has cut the leaf. The list
+  // of parts is empty until leaves are cut for the first time.
   std::vector<std::vector<Polygon3>> parts_of_leaf;
 
-  // Adds exact - solution.irradiance to the correction of each leaf; `exact` is indexed by ElementId.
+  // Adds (exact irradiance - solution.irradiance) to the correction of each leaf; `exact` is indexed by
+  // ElementId [W/m^2].
   void AddDifference(const RadiositySolution& solution, std::span<const Rgb> exact);
-  // Sets the irradiance of each fragment of the solution to (irradiance of the leaf) + of_fragment, and
-  // updates the fragment's radiosity.
+  // Sets the irradiance of each fragment (part of a leaf) to (irradiance of the leaf) + (correction
+  // of_fragment), and updates the fragment's radiosity.
   void LightFragments(RadiositySolution& solution) const;
 };
 

@@ -1,7 +1,7 @@
 // solver/transport/solvers/dense_solver.h
 //
-// Direct solution of dense systems for all three channels, to compute reference solutions. DenseSolver
-// implements the interface LightSolver with a dense system.
+// Direct solution of the dense radiosity system for all three channels, to compute reference solutions.
+// DenseSolver implements the solver interface LightSolver by this direct solution.
 
 #pragma once
 
@@ -17,37 +17,40 @@ namespace penumbra {
 
 // The light of the unknowns of a dense system.
 struct DenseLight {
-  std::vector<Rgb> irradiance, radiosity;  // per unknown [W/m^2]
+  std::vector<Rgb> irradiance, radiosity;  // irradiance and radiosity of each unknown [W/m^2]
 };
 
 // Solves B = E + rho T B by LU factorisation with pivoting. `emittance` [W/m^2] and `reflectance` have one
-// entry for each unknown; by default, they are taken from the scene's materials.
+// entry for each unknown; by default, the entries come from the scene's materials.
 DenseLight SolveDense(const DenseSystem& system);
-// With the materials of another scene of the same patches.
+// SolveDense() with a scene takes the emittance and reflectance of that scene's materials; the scene must
+// have the same patches as the system.
 DenseLight SolveDense(const DenseSystem& system, const Scene& scene);
 DenseLight SolveDense(const DenseSystem& system, std::span<const Rgb> emittance,
                       std::span<const Rgb> reflectance);
 
-// The irradiance at a point on the front of a patch [W/m^2], from the solution, which is constant, linear or
-// quadratic over each element. Visibility is exact; the only error of the integration is
-// kSourceQuadratureError. May be called from any thread.
+// The irradiance at a point on the front of a patch [W/m^2], from a radiosity that is constant, linear or
+// quadratic over each element. Visibility is exact; the integration over the sources has an error of at most
+// kSourceQuadratureError. Any thread may call DenseIrradiance().
 Rgb DenseIrradiance(const DenseSystem& system, const DenseLight& light, const PatchVisibility& visibility,
                     PatchId patch, const ReceiverPoint& at);
 
-// Converts the solution to the form that exact probes and meshes need: each leaf has its mean radiosity. The
-// result has no links.
+// Converts the dense solution to a RadiositySolution, which irradiance probes and meshes need: each leaf of
+// the quadtrees gets its mean radiosity. The converted RadiositySolution has no links between elements.
 RadiositySolution ToRadiositySolution(const DenseSystem& system, const DenseLight& light);
 
-// The largest number of unknowns. For kMostDenseUnknowns unknowns, the matrix and the copy that is factorised
-// need 4 GB of memory.
+// The largest number of unknowns of a dense system. For kMostDenseUnknowns unknowns, the matrix and the copy
+// that is factorised need 4 GB of memory.
 inline constexpr std::size_t kMostDenseUnknowns = 16'000;
 
-// Solves the dense system of a uniform mesh in its constructor; no steps remain. Other stages see only the
-// mean radiosity of linear and quadratic elements. LitAs() needs DenseOptions::keep_matrix.
+// The constructor of DenseSolver solves the dense system of a uniform mesh; no iterations remain. Meshing and
+// display see only the mean radiosity of linear and quadratic elements. LitAs(), which makes a solver for
+// other emittances, needs DenseOptions::keep_matrix.
 class DenseSolver final : public LightSolver {
  public:
-  // Throws InputError if the system has more than kMostDenseUnknowns unknowns. If the context is cancelled,
-  // the solution consists only of the root elements, whose radiosity is their emittance.
+  // Throws InputError if the system has more than kMostDenseUnknowns unknowns. If the computation is
+  // cancelled (ExecutionContext), the solution consists only of the root elements, whose radiosity is their
+  // emittance.
   DenseSolver(const Scene& scene, const PatchVisibility& visibility, const DenseOptions& options,
               const ExecutionContext& context);
 
@@ -71,7 +74,8 @@ class DenseSolver final : public LightSolver {
   DenseSolver(const DenseSolver& from, const Scene& other);
 
   const PatchVisibility& visibility_;
-  std::shared_ptr<const DenseSystem> system_;  // of the scene for which it was assembled; null unless kept
+  // the system of the scene for which the matrix was assembled; null unless keep_matrix is true
+  std::shared_ptr<const DenseSystem> system_;
   bool solved_ = false;
   RadiositySolution solution_;
   SolverReport report_;

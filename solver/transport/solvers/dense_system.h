@@ -1,16 +1,16 @@
 // solver/transport/solvers/dense_system.h
 //
-// The radiosity equation on the leaves of a forest as a dense matrix: the reference for the hierarchical
-// solver.
+// The radiosity equation as a dense matrix over the leaves of all quadtrees: the reference for the
+// hierarchical solver.
 //
 // Constant elements use the Galerkin method with form factors between areas: the light that leaves an element
 // equals the light that arrives at the others, and the mean irradiance of a closed room is correct on every
-// mesh. Linear and quadratic elements use collocation at Gauss nodes inside the elements: a row is an
-// integral over sources only, and no node lies on an edge where walls meet. With collocation, too, rows of a
-// closed room add up to 1. The irradiance that is computed from the solution at other points converges faster
-// than the solution itself (iterated collocation; Atkinson, The numerical solution of integral equations of
-// the second kind, 1997). With collocation, reciprocity holds only to the order of the method. No form factor
-// is normalised.
+// mesh. Linear and quadratic elements use collocation at Gauss nodes inside the elements: a row of the matrix
+// is an integral over sources only, and no node lies on an edge where walls meet. With collocation, too, each
+// row of the matrix of a closed room adds up to 1. At points other than the nodes, the irradiance that is
+// computed from the solved radiosity converges faster than the radiosity itself (iterated collocation;
+// Atkinson, The numerical solution of integral equations of the second kind, 1997). With collocation,
+// reciprocity holds only to the order of the method. No row of form factors is normalised to the sum 1.
 
 #pragma once
 
@@ -30,41 +30,44 @@ namespace penumbra {
 
 struct DenseOptions {
   BasisDegree degree = BasisDegree::kConstant;
-  int divisions = 4;  // elements along each side of a patch: a power of two (UniformForest)
-  // Limits for the form factors between constant elements with blockers: the relative error, and the number
-  // of points for one pair (AreaFormFactorOptions). All other form factors are exact up to rounding.
+  int divisions = 4;  // number of elements along each side of a patch: a power of two (UniformForest)
+  // `tolerance` and `max_points` limit the relative error, and the number of points for one pair of elements,
+  // of form factors between constant elements with blockers (AreaFormFactorOptions). Form factors without
+  // blockers, and those of linear and quadratic elements, are exact up to rounding.
   double tolerance = 1e-7;
   std::size_t max_points = 100'000;
-  bool keep_matrix = false;  // after the solve, for LightSolver::LitAs(): 8 bytes * (unknowns)^2
+  // keep the matrix after the solve, for LightSolver::LitAs(): 8 bytes * (unknowns)^2
+  bool keep_matrix = false;
 };
 
-// An element is a leaf of the forest, or, if the degree is not constant and the leaf is a quadrilateral but
-// no parallelogram, one of two triangles of the leaf.
+// An element of the dense system is a leaf of a quadtree. If the leaf is a quadrilateral but no
+// parallelogram, and the basis is linear or quadratic, the leaf is cut into two triangular elements.
 struct DenseElement {
   ElementId leaf = kNoElement;
   Polygon3 polygon;  // [m]
   double area = 0;   // [m^2]
   ElementBasis basis;
-  std::size_t first = 0;  // its first unknown; it has basis.size() unknowns
+  std::size_t first = 0;  // the element's first unknown; the element has basis.size() unknowns
 };
 
 struct DenseSystem {
   ElementForest forest;
   BasisDegree degree = BasisDegree::kConstant;
-  std::vector<DenseElement> elements;           // by patch, then in depth-first order of the leaves
-  std::vector<std::size_t> first_of_patch;      // in `elements`, and one past the last
-  std::vector<std::size_t> element_of_unknown;  // index in `elements`
-  // transport(i, j) is the irradiance of unknown i for unit radiosity of unknown j [1]. For constant
-  // elements, the irradiance of an unknown is the mean over the element; otherwise, it is the value at the
-  // node.
+  std::vector<DenseElement> elements;  // ordered by patch, then by depth-first order of the leaves
+  // index of each patch's first element, and one past the last element
+  std::vector<std::size_t> first_of_patch;
+  std::vector<std::size_t> element_of_unknown;  // index in `elements` of the element of each unknown
+  // transport(i, j) is the irradiance of unknown i for unit radiosity of unknown j [1]. The irradiance of an
+  // unknown is the mean over the element for constant elements, and the value at the node for linear and
+  // quadratic elements.
   Eigen::MatrixXd transport;
-  double form_factor_error = 0;  // the largest sum over a row of the form factors' errors
+  double form_factor_error = 0;  // the largest row sum of the errors of the form factors
 
   std::size_t size() const { return element_of_unknown.size(); }
   PatchId PatchOf(std::size_t unknown) const {
     return forest[elements[element_of_unknown[unknown]].leaf].patch;
   }
-  // The area of an unknown [m^2]. All weights add up to the area of the scene.
+  // The area that an unknown represents [m^2]. The areas of all unknowns add up to the area of the scene.
   double Weight(std::size_t unknown) const;
 };
 
@@ -77,22 +80,23 @@ struct DenseClosure {
 };
 DenseClosure MeasureClosure(const DenseSystem& system);
 
-// The number of unknowns on the leaves of a forest.
+// The number of unknowns of the dense system on the leaves of all quadtrees.
 std::size_t CountUnknowns(const ElementForest& forest, BasisDegree degree);
 
-// Computes the dense system, with several threads; the result does not depend on their number. The system has
-// no unknowns if the context is cancelled. REQUIRES: the visibility is that of the forest's scene.
+// Computes the dense system with several threads; the matrix does not depend on the number of threads. If the
+// computation is cancelled (ExecutionContext), the system has no unknowns. REQUIRES: `visibility` belongs to
+// the scene of `forest`.
 DenseSystem AssembleDense(const ElementForest& forest, const PatchVisibility& visibility,
                           const DenseOptions& options, const ExecutionContext& context);
 
 // Adds to row[i] the irradiance at a point on the front of a patch for unit radiosity of unknown i [1].
-// Visibility is exact; the only error of the integration is kSourceQuadratureError. May be called from any
-// thread.
+// Visibility is exact; the integration over the sources has an error of at most kSourceQuadratureError. Any
+// thread may call AddTransport().
 void AddTransport(const DenseSystem& system, const PatchVisibility& visibility, PatchId patch,
                   const ReceiverPoint& at, std::span<double> row);
 
-// All patches of the scene, each cut into divisions x divisions elements. REQUIRES: `divisions` is a power of
-// two, at most 2^kMaxLevel.
+// The quadtrees of all patches of the scene, each patch cut into divisions x divisions elements. REQUIRES:
+// `divisions` is a power of two, at most 2^kMaxLevel.
 ElementForest UniformForest(const Scene& scene, int divisions);
 
 }  // namespace penumbra

@@ -10,12 +10,12 @@
 namespace penumbra {
 
 struct DiffuseRay {
-  Vec3 origin, direction;  // [m]; unit
+  Vec3 origin, direction;  // origin [m]; direction: a unit vector
 };
 
 // Ray i of a low-discrepancy sequence of rays that start uniformly distributed over a convex polygon and have
-// cosine-distributed directions about the unit vector `normal`. The rays start `lift` [m] before the polygon,
-// so that they do not hit a coincident polygon that faces the opposite way.
+// cosine-distributed directions about the unit vector `normal`. The rays start at a distance `lift` [m]
+// before the polygon, so that no ray hits a coincident polygon that faces the opposite way.
 DiffuseRay MakeDiffuseRay(std::span<const Vec3> polygon, const Vec3& normal, double lift, std::size_t i,
                           std::uint64_t seed);
 

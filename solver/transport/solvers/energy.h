@@ -1,7 +1,7 @@
 // solver/transport/solvers/energy.h
 //
 // The energy balance of a solution: emitted = absorbed + escaped. The emitted, the absorbed and the escaped
-// energy are measured independently.
+// flux are measured independently of each other.
 
 #pragma once
 
@@ -14,15 +14,17 @@ namespace penumbra {
 
 // Fluxes, summed over the channels [W].
 struct EnergyBalance {
-  double emitted = 0;             // by the surfaces
-  double absorbed = 0;            // by fronts (from the solution's irradiance) and by black backs (from rays)
-  double escaped = 0;             // leaves the scene, from rays
+  double emitted = 0;  // flux that all surfaces emit
+  // flux absorbed by fronts (from the solution's irradiance) and by the black backs of patches (from rays)
+  double absorbed = 0;
+  double escaped = 0;             // flux that leaves the scene, measured by rays
   double relative_imbalance = 0;  // |emitted - absorbed - escaped| / emitted; 0 in a dark scene
 };
 
-// Casts cosine-distributed low-discrepancy rays from the leaves and fragments; the number of rays of each is
-// proportional to its flux. The error caused by the finite number of rays is about 1 / rays in smooth scenes.
-// The result is deterministic for a given seed. The result is useless if the context is cancelled.
+// Casts cosine-distributed low-discrepancy rays from the leaves of the solution and from the parts
+// (fragments) of cut leaves. The number of rays of a leaf or part is proportional to its flux. In smooth
+// scenes, the finite number of rays causes an error of about 1 / rays. The energy balance is deterministic
+// for a given seed. If the computation is cancelled (ExecutionContext), the energy balance must not be used.
 EnergyBalance MeasureEnergy(const RadiositySolution& solution, std::size_t rays = std::size_t{1} << 18,
                             std::uint64_t seed = 1, const ExecutionContext& context = ExecutionContext());
 

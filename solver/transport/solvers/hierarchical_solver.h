@@ -1,15 +1,16 @@
 // solver/transport/solvers/hierarchical_solver.h
 //
-// The hierarchical radiosity solver (thesis, chapter 4; Hanrahan, Salzman and Aupperle 1991): gathers over
-// links, pushes and pulls light through the quadtrees, and refines links, until changes are below the
-// relative cut-off.
+// The hierarchical radiosity solver (thesis, chapter 4; Hanrahan, Salzman and Aupperle 1991): gathers light
+// over links between elements, pushes and pulls the light through the quadtrees, and refines links, until
+// relative changes of radiosity are below a cut-off.
 //
-// Links control refinement and make iterations cheap, but each link has an error of up to eps, and the errors
-// of sources add up to missing energy. The solver therefore corrects the converged solution (deferred
-// correction, Stetter 1978): it computes the exact irradiance of every leaf from all leaves
-// (IrradianceAtPoint), adds (exact irradiance - irradiance from the links) to the irradiance of the leaf, and
-// gathers the reflections of this difference over the links. Each pass multiplies the error of the light
-// transport by the relative error of the links, which is a few percent.
+// Links (hierarchical interactions between elements) control refinement and make iterations cheap. But each
+// link has a transport error of up to eps [W/m^2], and these errors add up to missing energy. The solver
+// therefore improves the converged solution by deferred correction (Stetter 1978): the solver computes the
+// exact irradiance of every leaf from all leaves and adds (exact irradiance - irradiance from the links) to
+// the irradiance of the leaf. The hierarchical solver then gathers the reflections of the added irradiance
+// over the links. Each pass of deferred correction multiplies the error of the light transport by the
+// relative error of the links, which is a few percent.
 
 #pragma once
 
@@ -31,11 +32,12 @@ namespace penumbra {
 
 class HierarchicalSolver final : public LightSolver {
  public:
-  // Makes links between the roots. If the context is cancelled, the solution has no links. The scene and the
-  // visibility must outlive the solver.
+  // Makes links between the root elements of the quadtrees. If the computation is cancelled
+  // (ExecutionContext), the solution has no links. The scene and the visibility must outlive the solver.
   HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
                      const ExecutionContext& context = ExecutionContext());
-  // Continues from a solution of the same scene: takes over its links, and its light including corrections.
+  // Continues from an earlier solution of the same scene: takes over the links, and the light with its
+  // corrections.
   HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
                      RadiositySolution solution, const ExecutionContext& context = ExecutionContext());
 
@@ -45,45 +47,47 @@ class HierarchicalSolver final : public LightSolver {
   bool Converged() const override { return links_.Converged(); }
   const RadiositySolution& solution() const override { return links_.solution(); }
   const SolverReport& report() const override { return report_; }
-  // Gathers over the existing links until the light has converged; computes no form factors. The resulting
-  // light is a linear function of the emittances.
+  // Gathers over the existing links until the light has converged; computes no form factors. The light that
+  // Relight() computes is a linear function of the emittances.
   bool Relight(const ExecutionContext& context) override;
   bool TakesLight() const override { return true; }
-  // Makes one pass of deferred correction, with exact irradiance that the caller has computed.
+  // Makes one pass of deferred correction, with the exact irradiance of the leaves that the caller has
+  // computed.
   bool SetLight(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
                 const ExecutionContext& context) override;
-  // REQUIRES: corrections do not cut leaves (SolverOptions::source_error is 0).
+  // REQUIRES: deferred corrections do not cut leaves into parts (SolverOptions::source_error is 0).
   std::unique_ptr<LightSolver> LitAs(const Scene& other, const ExecutionContext& context) const override;
   void ReplaceLight(std::span<const Rgb> element, std::span<const Rgb> fragment) override;
   double PartOfTolerance() const override;
   std::shared_ptr<const LeafVisibility> SeenFromLeaves(
       const ExecutionContext& context = ExecutionContext()) override;
-  // The light is computed over the links, without corrections.
+  // The light of each bounce is computed over the links, without deferred corrections.
   std::vector<Rgb> MeanIrradianceByBounce(int bounces) const override;
 
-  // One iteration: gathers with push-pull until the cut-off is met; splits every link that the oracle
-  // rejects, and then rejected links among the new ones; gathers over the new links. Returns a report. The
-  // solution has converged when links_split == 0 and the residual is below the cut-off. Returns nullopt, and
-  // leaves the solution unchanged, if cancelled.
+  // One iteration gathers light with push-pull until the cut-off is met, splits links, and gathers over the
+  // new links. A link is split if the refinement oracle rejects the link; new links that the oracle rejects
+  // are split in the same iteration. The solution has converged when an iteration splits no link and the
+  // residual is below the cut-off. If cancelled, Iterate() returns nullopt and leaves the solution unchanged.
   std::optional<IterationReport> Iterate(const ExecutionContext& context);
-  // One pass of deferred correction. Returns the root mean square change of the leaves' irradiance, relative
-  // to the mean irradiance; nullopt if cancelled. A later iteration that refines links drops the corrections.
-  // If SolverOptions::source_error > 0, the pass cuts the leaves into new parts and ignores `sampling`: the
-  // parts determine the sample points.
+  // Makes one pass of deferred correction. Correct() returns (root mean square change of the leaves'
+  // irradiance) / (mean irradiance), or nullopt if cancelled. If an iteration after Correct() refines links,
+  // the deferred corrections are dropped. If SolverOptions::source_error > 0, the pass of deferred correction
+  // cuts the leaves into new parts and ignores `sampling`: the parts determine the sample points.
   std::optional<double> Correct(LeafSampling sampling, const ExecutionContext& context);
-  // Makes all passes of deferred correction that the options request. Returns false if cancelled; the
-  // corrections of completed passes are kept.
+  // Makes all passes of deferred correction that SolverOptions::max_corrections requests. CorrectAll()
+  // returns false if cancelled; the corrections of completed passes are kept.
   bool CorrectAll(const ExecutionContext& context);
-  // Makes all remaining steps. If cancelled, the solution is that of the last complete step. Returns the
-  // reports of the complete iterations.
+  // Makes all remaining iterations and deferred corrections. If Solve() is cancelled, the solution is that of
+  // the last complete step. Solve() returns the reports of the complete iterations.
   std::vector<IterationReport> Solve(const ExecutionContext& context);
 
-  // True if refinement stopped because the number of links would have exceeded SolverOptions::max_links.
+  // True if refinement of links stopped because the number of links would have exceeded
+  // SolverOptions::max_links.
   bool Full() const { return links_.Full(); }
   RadiositySolution TakeSolution() && { return std::move(links_.solution()); }
 
  private:
-  // The state that a cancelled step restores.
+  // The state to which a cancelled step returns the solver.
   struct Snapshot {
     LinkSolver::Snapshot links;
     DeferredCorrection correction;
@@ -95,8 +99,8 @@ class HierarchicalSolver final : public LightSolver {
   void TakeCorrectionsBack();
   void FindCorrections();
   std::optional<double> AddExact(LeafSampling sampling, const ExecutionContext& context);
-  // Like Correct(), with parts of leaves so small that their constant radiosity causes a relative error of at
-  // most about `error`.
+  // Like Correct(), but first cuts the leaves into parts so small that treating the radiosity of a part as
+  // constant causes a relative error of at most about `error`.
   std::optional<double> CorrectByCells(double error, const ExecutionContext& context);
 
   const Scene& scene_;
@@ -106,7 +110,7 @@ class HierarchicalSolver final : public LightSolver {
   DeferredCorrection correction_;
   bool corrected_ = false;  // CorrectAll() has finished, and its corrections are still in place
   SolverReport report_;
-  std::size_t relit_at_ = 0;  // the number of iterations before those of the present light
+  std::size_t relit_at_ = 0;  // index in report_.iterations of the first iteration after the last Relight()
   LeafVisibilityCache seen_from_leaves_;
 };
 

@@ -1,7 +1,7 @@
 // solver/transport/solvers/light_solver.h
 //
-// The interface of methods that solve for the light in a scene, step by step. Callers (Pipeline, the window,
-// user programs) depend on LightSolver only.
+// LightSolver is the interface of all methods that solve for the light in a scene, step by step. Callers
+// (Pipeline, the viewer's window, user programs) depend on LightSolver only, not on a particular method.
 
 #pragma once
 
@@ -26,17 +26,18 @@
 
 namespace penumbra {
 
-// The kinds of steps.
+// The kinds of steps of a solver.
 enum class SolverStep : std::uint8_t {
-  kIterate,  // one round of the method
-  kCorrect,  // deferred correction by exact irradiance, after the last round
+  kIterate,  // one iteration, shot or sweep of the solver's method
+  kCorrect,  // deferred correction by exact irradiance, after the last iteration
 };
-// "iterate" or "correct".
+// The name of a kind of step: "iterate" or "correct".
 std::string_view StepName(SolverStep step);
 
-// How many times a receiver of the transport operator meets a source. A link, or a pair of elements of a
-// dense system, is smooth if nothing can block any of it, and sharp if blockers may hide a part. An
-// interaction is sampled if a ray decides on it.
+// The numbers of interactions (receiver-source pairs) of the light transport operator. An interaction is a
+// link between elements, or a pair of elements of a dense system. An interaction is smooth if no blocker can
+// lie between receiver and source, and sharp if blockers may hide a part of the source. An interaction is
+// sampled if a ray determines which source the receiver sees.
 struct InteractionCounts {
   std::size_t smooth = 0, sharp = 0, sampled = 0;
 };
@@ -44,102 +45,110 @@ struct InteractionCounts {
 // Statistics about the work that a solver has done so far.
 struct SolverReport {
   std::vector<IterationReport> iterations;
-  int most_iterations = 0;  // the largest number that Next() asks for; 0: unknown
-  bool full = false;  // links should have been split, but would have been too many (SolverOptions::max_links)
-  InteractionCounts interactions;  // those that are no links of the solution
+  int most_iterations = 0;  // the largest number of iterations that Next() requests; 0: unknown
+  // true if links were not split because the number of links would have exceeded SolverOptions::max_links
+  bool full = false;
+  InteractionCounts interactions;  // the interactions that are not links of the solution
   struct Dense {
     std::size_t unknowns = 0;
     DenseClosure closure;
-    double form_factor_error = 0;  // DenseSystem::form_factor_error
+    double form_factor_error = 0;  // the value of DenseSystem::form_factor_error
   };
-  std::optional<Dense> dense;  // only of solvers that assemble a system
+  std::optional<Dense> dense;  // set only by solvers that assemble a dense system of equations
 };
 
-// The constructor of a derived class makes links or assembles a system of equations; the user may cancel this
-// work.
+// The constructor of a class derived from LightSolver makes links or assembles a system of equations; the
+// user may cancel the constructor's work.
 class LightSolver {
  public:
   virtual ~LightSolver() = default;
   LightSolver(const LightSolver&) = delete;
   LightSolver& operator=(const LightSolver&) = delete;
 
-  // False if the construction was cancelled: the scene is then lit by emittance only.
+  // False if the construction of the solver was cancelled: the scene is then lit by emittance only.
   virtual bool Ready() const = 0;
-  // The next step towards the solution; nullopt if the light has converged, or if the options allow no more
-  // steps.
+  // The kind of the next step towards the solution; nullopt if the light has converged, or if the options
+  // allow no more steps.
   virtual std::optional<SolverStep> Next() const = 0;
-  // Makes one step, whether or not Next() returns this step. Returns false if the step was cancelled or the
-  // method has no such step. A cancelled iteration leaves the light unchanged; a cancelled correction keeps
-  // its completed passes.
+  // Makes one step of the given kind, whether or not Next() returns this kind. Step() returns false if the
+  // step was cancelled or the solver has no steps of this kind. A cancelled iteration leaves the light
+  // unchanged; a cancelled correction keeps its completed passes.
   virtual bool Step(SolverStep step, const ExecutionContext& context) = 0;
   // True if no further iteration would change the light by more than the options allow.
   virtual bool Converged() const = 0;
 
-  // The current solution, whose leaves and fragments are the sources of light for other stages.
+  // The current solution, whose leaves and fragments (parts of leaves) are the sources of light for meshing
+  // and display.
   virtual const RadiositySolution& solution() const = 0;
   virtual const SolverReport& report() const = 0;
 
   // Recomputes the light after the scene's emittances or reflectances have changed, as one iteration, and
-  // drops the corrections. Returns false if cancelled, or if a new solver is necessary.
+  // drops the deferred corrections. Relight() returns false if cancelled, or if a new solver is necessary.
   virtual bool Relight(const ExecutionContext& context) = 0;
-  // True if SetLight() is available, by which another stage replaces the light.
+  // True if the solver supports SetLight(), by which the meshing stage replaces the light.
   virtual bool TakesLight() const = 0;
-  // Replaces the irradiance of the leaves by exact values: `irradiance`, indexed by ElementId [W/m^2], and
-  // the irradiances of `fragments`, which replace the solution's fragments. SetLight() then adds the light
-  // that arises from the change of irradiance by further reflections. Returns false, and leaves the light
-  // unchanged, if cancelled. REQUIRES: TakesLight() is true; the fragments are sorted by leaf and tile their
-  // leaf; the area-weighted mean of their irradiances is the irradiance of the leaf.
+  // Replaces the irradiance of the leaves by exact values: `irradiance` is indexed by ElementId [W/m^2], and
+  // `fragments`, the parts of cut leaves, replace the solution's fragments. SetLight() then adds the light
+  // that arises from the change of irradiance by further reflections. If cancelled, SetLight() returns false
+  // and leaves the light unchanged. REQUIRES: TakesLight() is true; the fragments (parts of cut leaves) are
+  // sorted by leaf and tile their leaf; the irradiance of a leaf is the area-weighted mean over its
+  // fragments.
   virtual bool SetLight(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
                         const ExecutionContext& context) = 0;
 
-  // A solver with the same elements and form factors for a scene of the same patches with other emittances or
-  // reflectances. It is lit by that scene: as after Relight(), and corrected if no other stage corrects the
-  // light of this solver (TakesLight). Null if cancelled, or if the method has no such solver. `other` and
-  // what this solver was made from must outlive the result.
+  // A solver with the same elements and form factors for the scene `other`, which has the same patches but
+  // other emittances or reflectances. The solver that LitAs() returns is lit by the scene `other`, as after
+  // Relight(). Deferred corrections are included unless the meshing stage makes them (TakesLight). LitAs()
+  // returns null if cancelled, or if the method does not support other emittances. `other`, and all arguments
+  // of this solver's constructor, must outlive the solver that LitAs() returns.
   virtual std::unique_ptr<LightSolver> LitAs(const Scene& /*other*/, const ExecutionContext&) const {
     return nullptr;
   }
-  // Sets the irradiance of all elements and of the solution's fragments [W/m^2], and what follows from it, as
-  // it is: unlike SetLight(), adds no reflections. Only of solvers that have LitAs().
+  // Sets the irradiance of all elements and of all fragments (parts of cut leaves) [W/m^2], and the resulting
+  // radiosities. Unlike SetLight(), ReplaceLight() adds no light by further reflections. Only solvers that
+  // implement LitAs() implement ReplaceLight().
   virtual void ReplaceLight(std::span<const Rgb> /*element*/, std::span<const Rgb> /*fragment*/) {
     PENUMBRA_CHECK(false);
   }
 
-  // The value of PointIrradianceOptions::part_of_tolerance that suits the reflectances of this scene [1].
+  // The value of PointIrradianceOptions::part_of_tolerance that suits the reflectances of the scene [1].
   virtual double PartOfTolerance() const = 0;
-  // The visibility of the solution's leaves; null if the computation was cancelled.
+  // The lists of sources and blockers that each leaf of the solution sees; null if the computation was
+  // cancelled.
   virtual std::shared_ptr<const LeafVisibility> SeenFromLeaves(const ExecutionContext& context) = 0;
-  // The area-weighted mean irradiance of the front sides of all patches, for each bounce [W/m^2]: entry 0
-  // is light from emitters, entry k light that was reflected k times. The list is empty if the method does
-  // not compute means by bounce.
+  // The area-weighted mean irradiance of the front sides of all patches, for each bounce [W/m^2]: entry 0 is
+  // light from emitters, entry k is light that was reflected k times. MeanIrradianceByBounce() is empty if
+  // the solver does not compute irradiance by bounce.
   virtual std::vector<Rgb> MeanIrradianceByBounce(int bounces) const = 0;
 
  protected:
   LightSolver() = default;
 };
 
-// A function that is called after each complete step.
+// A function that is called after each complete step of a solver.
 using StepObserver = std::function<void(SolverStep)>;
 
-// Makes the step Next() until Next() returns nullopt. All callers that solve to the end use
-// SolveStepByStep(). Returns false if cancelled.
+// Makes the steps that Next() returns, until Next() returns nullopt. All callers that solve to the end use
+// SolveStepByStep(). SolveStepByStep() returns false if cancelled.
 bool SolveStepByStep(LightSolver& solver, const ExecutionContext& context, const StepObserver& observer = {});
 
-// Finds the pairs of patches that may see each other, at the first call; all calls return the same object.
-// The object has no pairs if the context is cancelled.
+// A function that returns the pairs of patches that may see each other; the first call finds the pairs, and
+// all calls return the same object. If the search is cancelled (ExecutionContext), the returned
+// PatchVisibility has no pairs.
 using PairFinder = std::function<const PatchVisibility&(const ExecutionContext&)>;
 
-// The input of a solver. The scene and the result of `pairs` outlive the solver.
+// The input of a solver. The scene and the PatchVisibility that `pairs` returns must outlive the solver.
 struct SolverScene {
   const Scene& scene;
   PairFinder pairs;
-  // If not null, a solution of the same scene by the same method. The new solver moves the solution into
-  // itself and continues from there. A method without Relight() does not touch the solution, and makes a null
-  // pointer instead of a solver.
+  // If not null, `goes_on_from` is a solution of the same scene by the same method. The new solver takes over
+  // the solution *goes_on_from by a move, and continues from this solution. A method without Relight() leaves
+  // *goes_on_from untouched and returns a null pointer instead of a solver.
   RadiositySolution* goes_on_from = nullptr;
 };
 
-// A method makes a solver that is ready for its first step, unless the context is cancelled.
+// The registry of solvers by name. Each entry of the registry makes a solver that is ready for its first
+// step, unless the construction is cancelled.
 using LightSolverRegistry = Registry<LightSolver, SolverScene, LightSolverOptions, ExecutionContext>;
 
 }  // namespace penumbra

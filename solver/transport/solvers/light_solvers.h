@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// All solvers; the first is the default.
+// The registry of all radiosity solvers; the first solver in the registry is the default.
 LightSolverRegistry& LightSolvers();
 
 }  // namespace penumbra

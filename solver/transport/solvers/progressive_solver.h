@@ -9,9 +9,10 @@
 
 namespace penumbra {
 
-// Patches shoot, elements receive: the form factors of a shot are those between the patch as a whole and each
-// element. Methods that see all at once look from the patch, as Ashdown's hemicube does; the others look from
-// each element at the patch.
+// Progressive refinement in which whole patches shoot and elements receive: a shot uses the form factors
+// between the shooting patch and each element. Form-factor methods that find all targets in one view
+// (hemicube) look from the shooting patch, as in Ashdown (1994). All other form-factor methods look from each
+// element at the shooting patch.
 class ProgressiveSolver final : public ShootingSolver {
  public:
   ProgressiveSolver(const Scene& scene, const PatchVisibility& visibility, const UniformOptions& options,

@@ -10,9 +10,10 @@
 namespace penumbra {
 
 // Progressive refinement with light at the vertices of the elements (Wallace, Elmquist and Haines 1989;
-// RayRad in Ashdown 1994, 6.10): rays run from each vertex to random points of the shooting patch, each for a
-// disk, by the printed formula (RayFormula::kDisks). An element has the mean of its vertices. A vertex counts
-// once in a shot however many elements share it; as printed, it received the light once for each of them.
+// RayRad in Ashdown 1994, 6.10): rays run from each vertex to random points of the shooting patch, and each
+// ray stands for a disk (RayFormula::kDisks). The irradiance of an element is the mean over its vertices. A
+// vertex receives the light of a shot once, even if several elements share the vertex; in RayRad as printed,
+// the vertex received the light once for each element.
 class RayradSolver final : public ShootingSolver {
  public:
   RayradSolver(const Scene& scene, const PatchVisibility& visibility, const UniformOptions& options,
@@ -27,10 +28,12 @@ class RayradSolver final : public ShootingSolver {
   };
   std::vector<double> FormFactorsOf(PatchId shooter, const ExecutionContext& context) const override;
 
-  std::vector<Vertex> vertices_;           // patch by patch; patches share none
-  std::vector<std::size_t> first_vertex_;  // of each patch, and one past the last
+  std::vector<Vertex> vertices_;  // patch by patch; no two patches share a vertex
+  // index of the first vertex of each patch, and one past the last vertex
+  std::vector<std::size_t> first_vertex_;
   std::vector<std::array<std::int32_t, 4>>
-      corner_;  // of each leaf, in vertices_; -1: a triangle has no fourth
+      // for each leaf, the indices of its corners in vertices_; the fourth index of a triangle is -1
+      corner_;
 };
 
 LightSolverRegistry::Method RayradSolverMethod();

@@ -1,10 +1,11 @@
 // solver/transport/solvers/sampled_solver.h
 //
-// A solver for scenes of many polygons. The transport operator is a sparse matrix that rays sample: a row
-// holds the elements that the rays of one element hit (form factors by Malley's method, Ashdown 1994, 4.12;
-// each hit weighs 1 / rays). There are no links and no pairs of patches, so that time and memory grow in
-// proportion to the number of elements. Rows add up to 1 in closed rooms, by construction. Direct light comes
-// by shadow rays. The matrix is kept: new light takes sweeps, but no rays.
+// A solver for scenes of many polygons. The light transport operator is a sparse matrix of form factors that
+// rays sample by Malley's method (Ashdown 1994, 4.12). A row of the matrix lists the elements that the rays
+// of one element hit; each hit adds 1 / (number of rays) to the form factor. The sampled solver makes no
+// links and no pairs of patches, so that time and memory grow in proportion to the number of elements. In
+// closed rooms, each row of the sampled matrix adds up to 1. Direct light is computed by shadow rays. The
+// matrix is kept, so that light for other emittances needs no new matrix rays.
 
 #pragma once
 
@@ -28,8 +29,9 @@ class SampledSolver final : public LightSolver {
 
   bool Ready() const override { return true; }
   std::optional<SolverStep> Next() const override;
-  // A pass: divides the elements whose direct light varies, samples the matrix anew and sweeps until the
-  // light settles. Each pass allows smaller elements and casts more rays than the one before.
+  // Makes one pass of the sampled solver: divides the elements whose direct light varies, samples the matrix
+  // of form factors anew, and sweeps until the light converges. Each pass of the sampled solver allows
+  // smaller elements and casts more rays than the previous pass.
   bool Step(SolverStep step, const ExecutionContext& context) override;
   bool Converged() const override {
     return pass_ >= options_.passes && residual_ <= options_.relative_cutoff;
@@ -47,15 +49,16 @@ class SampledSolver final : public LightSolver {
   std::vector<Rgb> MeanIrradianceByBounce(int bounces) const override;
 
  private:
-  // Direct light of an element, from points in its four quarters.
+  // The direct light of an element, from points in the element's four quarters [W/m^2].
   struct Direct {
-    Rgb mean = Rgb::Zero(), spread = Rgb::Zero();  // spread: root mean square deviation [W/m^2]
+    // spread: root mean square deviation of direct light from its mean
+    Rgb mean = Rgb::Zero(), spread = Rgb::Zero();
   };
-  // The limits of one pass.
+  // The limits of one pass of the sampled solver.
   struct Limits {
-    double largest_area;     // of an element [m^2]
-    double relative_spread;  // of an element's direct light
-    std::size_t rays;        // of an element
+    double largest_area;     // largest area of an element [m^2]
+    double relative_spread;  // largest allowed ratio spread / mean of an element's direct light
+    std::size_t rays;        // number of rays from an element
   };
 
   Limits LimitsOf(int pass) const;
@@ -68,18 +71,19 @@ class SampledSolver final : public LightSolver {
   std::size_t Settle(const ExecutionContext& context);
   void Report(std::size_t sweeps, double seconds);
 
-  // The solver of another scene with the same elements and the same matrix, not lit yet.
+  // Makes a solver for another scene with the same elements and the same matrix of form factors; its light is
+  // not computed yet.
   SampledSolver(const SampledSolver& from, const Scene& other);
 
   const Scene& scene_;
   SampledOptions options_;
   std::shared_ptr<const RayCaster> caster_;
-  std::unique_ptr<const ShadowRays> shadows_;  // for the present emittances
+  std::unique_ptr<const ShadowRays> shadows_;  // shadow rays to the emitters, for the present emittances
   RadiositySolution solution_;
   PushPull push_pull_;
-  std::vector<Direct> direct_;  // by element
-  // For each leaf in push_pull_.leaves(), rays_ entries, one for each ray from the leaf: the index in
-  // push_pull_.leaves() of the leaf that the ray hits, or -1 if the ray hits no front.
+  std::vector<Direct> direct_;  // direct light by element
+  // For each leaf, rays_ entries, one for each ray from the leaf: the index in push_pull_.leaves() of the
+  // leaf that the ray hits, or -1 if the ray hits no front.
   std::shared_ptr<const std::vector<std::int32_t>> rows_;
   std::size_t rays_ = 0;
   int pass_ = 0;

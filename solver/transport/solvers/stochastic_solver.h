@@ -11,23 +11,25 @@
 
 namespace penumbra {
 
-// Monte Carlo radiosity (Neumann et al. 1995; Ashdown 1994, 8.3): stochastic Jacobi iterations. In a bounce,
-// the unsent flux of all elements leaves in rays of equal flux, summed over the channels; the element that a
-// ray hits reflects what arrives in the next bounce. A step is a bundle of rays that is followed until its
-// flux is below the cut-off; the light is the mean of all bundles. Origins and directions are points of
-// low-discrepancy sequences, and each element goes on in its own from bundle to bundle. No form factor is
-// computed, and nothing else is stored than the light.
+// Monte Carlo radiosity (Neumann et al. 1995; Ashdown 1994, 8.3): stochastic Jacobi iterations. In each
+// bounce, the unsent flux of all elements leaves along rays, each with the same sum of flux over the three
+// channels. The element that a ray hits reflects the flux of the ray in the next bounce. A step of the solver
+// follows a bundle of rays, bounce after bounce, until the remaining flux is below the cut-off. The solution
+// is the mean over all bundles of rays. Origins and directions of rays are points of low-discrepancy
+// sequences; each element has its own sequence, which continues from bundle to bundle. Stochastic Jacobi
+// iterations compute no form factors and store only the light.
 class StochasticSolver final : public UniformSolver {
  public:
   StochasticSolver(const Scene& scene, const PatchVisibility& visibility, const UniformOptions& options,
                    const ExecutionContext& context);
 
-  // All bundles that the options ask for are traced.
+  // True if all bundles of rays that the options request have been traced.
   bool Converged() const override { return report().iterations.size() >= bundles_; }
 
  private:
-  // A bundle. The residual is the standard error of the bundles' mean, as the area-weighted root mean square
-  // over the elements, relative to that of the irradiance; 1 after the first bundle.
+  // Traces one bundle of rays. The residual is rms(standard error of the mean over the bundles) /
+  // rms(irradiance), where rms is the area-weighted root mean square over the elements. After the first
+  // bundle, the residual is 1.
   bool Advance(IterationReport* report, const ExecutionContext& context) override;
   std::vector<std::uint32_t> ShareOut(std::span<const Rgb> flux, double rays, std::uint64_t turn) const;
   std::vector<Rgb> Bounce(std::span<const Rgb> flux, double rays, std::vector<std::size_t>* used,
@@ -35,12 +37,12 @@ class StochasticSolver final : public UniformSolver {
   double RelativeError() const;
 
   std::size_t bundles_;
-  std::size_t rays_;  // of a bundle's first bounce
+  std::size_t rays_;  // number of rays in the first bounce of a bundle
   RayCaster caster_;
   ElementLocator locator_;
-  std::vector<std::int32_t> place_;  // of each element in leaves()
-  std::vector<std::size_t> used_;    // rays of each leaf in all bundles
-  std::vector<Rgb> sum_, squares_;   // over the bundles, of the irradiance of each leaf
+  std::vector<std::int32_t> place_;  // index of each element in leaves()
+  std::vector<std::size_t> used_;    // number of rays that each leaf has cast in all bundles
+  std::vector<Rgb> sum_, squares_;   // sums over the bundles of the irradiance of each leaf and of its square
 };
 
 LightSolverRegistry::Method StochasticSolverMethod();

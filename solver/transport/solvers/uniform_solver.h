@@ -1,8 +1,8 @@
 // solver/transport/solvers/uniform_solver.h
 //
-// What the classic solvers have in common: a uniform mesh of elements with constant light, and steps until
-// the light that is left out is small. Points and meshes gather from the elements as from those of the other
-// solvers.
+// The common base of the classic solvers: a uniform mesh of elements with constant radiosity, and steps until
+// the missing light is small. Meshing and probes gather light from the elements in the same way as for the
+// other solvers.
 
 #pragma once
 
@@ -20,12 +20,13 @@ class UniformSolver : public LightSolver {
  public:
   bool Ready() const final { return ready_; }
   std::optional<SolverStep> Next() const final;
-  // One step of the method: a shot, a sweep or a bundle of rays.
+  // Makes one step of the solver's method: a shot, a sweep or a bundle of rays.
   bool Step(SolverStep step, const ExecutionContext& context) final;
   bool Converged() const override { return ready_ && residual_ <= options_.relative_cutoff; }
   const RadiositySolution& solution() const final { return solution_; }
   const SolverReport& report() const final { return report_; }
-  // False: form factors were chosen by the light, or the rays by the power; a new solver is necessary.
+  // Always returns false: new emittances need a new solver, because form factors or rays were chosen
+  // according to the old light.
   bool Relight(const ExecutionContext&) final { return false; }
   bool TakesLight() const final { return false; }
   bool SetLight(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
@@ -35,33 +36,33 @@ class UniformSolver : public LightSolver {
   std::vector<Rgb> MeanIrradianceByBounce(int) const final { return {}; }
 
  protected:
-  // Makes the mesh, lit by emittance only. `most_steps`: how many steps Next() asks for at most, if the
-  // options do not say. The scene and the visibility must outlive the solver.
+  // Makes the uniform mesh, with emittance as its only light. `most_steps` is the largest number of steps if
+  // UniformOptions::shots is 0. The scene and the visibility must outlive the solver.
   UniformSolver(const Scene& scene, const PatchVisibility& visibility, const UniformOptions& options,
                 std::size_t most_steps);
 
-  // Makes a step and sets the residual and the sweeps of the report. Returns false if cancelled, and then
-  // changes nothing.
+  // Makes one step of the derived class's method and sets residual and sweeps of the report. If cancelled,
+  // Advance() returns false and changes nothing.
   virtual bool Advance(IterationReport* report, const ExecutionContext& context) = 0;
 
-  // The constructors of derived classes call it if they were not cancelled.
+  // Constructors of classes derived from UniformSolver call SetReady() unless the construction was cancelled.
   void SetReady() { ready_ = true; }
-  // Hands on the light: the irradiance of each leaf [W/m^2].
+  // Sets the irradiance of each leaf of solution() [W/m^2], and the resulting radiosities.
   void Show(std::span<const Rgb> irradiance);
 
   const Scene& scene() const { return scene_; }
   const ElementForest& forest() const { return solution_.forest; }
   const PatchVisibility& visibility() const { return visibility_; }
   const UniformOptions& options() const { return options_; }
-  // The leaves, patch by patch.
+  // All leaves (undivided elements of the quadtrees), patch by patch.
   std::span<const ElementId> leaves() const { return push_pull_.leaves(); }
-  // The places of a patch's leaves in leaves(): from FirstLeaf(p) up to FirstLeaf(p + 1).
+  // The leaves of patch p are leaves()[FirstLeaf(p)] to leaves()[FirstLeaf(p + 1) - 1].
   std::size_t FirstLeaf(PatchId patch) const { return first_leaf_[static_cast<std::size_t>(patch)]; }
   double AreaOf(std::size_t leaf) const { return solution_.forest[leaves()[leaf]].area; }
   const Material& MaterialOf(std::size_t leaf) const {
     return scene_.MaterialOf(solution_.forest[leaves()[leaf]].patch);
   }
-  // The flux that all surfaces emit of themselves [W].
+  // The flux that all emitters emit [W].
   Rgb EmittedFlux() const;
 
  private:
@@ -78,7 +79,8 @@ class UniformSolver : public LightSolver {
   LeafVisibilityCache seen_from_leaves_;
 };
 
-// Makes a solver of this class; null where it should go on from another solution.
+// Makes a solver of the class Solver. Returns null if the solver is asked to continue from another solution,
+// which solvers on uniform meshes cannot do.
 template <class Solver>
 std::unique_ptr<LightSolver> MakeUniformSolver(const SolverScene& in, const LightSolverOptions& options,
                                                const ExecutionContext& context) {

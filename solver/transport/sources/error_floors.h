@@ -1,27 +1,30 @@
 // solver/transport/sources/error_floors.h
 //
-// Smallest denominators of relative errors. A relative error is |difference| / max(light, floor): in dark
-// places, division by the light itself would demand an accuracy that nobody sees. Each floor is a fraction of
-// a mean over the scene, for each channel separately.
+// Floors of relative errors: the smallest denominators. A relative error is |difference| / max(light, floor),
+// because division by the light alone would demand an accuracy in dark places that nobody can see. Each floor
+// (smallest denominator of a relative error) is a fraction of a mean over the scene, for each channel
+// separately.
 
 #pragma once
 
 namespace penumbra {
 
-// The floor, as a fraction of the mean irradiance, for the error that `--error` promises
-// (PipelineOptions::error), and for the error of replacing a subtree of a source by one polygon (SourceSet).
+// The floor of relative errors that the option `--error` limits (PipelineOptions::error), as a fraction of
+// the mean irradiance. The constant kErrorFloor is also the floor for the error of replacing a subtree of a
+// source's quadtree by one polygon (SourceSet).
 inline constexpr double kErrorFloor = 0.01;
-// The floor, as a fraction of the mean irradiance, for the weights of discontinuities, which are relative to
-// the mean irradiance of a leaf. kLeafFloor is higher than kErrorFloor because the mean of a leaf does not
-// show its dark places.
+// The floor for the weights of shadow discontinuities, which are relative to the mean irradiance of a leaf;
+// the floor is a fraction of the mean irradiance of the scene. The constant kLeafFloor is higher than
+// kErrorFloor because the mean of a leaf does not show its dark places.
 inline constexpr double kLeafFloor = 0.05;
-// The floor, as a fraction of the mean reflected radiosity, for the deviation within a cell of the mesh that
-// is used as a source (SourceCells). kCellFloor is higher than kErrorFloor because the error affects many
-// receivers, most of which are brighter than kErrorFloor.
+// The floor for the relative deviation of radiosity within a cell of the mesh that serves as a light source
+// (SourceCells), as a fraction of the mean reflected radiosity. The constant kCellFloor is higher than
+// kErrorFloor because the error of a source affects many receivers, most of which are brighter than
+// kErrorFloor.
 inline constexpr double kCellFloor = 0.05;
-// The floor, as a fraction of the mean reflected radiosity, for the parts into which corrections cut leaves
-// (LeafCells). kPartFloor is high because the error of each part is bounded separately, without regard to the
-// irradiance that arrives at receivers.
+// The floor for the relative error of the parts into which deferred corrections cut leaves (LeafCells), as a
+// fraction of the mean reflected radiosity. The constant kPartFloor is high because the error of each part of
+// a leaf is bounded separately, without regard to the irradiance that arrives at receivers.
 inline constexpr double kPartFloor = 0.5;
 
 }  // namespace penumbra

@@ -1,9 +1,10 @@
 // solver/transport/sources/leaf_fragments.h
 //
-// Cuts leaves along contacts with other patches. A quadtree cannot follow the foot of a box that stands at an
-// angle on the floor: without cuts, the leaf below the box has the same radiosity in its lit and in its
-// covered part, and this wrong radiosity illuminates the sides of the box from close by. Fragments give the
-// part on each side of a contact its own radiosity.
+// Cuts leaves (undivided quadtree elements) along contacts, the lines where other patches touch them. A
+// quadtree cannot follow the foot of a box that stands at an angle on the floor: without cuts, the leaf below
+// the box has the same radiosity in its lit part and in its covered part. Without cuts, the leaf's wrong
+// radiosity illuminates the sides of the box from close by. Fragments, the parts of a cut leaf, have separate
+// radiosities on the two sides of a contact.
 
 #pragma once
 
@@ -14,9 +15,9 @@
 
 namespace penumbra {
 
-// The fragments of all leaves that a contact crosses, ordered by leaf; irradiances and radiosities are not
-// set. The fragments of a leaf are convex and tile the leaf. The result is useless if the context is
-// cancelled.
+// The fragments of all leaves that a contact crosses, ordered by leaf; CutLeavesAtContacts() does not set
+// irradiance and radiosity of the fragments. The fragments of a leaf are convex and tile the leaf. If the
+// computation is cancelled (ExecutionContext), the fragments must not be used.
 std::vector<Fragment> CutLeavesAtContacts(const ElementForest& forest,
                                           const ExecutionContext& context = ExecutionContext());
 

@@ -1,6 +1,7 @@
 // solver/transport/sources/source_polygon.h
 //
-// The polygons of sources, triangles and quadrilaterals, and their division into four quarters.
+// The polygons of light sources, which are triangles and quadrilaterals, and the division of such a polygon
+// into four quarters.
 
 #pragma once
 
@@ -26,14 +27,15 @@ struct SourcePolygon {
   bool operator==(const SourcePolygon& other) const;
 };
 
-// The triangles and quadrilaterals, all with the first vertex of the convex polygon, that tile the polygon.
+// Divides a convex polygon into triangles and quadrilaterals that all contain the polygon's first vertex.
 std::vector<SourcePolygon> Fan(std::span<const Vec3> convex);
 
-// The quarters of a polygon, with its edges' midpoints as corners. Quarter k < 3 of a triangle and quarter k
-// of a quadrilateral contain vertex k; quarter 3 of a triangle is the one in the middle.
+// The four quarters of a polygon; the midpoints of the polygon's edges are corners of the quarters. Quarter k
+// < 3 of a triangle and quarter k of a quadrilateral contain vertex k; quarter 3 of a triangle is the
+// triangle in the middle.
 std::array<SourcePolygon, 4> Quarters(const SourcePolygon& whole);
-// The polygon that has these four as its Quarters(), up to the rounding of midpoints; nothing if there is
-// none.
+// The polygon whose Quarters() are a, b, c and d, up to the rounding of midpoints; nullopt if no such polygon
+// exists.
 std::optional<SourcePolygon> JoinQuarters(const SourcePolygon& a, const SourcePolygon& b,
                                           const SourcePolygon& c, const SourcePolygon& d);
 

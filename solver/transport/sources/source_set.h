@@ -1,8 +1,8 @@
 // solver/transport/sources/source_set.h
 //
-// The light sources of IrradianceAtPoint(): the leaves of a solution with their radiosities, in depth-first
-// order of their trees. All receiver points use the same set, so that irradiance does not jump between
-// receiver elements.
+// The light sources for the irradiance at points: the leaves of a radiosity solution with their radiosities,
+// in depth-first order of their quadtrees. All receiver points use the same SourceSet, so that irradiance
+// does not jump between receiver elements.
 
 #pragma once
 
@@ -33,26 +33,32 @@ class SourceSet {
   // A node of a source's quadtree, in depth-first order. A subtree whose elements all have the same radiosity
   // becomes a single leaf, because the form factor of a polygon is exact for any size.
   struct Node {
-    // The members that a traversal reads first come first, so that they lie in the same cache lines.
-    std::int32_t size = 0;  // corners: 3 or 4
-    std::int32_t skip = 1;  // number of nodes in this subtree, including this node; 1 for a leaf
-    std::int32_t first_leaf = 0, leaf_count = 1;  // range of the subtree's leaves in the set
+    // Members that a traversal of the tree reads first are declared first, so that they lie in the same cache
+    // lines.
+    std::int32_t size = 0;  // number of corners: 3 or 4
+    std::int32_t skip = 1;  // number of nodes in the subtree of this node, including this node; 1 for a leaf
+    std::int32_t first_leaf = 0, leaf_count = 1;  // range of the subtree's leaves in the SourceSet
     std::array<std::int32_t, 4> corner = {};      // indices of the vertices in Corners()
-    std::int32_t fragment = -1;                   // index of the fragment that contains the node; -1: none
-    std::int32_t element = -1;  // the element that the node is, or that contains it; -1: none
+    // index of the solution's fragment (part of a cut leaf) that contains the node; -1: none
+    std::int32_t fragment = -1;
+    std::int32_t element = -1;  // id of the quadtree element that equals or contains the node; -1: none
     // For a subtree: the root mean square deviation of the leaves' radiosities B from their mean, divided by
     // max(mean, 1 % of the scene's mean reflected radiosity), for the channel with the largest quotient [1].
     double spread = 0;
-    double residual = 0;          // root mean square deviation from the best linear fit, divided alike
-    Vec3 centre = Vec3::Zero();   // of the polygon [m]
+    // root mean square deviation of the leaves' radiosities from their best linear fit, with the same divisor
+    // as `spread`
+    double residual = 0;
+    Vec3 centre = Vec3::Zero();   // centre of the node's polygon [m]
     double radius = 0;            // largest distance of a vertex from `centre` [m]
     double area = 0;              // [m^2]
-    Rgb radiosity = Rgb::Zero();  // [W/m^2]; of a subtree, the area-weighted mean
+    Rgb radiosity = Rgb::Zero();  // radiosity [W/m^2]; of a subtree, the area-weighted mean
 
     std::array<Vec3, 4> vertex;  // [m]
-    // Row c is the sum over the leaves of (B - mean B) * area * centre of the leaf, for channel c [W m].
+    // Row c is the sum over the subtree's leaves of (B - mean B) * area * centre, for channel c of the leaf's
+    // radiosity B [W m].
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
-    // Row c is the gradient, in the polygon's plane, of the best linear fit of B, for channel c [W/m^3].
+    // Row c is the gradient, in the polygon's plane, of the best linear fit of the leaves' radiosities, for
+    // channel c [W/m^3].
     Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();
     // The integral of d d^T over the polygon [m^4], where d is the position relative to the centroid.
     Eigen::Matrix3d second_moment = Eigen::Matrix3d::Zero();
@@ -60,37 +66,40 @@ class SourceSet {
 
   // The leaves of the solution with their radiosities.
   static SourceSet FromSolution(const RadiositySolution& solution);
-  // The leaves of the solution with `fragments` instead of the solution's fragments. REQUIRES: `fragments` is
-  // sorted by leaf.
+  // The leaves of the solution; cut leaves are divided into `fragments` instead of the solution's own
+  // fragments. REQUIRES: `fragments` is sorted by leaf.
   static SourceSet FromSolution(const RadiositySolution& solution, std::span<const Fragment> fragments);
-  // The leaves of the solution, also those of subtrees that have the same radiosity everywhere, unless their
-  // patch reflects nothing: nodes that can carry the light of any emitter (WithLight).
+  // The leaves of the solution as nodes that can carry the light of any emitter (WithLight). Subtrees of
+  // uniform radiosity are not joined into one leaf, unless their patch reflects nothing.
   static SourceSet ForAnyLight(const RadiositySolution& solution);
   // The emitters with their emittances, for direct light.
   static SourceSet Emitters(const Scene& scene);
 
-  // Returns the parts that tile a leaf; nothing for a leaf that stays as it is.
+  // A function that returns the parts that tile a leaf; an empty list leaves the leaf undivided.
   using DivideLeaf = std::function<std::vector<SourcePart>(PatchId patch, const Node& leaf)>;
-  // The given patches with their leaves divided. In the result, no other patch sends light.
+  // A SourceSet of the given patches, with their leaves divided by `divide`. In the SourceSet that Divided()
+  // returns, no patch outside `patches` sends light.
   SourceSet Divided(std::span<const PatchId> patches, const DivideLeaf& divide) const;
-  // Another light of the elements and fragments from which a set was made.
+  // New radiosities of the elements, and of the fragments (parts of cut leaves), from which a SourceSet was
+  // made.
   struct Light {
-    std::span<const Rgb> element, fragment;  // radiosities [W/m^2]; no fragments: those of their elements
-    std::span<const Rgb> emittance;          // of each patch [W/m^2]
+    // radiosities [W/m^2]; if `fragment` is empty, fragments have the radiosities of their elements
+    std::span<const Rgb> element, fragment;
+    std::span<const Rgb> emittance;  // emittance of each patch [W/m^2]
   };
-  // WithLight() returns the same nodes with another light; TakeLight() changes this set. REQUIRES: the set
-  // was made from a solution.
+  // WithLight() returns a copy of this SourceSet with new radiosities; TakeLight() changes the radiosities of
+  // this SourceSet. REQUIRES: the SourceSet was made from a solution.
   SourceSet WithLight(const Light& light) const;
   void TakeLight(const Light& light);
-  // Raises the spread and the residual of each node to those of the same node in the other set, so that both
-  // hold for the light of both sets. REQUIRES: `other` is the result of WithLight().
+  // Sets the spread and the residual of each node to the maximum of this SourceSet and `other`, so that
+  // spread and residual hold for the light of both sets. REQUIRES: `other` is the result of WithLight().
   void TakeSpreads(const SourceSet& other);
 
-  // The light of a node in a compact form, for sums over many nodes. The members have the meaning of those of
-  // Node with the same names.
+  // The light of a node in a compact form, for sums over many nodes. Each member has the same meaning as the
+  // member of Node with the same name.
   struct NodeLight {
     std::array<double, 3> radiosity = {0, 0, 0};  // [W/m^2]
-    std::array<float, 9> slope = {};              // row by row [W/m^3]
+    std::array<float, 9> slope = {};              // Node::slope, row by row [W/m^3]
     float spread = 0, residual = 0;
   };
   const NodeLight& LightOf(std::int32_t node) const { return light_[static_cast<std::size_t>(node)]; }
@@ -98,15 +107,16 @@ class SourceSet {
   const Node& NodeAt(std::size_t i) const { return nodes_[i]; }
   std::size_t IndexOf(const Node& node) const { return static_cast<std::size_t>(&node - nodes_.data()); }
 
-  // The tree of a patch; empty if it sends no light.
+  // The nodes of the quadtree of a patch; empty if the patch sends no light.
   std::span<const Node> Tree(PatchId patch) const {
     return {nodes_.data() + first_[patch], nodes_.data() + first_[patch + 1]};
   }
 
-  // The corners of all nodes [m]; a corner that several nodes of a patch share occurs once.
+  // The corners of all nodes [m]; a corner that several nodes of a patch share is stored once.
   std::span<const Vec3> Corners() const { return corners_; }
 
-  // The polygons and radiosities of all leaves, tree after tree.
+  // LeafPolygons() and LeafRadiosities() list the polygons and radiosities of all leaves, quadtree after
+  // quadtree.
   const PolygonBatch& LeafPolygons() const { return leaf_polygons_; }
   std::span<const Rgb> LeafRadiosities() const { return leaf_radiosity_; }
   std::span<const Vec3> LeafVertices(std::int32_t leaf) const {
@@ -114,12 +124,13 @@ class SourceSet {
     return {node.vertex.data(), static_cast<std::size_t>(node.size)};
   }
 
-  // The index of the node that is the leaf.
+  // The index of the node that corresponds to leaf number `leaf`.
   std::int32_t NodeOfLeaf(std::int32_t leaf) const { return leaf_node_[static_cast<std::size_t>(leaf)]; }
   std::size_t NodeCount() const { return nodes_.size(); }
   std::size_t PatchCount() const { return emittance_.size(); }
 
-  // The index of the fragment that contains a leaf of the set; -1: none.
+  // The index of the solution's fragment (part of a cut leaf) that contains a leaf of the SourceSet; -1:
+  // none.
   std::int32_t FragmentOf(std::int32_t leaf) const {
     return nodes_[static_cast<std::size_t>(leaf_node_[static_cast<std::size_t>(leaf)])].fragment;
   }
@@ -131,7 +142,7 @@ class SourceSet {
   enum class UniformSubtrees : std::uint8_t { kJoin, kJoinIfBlack };
   static SourceSet Make(const RadiositySolution& solution, std::span<const Fragment> fragments,
                         UniformSubtrees uniform);
-  // Computes all data that are derived from the polygons of nodes and the radiosities of leaves.
+  // Computes all data of nodes that follow from the polygons of the nodes and the radiosities of the leaves.
   void Measure();
   void NumberLeaves();
   void NumberCorners();
@@ -140,7 +151,7 @@ class SourceSet {
   void MeasureSubtrees();
   void CompactLight();
 
-  std::vector<std::size_t> first_;  // of each patch, in nodes_
+  std::vector<std::size_t> first_;  // index in nodes_ of the first node of each patch
   std::vector<Eigen::Matrix3d>
       inverse_moment_;  // pseudo-inverse of the second moment of each subtree [1/m^4]
   std::vector<Node> nodes_;
@@ -148,12 +159,12 @@ class SourceSet {
   std::vector<Vec3> corners_;
   PolygonBatch leaf_polygons_;
   std::vector<Rgb> leaf_radiosity_;
-  std::vector<std::int32_t> leaf_node_;  // index in nodes_
-  std::vector<Rgb> emittance_;           // of each patch
+  std::vector<std::int32_t> leaf_node_;  // index in nodes_ of each leaf
+  std::vector<Rgb> emittance_;           // emittance of each patch
 };
 
-// For each node of `from`, the index of the node of `to` with the same polygon at the same place of the tree;
-// -1: none. REQUIRES: both sets belong to the same scene.
+// For each node of `from`, the index of the node of `to` with the same polygon at the same place of the
+// quadtree; -1: none. REQUIRES: both SourceSets belong to the same scene.
 std::vector<std::int32_t> MapNodes(const SourceSet& from, const SourceSet& to);
 
 }  // namespace penumbra

@@ -1,6 +1,6 @@
 // solver/visibility/area/form_factor_matrix.h
 //
-// The form factors between all faces, or all objects, of a scene, with exact occlusion.
+// The matrix of the form factors between all faces, or between all objects, of a scene, with exact occlusion.
 
 #pragma once
 
@@ -15,44 +15,48 @@
 
 namespace penumbra {
 
-// A sparse matrix in compressed rows: row i holds the entries first[i] to first[i + 1] - 1, in ascending
-// columns. Factors that are 0 are left out.
+// A sparse matrix of form factors, stored as compressed rows: row i holds the entries first[i] to first[i +
+// 1] - 1, in ascending columns. Form factors that are 0 are not stored.
 struct FormFactorMatrix {
-  std::vector<double> area;  // of each row's fronts [m^2]; 0 if nothing is left of them
+  std::vector<double> area;  // front area of each row's face or object [m^2]; 0 if no front remains
   std::vector<std::size_t> first;
   std::vector<std::int32_t> column;
-  std::vector<double> factor;  // the fraction of the diffuse flux of the row that reaches the column
-  std::vector<double> error;   // an upper estimate of |factor - true factor|
-  std::size_t pairs = 0;       // of convex parts whose factor was computed, each once
+  std::vector<double> factor;  // form factor: fraction of the row's diffuse flux that reaches the column
+  std::vector<double> error;   // upper estimate of |factor - true factor|
+  std::size_t pairs = 0;       // number of pairs of convex parts whose form factor was computed
 
   std::size_t Rows() const { return area.size(); }
-  // The sum of the row's factors: 1 in a closed scene of which the row sees fronts only.
+  // The sum of the form factors of a row. The sum is 1 in a closed scene if only fronts are visible from the
+  // row.
   double RowSum(std::size_t row) const;
   // An upper estimate of the error of RowSum().
   double RowError(std::size_t row) const;
-  // Refers the rows to other areas [m^2]: F_ij becomes A_i F_ij / (new A_i), so that exchanges stay. A row
-  // without factors takes any area; a row with factors keeps its area where the new one is 0. REQUIRES: one
-  // area per row.
+  // Replaces the areas A_i of the rows by other areas [m^2]: F_ij becomes A_i F_ij / (new A_i), so that the
+  // exchange A_i F_ij does not change. A row with form factors keeps its old area if its new area is 0.
+  // REQUIRES: `areas` has one entry for each row.
   void ReferTo(const std::vector<double>& areas);
-  // The largest |A_i F_ij - A_j F_ji| / (A_i F_ij) over all entries; 0 for an empty matrix.
+  // The largest relative error of reciprocity, |A_i F_ij - A_j F_ji| / (A_i F_ij), over all entries; 0 for an
+  // empty matrix.
   double ReciprocityError() const;
 };
 
 struct FormFactorMatrixOptions {
-  // The errors of a row's factors shall add up to at most this.
+  // The largest permissible sum of the errors of the form factors of one row.
   double tolerance = 1e-6;
   // The method that computes occlusion at each point; null selects the fastest exact method.
   const OcclusionMethod* method = nullptr;
-  // If not null, receives progress and may cancel the computation; the result is then useless.
+  // If not null, a context that receives progress and may cancel the computation. The result of a cancelled
+  // computation is useless.
   const ExecutionContext* context = nullptr;
 };
 
-// The form factors between the groups, past all patches of the scene as blockers. A group is a list of parts,
-// and a part belongs to one group only; the factor of a group to itself counts its own parts that see each
-// other. Each pair of parts that may see each other is integrated once, so that A_i F_ij = A_j F_ji up to the
-// rounding of one division; the others are found by PatchVisibility. First comes a rough estimate of each
-// pair with blockers; then the pairs are computed anew whose errors make up too much of the error of a row.
-// Runs in parallel; the result does not depend on the number of threads.
+// Computes the form factors between groups of parts, with all patches of the scene as blockers. A group is a
+// list of convex parts of patches, and a part belongs to one group only. The form factor of a group to itself
+// accounts for parts of the group that see each other. Each pair of parts that may see each other
+// (PatchVisibility) is integrated once, so that A_i F_ij = A_j F_ji up to the rounding error of one division.
+// First, the form factor of each pair of parts with blockers is estimated roughly; then the pairs that
+// contribute too much to the error of a row are computed again. The computation runs in parallel; the result
+// does not depend on the number of threads.
 FormFactorMatrix ComputeFormFactorMatrix(const Scene& scene, std::span<const std::vector<AreaPart>> groups,
                                          const FormFactorMatrixOptions& options = {});
 

@@ -1,8 +1,8 @@
 // solver/visibility/area/kronrod_rule.h
 //
 // Gauss rules and their Kronrod extensions (Kronrod 1965; the numbers are from QUADPACK, Piessens et al.
-// 1983). A Gauss rule and its extension share their sample points. For smooth integrands, |Gauss value -
-// Kronrod value| exceeds the error of the Kronrod value.
+// 1983). The sample points of a Gauss rule are also sample points of its Kronrod extension. For smooth
+// integrands, |Gauss value - Kronrod value| exceeds the error of the Kronrod value.
 
 #pragma once
 
@@ -11,14 +11,15 @@
 
 namespace penumbra {
 
-// Nodes and weights on [0, 1]. The nodes of the Gauss rule are those of odd index; gauss[i] is 0 for even i.
+// Nodes and weights of a Kronrod rule and its Gauss rule on [0, 1]. The nodes of the Gauss rule are the nodes
+// of odd index; the weight gauss[i] is 0 for even i.
 template <std::size_t N>
 struct KronrodRule {
   std::array<double, N> node, kronrod, gauss;
 };
 
-// Makes a rule on [0, 1] from a symmetric rule on [-1, 1]. The parameters are the nodes in [0, 1) of the
-// symmetric rule, in descending order, so that the last node is 0; and their weights.
+// Makes a quadrature rule on [0, 1] from a symmetric rule on [-1, 1]. The parameters are the nodes of the
+// symmetric rule in [0, 1), in descending order, so that the last node is 0, and the weights of these nodes.
 template <std::size_t N>
 constexpr KronrodRule<N> MakeKronrodRule(const std::array<double, (N + 1) / 2>& node,
                                          const std::array<double, (N + 1) / 2>& kronrod,

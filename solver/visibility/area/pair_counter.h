@@ -9,7 +9,8 @@
 
 namespace penumbra {
 
-// Counts finished pairs from several threads, and reports progress to the context, which may be null.
+// Counts the pairs of areas that several threads have finished, and reports the progress to the context,
+// which may be null.
 class PairCounter {
  public:
   PairCounter(const ExecutionContext* context, const char* phase, std::size_t pairs)

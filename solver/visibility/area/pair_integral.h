@@ -1,7 +1,7 @@
 // solver/visibility/area/pair_integral.h
 //
-// The integral of the exact visible form factor of a point over a part of a patch. AreaFormFactor() computes
-// the integral for each pair of parts that may see each other.
+// The integral, over the points of a part of a patch, of the exact form factor of the point to the visible
+// part of a source. AreaFormFactor() computes this integral for each pair of parts that may see each other.
 
 #pragma once
 
@@ -13,21 +13,23 @@
 
 namespace penumbra {
 
-// Two parts that may see each other; each is clipped to the front of the other's plane.
+// Two parts of patches that may see each other; each part is clipped to the front side of the plane of the
+// other part.
 struct PartPair {
   PatchId receiver = kNoPatch, source = kNoPatch;
   TubeEnds ends;
-  double sender_area = 0;  // of the unclipped part that sends the flux [m^2]
+  double sender_area = 0;  // area of the unclipped part that sends the flux [m^2]
 };
 
 // The largest permissible error of a form factor with the value `factor`: max(tolerance * max(factor,
 // tolerance), 2e-17), as for AreaFormFactorOptions::tolerance.
 double AllowedError(double factor, double tolerance);
 
-// The integral of the visible form factor over the tube's receiver [m^2]. The error is estimated as in
-// AreaFormFactor(). The integration is adaptive: where the Gauss and the Kronrod rule differ, cells are cut
-// along the event lines that cross them, those of the largest weight first, and then halved. REQUIRES:
-// `blockers` is sorted in ascending order.
+// The integral, over the receiver's part, of the form factor of a point to the visible part of the source
+// [m^2]. The error of the integral is estimated in the same way as in AreaFormFactor(). The integration is
+// adaptive: an integration cell in which the Gauss and the Kronrod rule differ is first cut along the event
+// lines that cross it, in descending order of their weights, and then halved. REQUIRES: `blockers` is sorted
+// in ascending order.
 FormFactorEstimate IntegratePair(const Scene& scene, const PartPair& pair, std::vector<PatchId> blockers,
                                  const AreaFormFactorOptions& options);
 

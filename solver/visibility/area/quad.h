@@ -1,6 +1,7 @@
 // solver/visibility/area/quad.h
 //
-// Convex quadrilaterals in a plane as bilinear images of the unit square, for integration by product rules.
+// Convex quadrilaterals in a plane as bilinear images of the unit square, for integration by product
+// quadrature rules.
 
 #pragma once
 
@@ -12,7 +13,8 @@
 
 namespace penumbra {
 
-// The corners of a quadrilateral, counter-clockwise. A triangle repeats its first corner.
+// The corners of a convex quadrilateral, counter-clockwise. In a triangle, the last corner repeats the first
+// corner.
 using Quad = std::array<Vec2, 4>;
 
 // The bilinear map from (s, t) in the unit square to the quadrilateral.
@@ -20,15 +22,16 @@ inline Vec2 At(const Quad& q, double s, double t) {
   return (1 - t) * ((1 - s) * q[0] + s * q[1]) + t * ((1 - s) * q[3] + s * q[2]);
 }
 
-// The Jacobian determinant of At() at (s, t): area per unit area of the unit square.
+// The Jacobian determinant at (s, t) of the bilinear map At(): (area of the image) / (area in the unit
+// square).
 inline double Jacobian(const Quad& q, double s, double t) {
   const Vec2 ds = (1 - t) * (q[1] - q[0]) + t * (q[2] - q[3]),
              dt = (1 - s) * (q[3] - q[0]) + s * (q[2] - q[1]);
   return Cross2(ds, dt);
 }
 
-// Appends convex quadrilaterals that tile the convex polygon. Triangles are quadrilaterals with a repeated
-// vertex.
+// Divides the convex polygon into convex quadrilaterals and at most one triangle, and appends them to
+// `quads`.
 inline void AddQuads(std::span<const Vec2> polygon, std::vector<Quad>& quads) {
   for (std::size_t i = 2; i < polygon.size(); i += 2)
     if (i + 1 < polygon.size())

@@ -1,8 +1,8 @@
 // solver/visibility/exact/backprojection.h
 //
-// Backprojection (thesis, section 6.2): the outlines of all blockers, projected from the point onto the
-// source, are constraints of a Delaunay triangulation of the source. Each triangle is visible or hidden as a
-// whole. All decisions use exact numbers.
+// Backprojection (thesis, section 6.2): the outlines of all blockers are projected from the receiver point
+// onto the source, and are constraints of a Delaunay triangulation of the source. Each triangle of the source
+// is visible or hidden as a whole. Backprojection makes all decisions with exact numbers.
 
 #pragma once
 
@@ -14,8 +14,8 @@
 
 namespace penumbra {
 
-// The triangulated source as seen from the point, for inspection. A source that fills most of a hemisphere is
-// split into at most four parts, which share no vertices.
+// The triangulated source as seen from the receiver point, for inspection. A source that fills most of a
+// hemisphere is split into at most four parts, which share no vertices.
 struct BackprojectedSource {
   struct Triangle {
     std::array<std::int32_t, 3> vertex;
@@ -23,27 +23,30 @@ struct BackprojectedSource {
   };
   // An edge of the triangulation that lies on the outline of an occluder.
   struct BlockerEdge {
-    std::int32_t a = 0, b = 0;  // vertices, a < b
-    std::int32_t occluder = 0;  // index of the occluder in the input; an edge on n outlines has n entries
+    std::int32_t a = 0, b = 0;  // indices of the end vertices, a < b
+    std::int32_t occluder = 0;  // index of an occluder; an edge on the outlines of n occluders has n entries
   };
 
-  std::vector<Vec3> vertex;  // directions; the vertices of each part of a planar source lie in one plane
+  // The directions from the receiver point to the vertices, which lie in one plane for each part of a planar
+  // source.
+  std::vector<Vec3> vertex;
   std::vector<Triangle> triangle;
-  std::vector<BlockerEdge> blocker_edge;  // ascending by a, b, occluder
+  std::vector<BlockerEdge> blocker_edge;  // sorted by (a, b, occluder), ascending
 };
 
 class Backprojection final : public OcclusionMethod {
  public:
   // Collapses an edge of a blocker's outline into its midpoint if the edge's projection onto the image of the
   // source is shorter than `min_segment` times the diameter of that image (thesis, Appendix A, item 6). The
-  // thesis collapses edges to keep the triangulation stable; this class collapses edges only to save time.
-  // With min_segment = 0, the result is exact.
+  // thesis collapses edges to keep the triangulation stable; the class Backprojection collapses edges only to
+  // save time. With min_segment = 0, the visible form factor is exact.
   explicit Backprojection(double min_segment = 0) : min_segment_(min_segment) {}
 
   double VisibleFormFactor(const DirectionPolygon& source, std::span<const Occluder> occluders,
                            const Vec3& normal) const override;
 
-  // The triangulation whose visible triangles VisibleFormFactor() adds up.
+  // Returns the triangulation of the source; VisibleFormFactor() adds up the form factors of its visible
+  // triangles.
   BackprojectedSource Project(const DirectionPolygon& source, std::span<const Occluder> occluders,
                               const Vec3& normal) const;
 

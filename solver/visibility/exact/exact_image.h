@@ -3,9 +3,9 @@
 // The image of a source and its occluders as seen from a point: a plane figure in exact numbers, the common
 // basis of backprojection and vertex tracing. Coincidences of the input (shared corners, shared edges, three
 // edges through a point) remain exact coincidences of the image, and near coincidences become exact slivers.
-// There are no tolerances.
+// The exact image is computed without tolerances.
 //
-// The class is a template over the CGAL kernel, so that only source files include CGAL.
+// The class ExactImage is a template over the CGAL kernel, so that only source files include CGAL.
 
 #pragma once
 
@@ -24,16 +24,16 @@
 
 namespace penumbra {
 
-// The image point of a direction d is (d_i / (axis . d) - origin.x, d_j / (axis . d) - origin.y). The map
-// keeps orientation: a DirectionPolygon that is counter-clockwise about its interior has a counter-clockwise
-// image.
+// The image point of a direction d is (d_i / (axis . d) - origin.x, d_j / (axis . d) - origin.y). The
+// projection onto the image plane keeps orientation: a DirectionPolygon that is counter-clockwise about its
+// interior has a counter-clockwise image.
 struct ImagePlane {
   Vec3 axis = Vec3::UnitZ();
   int i = 0, j = 1, k = 2;
   Vec2 origin = Vec2::Zero();
 
-  // Makes the plane axis . p = 1 with axis = along. The image coordinates i and j are the two coordinate axes
-  // that are most nearly perpendicular to `along`.
+  // Makes the image plane axis . p = 1 with axis = along. The image coordinates i and j are the two
+  // coordinate axes that are most nearly perpendicular to `along`.
   explicit ImagePlane(const Vec3& along) : axis(along) {
     axis.cwiseAbs().maxCoeff(&k);
     i = (k + 1) % 3;
@@ -69,18 +69,18 @@ struct ImageBox {
   }
 };
 
-// The figure to whose outline an edge belongs.
+// The owner of an image edge: the source or the occluder to whose outline the edge belongs.
 class EdgeOwner {
  public:
-  // The outline of the source.
+  // The owner of edges of the source's outline.
   static constexpr EdgeOwner Source() { return EdgeOwner(kSource); }
-  // A border between two parts of one occluder, not part of any outline.
+  // The owner of borders between two parts of one occluder, which belong to no outline.
   static constexpr EdgeOwner Diagonal() { return EdgeOwner(kDiagonal); }
-  // The outline of an occluder; `occluder` is the index in the list of occluders.
+  // The owner of edges of an occluder's outline; `occluder` is the index in the list of occluders.
   static constexpr EdgeOwner Occluder(std::int32_t occluder) { return EdgeOwner(occluder); }
 
   constexpr bool IsOccluder() const { return code_ >= 0; }
-  // REQUIRES: the owner is an occluder.
+  // The index of the occluder. REQUIRES: the owner is an occluder.
   constexpr std::int32_t OccluderNumber() const { return code_; }
   constexpr bool operator==(const EdgeOwner&) const = default;
 
@@ -98,36 +98,38 @@ class ExactImage {
   using Point = typename Kernel::Point_2;
   using Line = typename Kernel::Line_2;
 
-  // A direction in homogeneous coordinates: its image point is (x / w, y / w). Directions behind the image
-  // plane have w < 0.
+  // A direction in homogeneous coordinates: the image point of the direction is (x / w, y / w). Directions
+  // that point away from the image plane have w < 0.
   struct Homogeneous {
     Number x, y, w;
-    bool diagonal = false;  // of a corner: the edge that starts here is a diagonal, no edge of the outline
+    // For a corner of an outline: true if the edge that starts at the corner is a diagonal, not an edge of
+    // the outline.
+    bool diagonal = false;
   };
 
-  // An edge of the outline of the source or of an occluder.
+  // An edge, in the image, of the outline of the source or of an occluder.
   struct Edge {
-    Line line;  // the interior of the outline is on its positive side
+    Line line;  // line of the edge; the interior of the outline is on its positive side
     EdgeOwner owner = EdgeOwner::Source();
-    bool seen = false;             // a part of the edge lies in the source
-    std::size_t from = 0, to = 0;  // indices of that part's end points
+    bool seen = false;             // true if a part of the edge lies in the source
+    std::size_t from = 0, to = 0;  // point indices of the ends of the edge's part in the source
   };
 
-  // The convex region bounded by the lines of edges[first] to edges[last - 1].
+  // The outline of a convex region, bounded by the lines of edges[first] to edges[last - 1].
   struct Outline {
     std::int32_t first = 0, last = 0;
     ImageBox box;
   };
 
-  // An image point with all corners and edges that coincide there.
+  // A place: an image point at which one or more corners and edges coincide.
   struct Place {
     Point point;
     ImageBox box;
-    Vec2 offset = Vec2::Zero();  // the point in doubles
+    Vec2 offset = Vec2::Zero();  // the coordinates of the point, rounded to doubles
   };
 
-  // Makes the image of the part of a source with the given vertices, all of which have axis . vertex > 0.
-  // Edges of occluders' outlines shorter than min_segment times the diameter of the source are collapsed.
+  // Makes the image of a source, or of a part of a source, whose vertices all satisfy axis . vertex > 0.
+  // Edges of occluders' outlines that are shorter than min_segment * (diameter of the source) are collapsed.
   ExactImage(const ImagePlane& plane, std::span<const std::array<Number, 3>> source,
              std::span<const Occluder> occluders, double min_segment)
       : plane_(plane) {
@@ -147,14 +149,14 @@ class ExactImage {
 
   bool empty() const { return source_.last == 0; }
   const ImagePlane& plane() const { return plane_; }
-  // The edges of the source come first, then the edges of the occluders. Occluders that an edge of the source
-  // separates from the source are omitted.
+  // The edges of the source come first, then the edges of the occluders. Occluders that lie completely on the
+  // outer side of one edge of the source are omitted.
   const Outline& source() const { return source_; }
   const std::vector<Outline>& occluders() const { return occluders_; }
   const std::vector<Edge>& edges() const { return edges_; }
-  // The normal of the plane through the viewpoint whose image is the line; the normal points to the positive
-  // side of the line. The error of each coordinate is at most kNormalError times the sum of the absolute
-  // values of the line's coordinates.
+  // The normal of the plane that contains the viewpoint and the image line `line`; the normal points to the
+  // positive side of the line. The error of each coordinate of the normal is at most kNormalError * (sum of
+  // the absolute values of the line's coefficients).
   Vec3 NormalOf(const Line& line) const {
     const Number a = line.a(), b = line.b(), c = line.c() - a * plane_.origin.x() - b * plane_.origin.y();
     constexpr double kAny = std::numeric_limits<double>::infinity();
@@ -165,11 +167,12 @@ class ExactImage {
     normal[plane_.j] = ToDouble(b + c * plane_.axis[plane_.j], accuracy);
     return normal;
   }
-  // The corners of the source, the corners of occluders inside the source, and the crossings of edges, in
-  // lexicographic order of (x, y). Because of the lexicographic order, the indices of places on a line are
-  // monotonic along the line.
+  // The places of the image: the corners of the source, the corners of occluders inside the source, and the
+  // crossings of edges. Because the places are in lexicographic order of (x, y), the indices of the places on
+  // a line are monotonic along the line.
   const std::vector<Place>& places() const { return places_; }
-  // The indices of the places on the part of an edge that lies in the source, in ascending order.
+  // The indices, in ascending order, of the places (corners and crossings) on the part of an edge that lies
+  // in the source.
   const std::vector<std::int32_t>& PlacesOn(std::int32_t edge) const {
     return on_edge_[static_cast<std::size_t>(edge)];
   }
@@ -177,7 +180,8 @@ class ExactImage {
   // A bound of the error of each coordinate of Place::offset.
   double offset_error() const { return kOffsetAccuracy * diameter_; }
 
-  // The side of an edge's line on which a place lies: 1 inside the edge's outline, -1 outside, 0 on the line.
+  // The side of an edge's line on which a place (corner or crossing) lies: 1 inside the outline of the edge,
+  // -1 outside, 0 on the line.
   int SideOf(std::int32_t edge, std::int32_t place) const {
     const std::vector<std::int32_t>& on = PlacesOn(edge);
     if (std::binary_search(on.begin(), on.end(), place)) return 0;
@@ -185,7 +189,7 @@ class ExactImage {
         places_[static_cast<std::size_t>(place)].point);
   }
 
-  // An exact number as a double. The error is at most max(accuracy, kLastDigits * |number|).
+  // Converts an exact number to a double with an error of at most max(accuracy, kLastDigits * |number|).
   static double ToDouble(const Number& number, double accuracy) {
     auto [low, high] = to_interval(number);
     if (high - low > std::max(2 * accuracy, kLastDigits * std::abs(low + high))) {
@@ -196,20 +200,20 @@ class ExactImage {
   }
 
  private:
-  // The accuracy of image coordinates that are used to compare lengths: the rounding error of numbers near 1,
-  // the size of the image.
+  // The accuracy of image coordinates for the comparison of lengths, equal to the rounding error of numbers
+  // near 1, because the size of the image is about 1.
   static constexpr double kPlaceAccuracy = 1e-16;
   static constexpr double kLastDigits = 2 * std::numeric_limits<double>::epsilon();
 
   static constexpr std::size_t kNoPoint = std::numeric_limits<std::size_t>::max();
 
-  // A bound of the error of Place::offset, relative to the diameter of the source. The kernel's interval
-  // arithmetic usually reaches the accuracy kOffsetAccuracy; otherwise, ToDouble() computes the exact number.
+  // A bound of (error of Place::offset) / (diameter of the source). The kernel's interval arithmetic usually
+  // reaches the accuracy kOffsetAccuracy; otherwise, ToDouble() computes the exact number.
   static constexpr double kOffsetAccuracy = 2e-15;
 
   // If the diameter of the source's image is below kSmallSource, lines and points are evaluated exactly as
-  // soon as they are made. The kernel's intervals for crossings of lines that were evaluated exactly are
-  // narrow enough, so that crossings need no exact evaluation.
+  // soon as they are made. For crossings of exactly evaluated lines, the intervals of the CGAL kernel are
+  // narrow enough, so that these crossings need no exact evaluation.
   static constexpr double kSmallSource = 0.03;
 
   static Homogeneous Cross(const Homogeneous& a, const Homogeneous& b) {
@@ -256,8 +260,8 @@ class ExactImage {
     return *point;
   }
 
-  // Adds the convex hull of the source, which differs from the source's polygon only because vertices are
-  // rounded. Returns false if the hull has no interior.
+  // Adds the convex hull of the source to the image. The hull differs from the source's polygon only because
+  // vertices are rounded. Returns false if the convex hull of the source has no interior.
   bool ImageSource(std::span<const std::array<Number, 3>> source);
   void ImageOccluder(const Cone& cone, std::int32_t number, double min_segment);
   void AddOccluder(std::span<const Homogeneous> outline, std::int32_t number);
@@ -268,7 +272,7 @@ class ExactImage {
   void ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge, std::size_t& point_a,
                     std::size_t& point_b);
 
-  // Point `point` lies on edge `edge`.
+  // States that the point with the index `point` lies on the edge with the index `edge`.
   struct Incidence {
     std::size_t point;
     std::int32_t edge;
@@ -278,7 +282,7 @@ class ExactImage {
 
   ImagePlane plane_;
   double diameter_ = 0;
-  std::vector<Point> point_;  // end points and crossings of edges; several may coincide
+  std::vector<Point> point_;  // end points and crossings of edges; several of them may coincide
   std::vector<Incidence> incidence_;
   Outline source_;
   std::vector<Outline> occluders_;
@@ -295,7 +299,8 @@ bool ExactImage<Kernel>::ImageSource(std::span<const std::array<Number, 3>> sour
   const auto image = [&](const std::array<Number, 3>& d) {
     return ToImage(coordinate(d, plane_.i), coordinate(d, plane_.j), coordinate(d, plane_.k));
   };
-  // The origin is close to the first vertex, so that small distant sources lose no digits.
+  // The origin of the image is close to the first vertex of the source, so that small distant sources lose no
+  // digits.
   const Homogeneous first = image(source[0]);
   plane_.origin = {ToDouble(first.x / first.w, 1), ToDouble(first.y / first.w, 1)};
 
@@ -311,7 +316,7 @@ bool ExactImage<Kernel>::ImageSource(std::span<const std::array<Number, 3>> sour
                           std::abs(p.bbox().ymax()), std::abs(p.bbox().ymin())});
   if (points.size() < 3) return false;
 
-  // Lower hull, then upper hull.
+  // Computes the lower and then the upper convex hull.
   std::vector<Point> hull;
   const auto extend = [&](const Point& p, std::size_t least) {
     while (hull.size() > least && !left_turn(hull[hull.size() - 2], hull.back(), p)) hull.pop_back();
@@ -337,7 +342,8 @@ bool ExactImage<Kernel>::ImageSource(std::span<const std::array<Number, 3>> sour
   return true;
 }
 
-// Replaces both ends of each short edge by its midpoint; the outline stays convex.
+// Replaces both ends of each edge shorter than `length` by the midpoint of the edge; the outline stays
+// convex.
 template <class Kernel>
 void ExactImage<Kernel>::CollapseShort(double length, std::vector<Homogeneous>& outline) const {
   const auto at = [&](const Homogeneous& h) {
@@ -362,8 +368,9 @@ void ExactImage<Kernel>::ImageOccluder(const Cone& cone, std::int32_t number, do
   std::vector<Vec3> direction(cone.direction.begin(), cone.direction.begin() + cone.size);
   for (const Vec3& d : direction) outline.push_back(ToImage(d));
 
-  // Removes a corner that rounding has turned inwards: the plane of a short edge could otherwise cut the cone
-  // in two. At long edges, a corner that is turned inwards does no harm.
+  // Removes corners of the occluder's outline that rounding has turned inwards, because the plane of a short
+  // edge could otherwise cut the occluder's cone in two. At long edges of the outline, corners that rounding
+  // has turned inwards do no harm.
   for (std::size_t k = 0; k < outline.size() && outline.size() >= 3;) {
     const std::size_t n = outline.size(), before = (k + n - 1) % n, after = (k + 1) % n;
     if (direction[before].dot(direction[after]) > 0 &&
@@ -392,8 +399,8 @@ template <class Kernel>
 void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::int32_t number) {
   const std::size_t n = outline.size();
   if (n < 3 || (n == 3 && Dot(Cross(outline[0], outline[1]), outline[2]) <= 0)) return;
-  // An outline of three directions on nearly a half circle, with one corner turned inwards by rounding,
-  // becomes two convex halves.
+  // If three directions of an outline lie nearly on a half circle, and rounding has turned one corner
+  // inwards, the outline is divided into two convex halves.
   for (std::size_t k = 0; k < n && n > 3; ++k) {
     const std::size_t before = (k + n - 1) % n, after = (k + 1) % n;
     if (Dot(Cross(outline[before], outline[k]), outline[after]) >= 0) continue;
@@ -409,7 +416,7 @@ void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::
     return;
   }
 
-  // An occluder on the outer side of an edge of the source hides nothing.
+  // An occluder that lies completely on the outer side of an edge of the source hides nothing.
   for (std::int32_t s = source_.first; s < source_.last; ++s) {
     const Line& line = edges_[static_cast<std::size_t>(s)].line;
     if (std::none_of(outline.begin(), outline.end(),
@@ -437,14 +444,14 @@ void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::
   if (!before) region.box = source_.box;
 }
 
-// Finds the part of `edge`, the last of edges_, that lies in the source. The edge runs from a to b.
+// Finds the part of `edge`, the last of edges_, that lies in the source. The edge runs from `a` to `b`.
 // Neighbouring edges share the point of their common corner.
 template <class Kernel>
 void ExactImage<Kernel>::ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge,
                                       std::size_t& point_a, std::size_t& point_b) {
   struct End {
     Homogeneous at;
-    std::int32_t cut = -1;         // the edge of the source that cuts here; -1: none
+    std::int32_t cut = -1;         // the edge of the source that cuts off this end; -1 if none
     std::vector<std::int32_t> on;  // the edges of the source on which the point lies
   };
   End from, to;
@@ -528,9 +535,9 @@ void ExactImage<Kernel>::FindPlaces() {
       boxes.push_back(
           {Join(BoxOf(point_[edge.from]), BoxOf(point_[edge.to])), e, static_cast<std::int32_t>(o)});
     }
-  // A sweep over the boxes, which are rounded outwards, finds the candidates. Pairs of edges of one outline
-  // are skipped because an outline does not cross itself. Crossings with the outline of the source are
-  // already known.
+  // A sweep over the edges' bounding boxes, which are rounded outwards, finds pairs of edges that may cross.
+  // Pairs of edges of one outline are skipped because an outline does not cross itself. Crossings of
+  // occluders' edges with the outline of the source are already known.
   std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) {
     return a.box.low.x() != b.box.low.x() ? a.box.low.x() < b.box.low.x() : a.edge < b.edge;
   });
@@ -567,8 +574,8 @@ void ExactImage<Kernel>::FindPlaces() {
   }
 }
 
-// Clips a polygon of directions to the half-space in front of a plane through the viewpoint. The new edge may
-// be half a great circle through the zenith; if so, a vertex is added at the zenith, because edges must be
+// Clips a polygon of directions to the half-space in front of a plane through the viewpoint. If the new edge
+// is half of a great circle through the zenith, a vertex is added at the zenith, because edges must be
 // shorter than pi.
 template <class Kernel>
 auto ExactImage<Kernel>::PartBefore(const Directions& polygon, const Vec3& plane,
@@ -628,8 +635,9 @@ void ExactImage<Kernel>::ForEachPart(const DirectionPolygon& source, std::span<c
     return;
   }
 
-  // Two planes through the normal cut the source into four parts. All directions of each part lie within 55
-  // degrees of the axis normal + st * t + su * u.
+  // Two planes through the normal cut the source into four parts. All directions of a part of the source lie
+  // within 55 degrees of the axis normal + st * t + su * u, where t and u are unit vectors perpendicular to
+  // `normal`.
   int across = 0;
   normal.cwiseAbs().minCoeff(&across);
   const Vec3 t = normal.cross(Vec3::Unit(across)).normalized(), u = normal.cross(t);

@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-// All occlusion methods; the fastest exact method comes first.
+// The registry of all occlusion methods; the fastest exact method comes first.
 OcclusionRegistry& OcclusionMethods();
 
 }  // namespace penumbra

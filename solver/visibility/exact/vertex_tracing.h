@@ -1,7 +1,8 @@
 // solver/visibility/exact/vertex_tracing.h
 //
 // Vertex tracing (Stark and Riesenfeld 1999): finds the vertices of the visible region one by one, and the
-// visible angular spans of each vertex. The method builds no polygon. All decisions use exact numbers.
+// visible angular spans of each vertex. Vertex tracing builds no polygon of the visible region. Vertex
+// tracing makes all decisions with exact numbers.
 
 #pragma once
 
@@ -14,10 +15,12 @@ namespace penumbra {
 struct TracedFormFactor {
   double form_factor = 0;
   // `vertices` is the number of vertices of the visible region (intrinsic, apparent or conjunctive). Each
-  // vertex has one or more visible angular spans; `borders` is the number of the borders of all these spans.
+  // vertex of the visible region has one or more visible angular spans; `borders` is the number of the
+  // borders of all spans.
   std::int64_t vertices = 0, borders = 0;
-  // The number of borders of angular spans whose contribution is computed by the formula of Stark and
-  // Riesenfeld. The contributions of the other borders are computed edge by edge.
+  // The number of borders of angular spans whose contribution to the form factor is computed by the formula
+  // of Stark and Riesenfeld. The contributions of all other borders to the form factor are computed edge by
+  // edge.
   std::int64_t formula_borders = 0;
 };
 

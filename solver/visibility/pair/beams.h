@@ -1,10 +1,10 @@
 // solver/visibility/pair/beams.h
 //
-// The part of a tube that walls leave open. Several blockers in one plane, such as the parts of a wall around
-// a doorway, may together hide one end of the tube from the other although no single blocker does. Every
-// visible segment between the tube's ends crosses the plane of a wall in one of the wall's openings. The
-// openings of successive walls divide the tube into narrower beams (like the portals and antipenumbras of
-// Teller 1992, but without cells).
+// Beams: the parts of a tube (convex hull of two polygons) that walls leave open. Several blockers in one
+// plane, such as the parts of a wall around a doorway, may together hide one end of the tube from the other
+// although no single blocker does. Every unblocked segment between the tube's ends crosses the plane of a
+// wall in one of the openings of the wall. The openings of successive walls divide the tube into narrower
+// beams (like the portals and antipenumbras of Teller 1992, but without cells).
 
 #pragma once
 
@@ -15,33 +15,34 @@
 
 namespace penumbra {
 
-// All segments between the ends of a tube that pass through one opening of each of several walls: the
-// segments that start in the first polygon of `stations`, end in the last one, and cross all others. Each
-// polygon is convex.
+// A beam is the set of all segments between the ends of a tube that pass through one opening of each of
+// several walls. The list `stations` holds convex polygons: the segments of the beam start in the first
+// polygon, end in the last polygon, and cross all other polygons.
 struct Beam {
   std::vector<Polygon3> stations;
 };
 
 struct Beams {
-  std::vector<Beam> beams;          // contain every segment that no wall cuts
-  std::vector<PatchId> wall_parts;  // the blockers that form these walls, ascending
+  std::vector<Beam> beams;          // beams that contain every segment that no wall cuts
+  std::vector<PatchId> wall_parts;  // the blockers that form the walls, ascending
   bool hidden() const { return beams.empty(); }
 };
 
-// The beams from `a` to `b` through the walls that the blockers form in planes between them. Only walls that
-// hide a large fraction of the tube are used. Openings narrower than kCrack times the largest coordinate
-// count as closed: rounding leaves such cracks between polygons that touch. REQUIRES: `a` and `b` are convex,
-// and each lies before the plane of the other.
+// Finds the beams from polygon `a` to polygon `b` through the openings of the walls that the blockers form
+// between `a` and `b`. Only walls that hide a large fraction of the tube are used. Openings narrower than
+// kCrack * (largest coordinate) count as closed, because rounding leaves cracks of this width between
+// polygons that touch. REQUIRES: `a` and `b` are convex, and each lies in front of the plane of the other.
 Beams FindBeams(const Scene& scene, std::span<const Vec3> a, std::span<const Vec3> b,
                 std::span<const PatchId> blockers);
 
-// True if FindBeams() would find no beam. HiddenByWalls() is faster than FindBeams(), because it stops at the
-// first beam.
+// True if walls hide polygon `a` from polygon `b` completely, so that FindBeams() would find no beam.
+// HiddenByWalls() is faster than FindBeams(), because it stops at the first beam.
 bool HiddenByWalls(const Scene& scene, std::span<const Vec3> a, std::span<const Vec3> b,
                    std::span<const PatchId> blockers);
 
-// Removes the blockers that neither belong to a wall of `beams` nor reach into a beam. Every blocked segment
-// between the tube's ends keeps at least one of its blockers. The order of the blockers does not change.
+// Removes the blockers that neither belong to a wall of `beams` nor reach into a beam. For every blocked
+// segment between the tube's ends, at least one blocker remains in the list. The remaining blockers keep
+// their order in the list.
 void KeepBlockersOfBeams(const Scene& scene, const Beams& beams, std::vector<PatchId>& blockers);
 
 }  // namespace penumbra

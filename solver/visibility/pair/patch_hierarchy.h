@@ -1,7 +1,7 @@
 // solver/visibility/pair/patch_hierarchy.h
 //
-// A bounding volume hierarchy over patches, to find the patches in a convex region, such as a tube, that no
-// screen hides.
+// A bounding volume hierarchy over patches. A search finds the patches that intersect a convex region and are
+// not hidden by large patches (screens).
 
 #pragma once
 
@@ -17,30 +17,30 @@ namespace penumbra {
 class PatchHierarchy {
  public:
   PatchHierarchy() = default;
-  // A hierarchy over the given patches of the scene. The constructor copies the bounding boxes of the
+  // Makes a hierarchy over the given patches of the scene. The constructor copies the bounding boxes of the
   // patches.
   PatchHierarchy(const Scene& scene, std::vector<PatchId> patches);
 
   std::size_t size() const { return order_.size(); }
 
-  // Replaces `found` by the patches, in ascending order, whose bounding boxes intersect the region and do not
-  // lie completely in the shadow of one of the screens. The result is conservative: because of rounding, it
-  // may include patches just outside the region, but it omits none.
+  // Sets `found` to the patches, in ascending order, whose bounding boxes intersect the region and do not lie
+  // completely in the shadow of one screen (large patch). The search is conservative: because of rounding,
+  // `found` may include patches just outside the region, but no patch inside the region is missing.
   void Find(const ConvexRegion& region, std::span<const Screen> screens, std::vector<PatchId>& found) const;
 
  private:
-  // The nodes are in depth-first order, parents before children. A leaf has one patch.
+  // The nodes are in depth-first order, parents before children. A leaf of the hierarchy has one patch.
   struct Node {
-    Vec3 centre, half;                  // of the bounding box [m]
-    std::int32_t skip = 1;              // number of nodes in this subtree, including this node
-    std::int32_t first = 0, count = 0;  // the subtree's patches, in order_
+    Vec3 centre, half;                  // centre and half extent of the bounding box [m]
+    std::int32_t skip = 1;              // number of nodes in the subtree of this node, including the node
+    std::int32_t first = 0, count = 0;  // range of the subtree's patches in order_
   };
   bool Hidden(const Node& node, std::span<const Screen> screens) const;
   void Build(const Scene& scene, std::size_t first, std::size_t last);
 
   std::vector<PatchId> order_;
   std::vector<Node> nodes_;
-  double margin_ = 0;  // bound of the rounding of boxes and heights [m]
+  double margin_ = 0;  // bound of the rounding errors of boxes and heights [m]
 };
 
 }  // namespace penumbra

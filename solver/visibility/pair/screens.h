@@ -1,7 +1,7 @@
 // solver/visibility/pair/screens.h
 //
-// Screens: patches that hide a large part of the view. Patches in the shadow of a screen need no further
-// visibility tests.
+// Screens: patches that hide a large part of the view. Patches that lie in the shadow of a screen need no
+// further visibility tests.
 
 #pragma once
 
@@ -14,34 +14,35 @@
 
 namespace penumbra {
 
-// A half-space: the points p with dot(normal, p) >= offset. `normal` is a unit vector.
+// A half-space: the points p with dot(normal, p) >= offset, where `normal` is a unit vector.
 struct HalfSpace {
   Vec3 normal = Vec3::Zero();
   double offset = 0;  // [m]
 };
 
-// The intersection of half-spaces.
+// A convex region, given as the intersection of half-spaces.
 using ConvexRegion = std::vector<HalfSpace>;
 
-// A patch with the region that it hides.
+// A screen: a large patch, with its shadow, the region that the patch hides.
 struct Screen {
   PatchId patch = kNoPatch;
   ConvexRegion shadow;
 };
 
-// The region that the patch hides from all points of `from`, and thus from their convex hull. The region is
-// empty if the patch's plane contains one of the points or separates the points.
+// The region that the patch hides from all points of `from`, and thus from the convex hull of these points.
+// The hidden region is empty if the patch's plane contains one of the points or separates the points.
 ConvexRegion ShadowRegion(std::span<const ReceiverPoint> from, const Patch& patch);
 
-// Finds screens among the largest patches of a scene. The scene must outlive the finder.
+// Finds screens, patches that hide much of the view, among the largest patches of a scene. The scene must
+// outlive the ScreenFinder.
 class ScreenFinder {
  public:
   ScreenFinder() = default;
   explicit ScreenFinder(const Scene& scene);
 
-  // Replaces the contents of `screens` by at most `count` patches, in descending order of their estimated
-  // solid angles as seen from the points. Each solid angle is at least `least` [sr]. No patch of the result
-  // is completely hidden behind another patch of the result.
+  // Sets `screens` to at most `count` screens, in descending order of their estimated solid angles as seen
+  // from the points `from`. Each estimated solid angle is at least `least` [sr]. No screen is completely
+  // hidden behind an earlier screen of the list.
   void Find(std::span<const ReceiverPoint> from, double least, std::size_t count,
             std::vector<Screen>& screens) const;
 

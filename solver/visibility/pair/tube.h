@@ -1,7 +1,7 @@
 // solver/visibility/pair/tube.h
 //
-// The tube of two polygons, their convex hull: nothing outside the tube can block light between them (Teller
-// and Hanrahan 1993).
+// The tube of two polygons is their convex hull: nothing outside the tube can block light between the
+// polygons (Teller and Hanrahan 1993).
 
 #pragma once
 
@@ -23,25 +23,27 @@ inline constexpr double kParallel = 1e-12;
 
 class Tube {
  public:
-  // REQUIRES: a and b are convex and planar, each lies on or before the other's plane, and both outlive the
-  // tube.
+  // REQUIRES: the polygons `a` and `b` are convex and planar, each lies on or in front of the other's plane,
+  // and both outlive the tube.
   Tube(std::span<const Vec3> a, std::span<const Vec3> b);
 
-  // A region that contains the tube, bounded by the tube's planes and its bounding box.
+  // A convex region that contains the tube, bounded by planes of the tube and by its bounding box.
   ConvexRegion Region() const;
 
-  // True if the convex polygon, whose plane has the unit normal `normal`, does not meet the tube's interior
-  // and so cannot block. The test is conservative: it may return false for a polygon just outside the tube.
+  // True if the convex polygon `polygon` does not meet the tube's interior and so cannot block light;
+  // `normal` is the unit normal of the polygon's plane. The test is conservative: Misses() may return false
+  // for a polygon just outside the tube.
   bool Misses(std::span<const Vec3> polygon, const Vec3& normal) const;
 
-  // True if the convex polygon cuts every segment from a to b: the polygon alone hides a from b.
+  // True if the convex polygon `polygon` cuts every segment between the ends of the tube, so that this
+  // polygon alone hides one end from the other.
   bool HiddenBy(std::span<const Vec3> polygon, const Vec3& normal) const;
 
  private:
   void AddSupportingPlanes(std::span<const Vec3> from, std::span<const Vec3> to);
 
   std::span<const Vec3> a_, b_;
-  Vec3 low_, high_;      // bounding box
+  Vec3 low_, high_;      // corners of the bounding box
   double rounding_ = 0;  // bound of the error of a computed height above a plane [m]
   ConvexRegion planes_;
 };

@@ -1,6 +1,6 @@
 // solver/visibility/point/arc_tangent.h
 //
-// A branch-free arc tangent, for loops that the compiler vectorises. The results are the same for every
+// A branch-free arc tangent, for loops that the compiler vectorises. The arc tangents are the same for every
 // vector width.
 
 #pragma once
@@ -27,12 +27,12 @@ inline constexpr std::array<double, 12> kArcTangent = {1.0,
                                                        -0.017805397205419446};
 inline constexpr double kTanEighthPi = 0.41421356237309503;
 
-// atan2(y, x) for y >= 0, without branches.
+// Computes atan2(y, x) for y >= 0, without branches.
 [[gnu::always_inline]] inline double AngleOf(double y, double x) {
   const double ax = x < 0 ? -x : x;
   const double low = y < ax ? y : ax, high = y < ax ? ax : y;
   const bool big = low > kTanEighthPi * high;
-  // tan(a - pi/4) = (tan a - 1) / (tan a + 1)
+  // For angles a > pi/8, the identity tan(a - pi/4) = (tan a - 1) / (tan a + 1) reduces the argument.
   const double numerator = big ? low - high : low, denominator = big ? low + high : high;
   const double t = numerator / (denominator > 0 ? denominator : 1.0);
   const double z = t * t;

@@ -1,7 +1,7 @@
 // solver/visibility/point/clipping.h
 //
-// Occlusion by clipping: cuts the shadow of each blocker out of the source and keeps the rest as convex
-// pieces. Clipping is exact, and the fastest of the occlusion methods.
+// Occlusion by clipping: the shadow of each blocker is cut out of the source as seen from the receiver point,
+// and the rest is kept as convex pieces. Clipping is exact, and the fastest of the occlusion methods.
 
 #pragma once
 
@@ -17,11 +17,12 @@
 
 namespace penumbra {
 
-// Cuts shadows out of the polygons of one image at a time. A clipper keeps its buffers from image to image;
-// use one clipper, borrowed by a Scratch, for many images.
+// Cuts the shadows of occluders out of polygons. A Clipper works on one image (the view from one point) at a
+// time. A Clipper keeps its buffers from image to image; use one Clipper, borrowed by a Scratch, for many
+// images.
 class Clipper {
  public:
-  // A range on the clipper's stack of occluders.
+  // A range of occluders on the Clipper's stack, the candidates that may cover a polygon.
   struct Candidates {
     std::size_t first = 0, last = 0;
     bool empty() const { return first == last; }
@@ -32,27 +33,28 @@ class Clipper {
   Clipper(const Clipper&) = delete;
   Clipper& operator=(const Clipper&) = delete;
 
-  // Forgets the image and its occluders.
+  // Removes the present image and its occluders.
   void Clear();
-  // Starts a new image with the projection `frame`. The polygon `whole` contains all polygons that are passed
-  // to Narrow() and CutOut() later. Returns all occluders as candidates. The occluders must exist until the
-  // next Begin() or Clear().
+  // Starts a new image with the projection `frame`. The polygon `whole` must contain all polygons that are
+  // passed to Narrow() and CutOut() later. Begin() returns the range of all occluders as candidates. The
+  // occluders must exist until the next call of Begin() or Clear().
   Candidates Begin(const ImageFrame& frame, const ImagePolygon& whole, std::span<const Occluder> occluders);
 
-  // Tests how the candidates cover the polygon. Returns kAll if a single candidate covers the whole polygon.
-  // If Narrow() returns kPart, it has pushed the candidates that may cover a part of the polygon on the
-  // stack, and has set `own` to their range. REQUIRES: the candidates are on top of the stack.
+  // Tests whether the candidate occluders cover the polygon. Returns kAll if a single candidate covers the
+  // whole polygon. If Narrow() returns kPart, the candidates that may cover a part of the polygon have been
+  // pushed on the stack, and `own` is their range. REQUIRES: the candidates are on top of the stack.
   Overlap Narrow(const ImagePolygon& polygon, const Candidates& candidates, Candidates* own);
-  // Pops the entries of the stack above the candidates.
+  // Removes the entries of the occluder stack above the given candidates.
   void Restore(const Candidates& candidates);
 
-  // Cuts the candidates out of the polygon and adds the remaining pieces to Visible(), with the owner `owner`
-  // and the labels of their edges. `label` holds the labels of the polygon's edges; by default, the polygon's
-  // edges are labelled as edges of the source. REQUIRES: Narrow() returned the candidates for this polygon.
+  // Cuts the shadows of the candidate occluders out of the polygon. The remaining pieces are added to
+  // Visible(), with the owner `owner` and with labels of their edges. `label` holds the labels of the
+  // polygon's edges; by default, the polygon's edges are labelled as edges of the source. REQUIRES: Narrow()
+  // has returned the candidates for this polygon.
   void CutOut(const ImagePolygon& polygon, const Candidates& candidates, PieceOwner owner,
               std::span<const EdgeLabel> label = {});
 
-  // Appends the candidates to `occluders`, in the order of Begin().
+  // Appends the given candidates to `occluders`, in the order in which they were passed to Begin().
   void List(const Candidates& candidates, std::vector<Occluder>& occluders) const;
 
   ImageEdges& Visible();
@@ -62,16 +64,16 @@ class Clipper {
   std::unique_ptr<Impl> impl_;
 };
 
-// Calls visit(directions) for every convex piece of `source` that no occluder covers, for a point with unit
-// normal `normal`. The pieces do not overlap. REQUIRES: the source lies above the point's horizon, and the
-// occluders lie before the source.
+// Calls visit(directions) for every convex visible piece of `source`, seen from a point with unit normal
+// `normal`. The visible pieces do not overlap. REQUIRES: the source lies above the point's horizon, and the
+// occluders lie in front of the source.
 void ForEachVisiblePiece(const DirectionPolygon& source, std::span<const Occluder> occluders,
                          const Vec3& normal, const std::function<void(std::span<const Vec3>)>& visit);
 
-// Sets factors[i] to the form factor of the point to the unoccluded part of parts[i], a part of a source;
-// faster than one call of VisibleFormFactor() for each part. Each error is at most kOcclusionError * (form
-// factor of `whole`); for parts much smaller than `whole`, Clipping::VisibleFormFactor() is
-// more accurate. REQUIRES: the parts lie in `whole` and do not overlap.
+// Sets factors[i] to the form factor of the point to the unoccluded part of parts[i]. VisibleFormFactors() is
+// faster than one call of VisibleFormFactor() for each part. The error of each factor is at most
+// kOcclusionError * (form factor of `whole`); for parts much smaller than `whole`,
+// Clipping::VisibleFormFactor() is more accurate. REQUIRES: the parts lie in `whole` and do not overlap.
 void VisibleFormFactors(const DirectionPolygon& whole, std::span<const DirectionPolygon> parts,
                         std::span<const Occluder> occluders, const Vec3& normal, std::span<double> factors);
 

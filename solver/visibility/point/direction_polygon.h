@@ -1,11 +1,12 @@
 // solver/visibility/point/direction_polygon.h
 //
 // A convex polygon as seen from a point, represented by directions: form factor and occlusion depend only on
-// the directions. Vertices are vectors from the point, of any length. Edges are arcs of great circles,
-// shorter than pi.
+// the directions. The vertices of the polygon are vectors of any length from the point. The edges of the
+// polygon are arcs of great circles, shorter than pi.
 //
-// Notation: x is the point, a -> b an edge as seen from x, m = a x b the normal of the edge. The order of the
-// vertices is such that m . direction > 0 for all edges and every direction inside.
+// Notation: x is the viewpoint, a -> b an edge of a polygon as seen from x, m = a x b the normal of the edge.
+// The vertices are in such an order that m . d > 0 for all edges and for every direction d inside the
+// polygon.
 
 #pragma once
 
@@ -25,7 +26,7 @@ class DirectionPolygon {
   static constexpr int kCapacity = 20;
 
   DirectionPolygon() = default;
-  // Copies only the vertices in use.
+  // The copy constructor copies only the vertices in use, not the whole array.
   DirectionPolygon(const DirectionPolygon& other) { *this = other; }
   DirectionPolygon& operator=(const DirectionPolygon& other) {
     size_ = other.size_;
@@ -52,43 +53,49 @@ class DirectionPolygon {
 enum class Side {
   kFront,
   kBack,
-  kInPlane,  // the plane contains the point, which has no approach off the plane: the polygon has no effect
-  kFrontInLimit,  // the plane contains the point; the approach is from the front
+  // The plane contains the viewpoint, whose approach direction lies in the plane or is zero: the polygon has
+  // no effect.
+  kInPlane,
+  kFrontInLimit,  // the plane contains the viewpoint, approached from the front
   kBackInLimit,
 };
 
-// A bound of the rounding error of a point's height above a plane [m], for coordinates up to `extent` [m].
+// A bound of the rounding error of the computed height of a point above a plane [m], for coordinates of
+// absolute value up to `extent` [m].
 double HeightRounding(double extent);
 
-// The side of the plane through `on` with unit normal `normal` on which the point lies. `extent` bounds the
-// polygon's coordinates [m].
+// The side on which the point `at` lies, of the plane through `on` with unit normal `normal`. `extent` is the
+// largest absolute coordinate of the polygon that defines the plane [m].
 Side SideOf(const ReceiverPoint& at, const Vec3& normal, const Vec3& on, double extent);
 
-// A convex polygon as seen from the viewpoint. The vertices of `polygon` are counter-clockwise about the
-// polygon's normal; `from_front` is true if the viewpoint lies on the side to which the normal points.
-// REQUIRES: the plane does not contain the viewpoint.
+// Returns a convex polygon as seen from the viewpoint `at`. The vertices of `polygon` are counter-clockwise
+// about the polygon's normal; `from_front` is true if the viewpoint lies on the side to which this normal
+// points. REQUIRES: the polygon's plane does not contain the viewpoint.
 DirectionPolygon Seen(const ReceiverPoint& at, std::span<const Vec3> polygon, bool from_front);
 
-// The limit of Seen() for a polygon whose plane contains the viewpoint, clipped to the part above the
-// receiver's horizon. The result is empty unless the polygon contains the viewpoint. If a vertex of the
-// polygon, or an interior point of one of its edges, coincides with the viewpoint, the direction of this
-// vertex or edge point is -approach.
+// The one-sided limit of Seen() for a polygon whose plane contains the viewpoint, clipped to the part above
+// the receiver's horizon. The result of SeenInContact() is empty unless the polygon contains the viewpoint.
+// If the viewpoint coincides with a vertex or with a point of an edge, the direction to this vertex or point
+// is -approach.
 DirectionPolygon SeenInContact(const ReceiverPoint& at, std::span<const Vec3> polygon, bool from_front);
 
-// The part of a seen polygon above the receiver's horizon, n . direction >= 0. `extent` bounds the polygon's
-// coordinates [m]. Vertices whose distance from the horizon is below the rounding error count as lying on the
-// horizon. Intersections with the horizon are the directions n x (a x b).
+// The part of a polygon of directions above the receiver's horizon, n . direction >= 0, where n is the
+// receiver's normal. `extent` is the largest absolute coordinate of the polygon [m]. Vertices whose distance
+// from the horizon is below the rounding error count as lying on the horizon. An edge a -> b intersects the
+// horizon in the direction n x (a x b).
 DirectionPolygon ClipToHorizon(const ReceiverPoint& at, const DirectionPolygon& polygon, double extent);
 
-// The cone of directions that a blocker fills: all directions with normal[k] . direction >= 0.
+// The cone of directions that a blocker fills as seen from a point: all directions d with normal[k] . d >= 0
+// for all k.
 struct Cone {
   int size = 0;
-  std::array<Vec3, 12> normal;     // unit
-  std::array<Vec3, 12> direction;  // the blocker's vertices as seen; start of plane k
-  std::array<Vec3, 12> end;        // end of plane k
-  // A vertex whose distance from one of the planes is at most `rounding` [m] counts as lying in the plane.
-  // Without the tolerance `rounding`, planes that coincide would cut off slivers whose edges have arbitrary
-  // directions.
+  std::array<Vec3, 12> normal;  // unit normals of the cone's planes
+  // directions to the blocker's vertices; direction[k] is the start of plane k
+  std::array<Vec3, 12> direction;
+  std::array<Vec3, 12> end;  // end[k] is the direction to the end of plane k
+  // A vertex whose distance from a plane of the cone is at most `rounding` [m] counts as lying in the plane.
+  // Without a tolerance for rounding errors, coincident planes of cones would cut off slivers whose edges
+  // have arbitrary directions.
   double rounding = 0;
 };
 
@@ -96,13 +103,15 @@ struct Cone {
 // at the nearer of the points a and b and use the same operations.
 Vec3 EdgeNormal(const Vec3& a, const Vec3& b);
 
-// The cone of a seen blocker. `extent` bounds the blocker's coordinates [m]. The normals that two adjacent
-// blockers compute for their common edge are exact opposites, so that no light leaks between the blockers.
+// The cone of directions that the polygon `blocker` fills. `extent` is the largest absolute coordinate of the
+// blocker [m]. The normals that two adjacent blockers compute for their common edge are exact opposites, so
+// that no light leaks between the blockers.
 Cone MakeCone(const ReceiverPoint& at, const DirectionPolygon& blocker, double extent);
 
 enum class Overlap { kNone, kPart, kAll };
 
-// A cone that may hide a part of a source. The object holds only a pointer to the cone.
+// An occluder: the cone of a blocker that may hide a part of a source. The Occluder holds only a pointer to
+// the cone.
 struct Occluder {
   const Cone* cone = nullptr;
 
@@ -110,11 +119,11 @@ struct Occluder {
   Occluder(const Cone& whole) : cone(&whole) {}
 };
 
-// Tests whether the cone covers the polygon completely, in part or not at all, up to rounding. The result may
-// be kPart for a cone just outside the polygon.
+// Tests whether the cone covers the polygon completely (kAll), in part (kPart) or not at all (kNone), up to
+// rounding. For a cone just outside the polygon, Classify() may return kPart.
 Overlap Classify(const Cone& cone, const DirectionPolygon& polygon);
 
-// The part of the polygon with plane . direction >= 0.
+// The part of a polygon of directions in which plane . direction >= 0.
 DirectionPolygon Above(const DirectionPolygon& polygon, const Vec3& plane);
 
 }  // namespace penumbra

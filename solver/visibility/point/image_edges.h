@@ -1,7 +1,7 @@
 // solver/visibility/point/image_edges.h
 //
-// Stores the outlines of many convex pieces of one image, and evaluates Lambert's formula as one vectorised
-// sum over all their edges.
+// Stores the outlines of many convex pieces of one image (the view from one point), and evaluates Lambert's
+// form factor formula as one vectorised sum over all edges.
 
 #pragma once
 
@@ -13,8 +13,9 @@
 
 namespace penumbra {
 
-// Identifies what a piece was cut from: a part of the source, or a group of parts that counts as one. The
-// caller numbers the parts and the groups. A default-constructed object is uninitialised.
+// The owner of a visible piece: the part of the source, or the group of parts, from which the piece was cut.
+// The caller chooses the numbers of parts and groups of the source. A default-constructed PieceOwner is
+// uninitialised.
 class PieceOwner {
  public:
   PieceOwner() = default;
@@ -37,7 +38,7 @@ class PieceOwner {
 class ImageEdges {
  public:
   struct Sum {
-    double value = 0;   // 2 pi times the form factor
+    double value = 0;   // the value 2 pi * (form factor)
     double angles = 0;  // sum of the angles of all edges [rad]
   };
 
@@ -47,26 +48,27 @@ class ImageEdges {
 
   std::size_t Pieces() const { return start_.size(); }
   PieceOwner Owner(std::size_t piece) const { return owner_[piece]; }
-  // The edges of piece p are [Begin(p), Begin(p + 1)).
+  // The index of the first edge of a piece; piece p has the edges [Begin(p), Begin(p + 1)).
   std::size_t Begin(std::size_t piece) const { return piece < start_.size() ? start_[piece] : label_.size(); }
   Vec2 Start(std::size_t edge) const { return {edge_[0][edge], edge_[1][edge]}; }
   Vec2 Difference(std::size_t edge) const { return {edge_[2][edge], edge_[3][edge]}; }
-  // The centroid of the piece's image; the first vertex if the area is zero.
+  // The centroid of a piece in the image; the first vertex if the area of the piece is zero.
   Vec2 Centroid(std::size_t piece) const;
   EdgeLabel Label(std::size_t edge) const { return label_[edge]; }
 
-  // Lambert's sum over the edges of all pieces, for a point with unit normal `normal`. The result is the same
-  // for every vector width.
+  // Lambert's sum over the edges of all pieces, for a point with unit normal `normal`. Lambert's sum is the
+  // same for every SIMD vector width.
   Sum FormFactorSum(const ImageFrame& frame, const Vec3& normal);
-  // 2 pi times the form factor of a piece, as computed by the last call of FormFactorSum().
+  // The value 2 pi * (form factor of a piece), as computed by the last call of FormFactorSum().
   double PieceSum(std::size_t piece) const;
-  // The form factor of a piece by quadrature, without cancellation.
+  // The form factor of a piece by quadrature, which has no cancellation.
   double PieceByQuadrature(const ImageFrame& frame, const Vec3& normal, std::size_t piece) const;
 
  private:
-  std::array<std::vector<double>, 4> edge_;  // start x and y, difference x and y
+  // for each edge: x and y of its start, then x and y of (end - start)
+  std::array<std::vector<double>, 4> edge_;
   std::vector<EdgeLabel> label_;
-  std::vector<std::size_t> start_;  // first edge of each piece
+  std::vector<std::size_t> start_;  // index of the first edge of each piece
   std::vector<PieceOwner> owner_;
   std::vector<double> term_, angle_;
 };

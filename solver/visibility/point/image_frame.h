@@ -16,7 +16,7 @@
 
 namespace penumbra {
 
-// A line of the image: the zeros of a x + b y + h, with a^2 + b^2 = 1.
+// A line of the image, with the equation a x + b y + h = 0, where a^2 + b^2 = 1.
 struct ImageLine {
   double a = 0, b = 0, h = 0;
 };
@@ -30,9 +30,9 @@ struct ImagePolygon {
   int size = 0;
   std::array<double, kCapacity> x, y;
 
-  ImagePolygon() {}  // NOLINT: the arrays stay uninitialised
+  ImagePolygon() {}  // NOLINT: the arrays x and y stay uninitialised
   ImagePolygon(const ImagePolygon& other) { *this = other; }
-  // Copies only the vertices in use.
+  // The assignment copies only the vertices in use, not the whole arrays.
   ImagePolygon& operator=(const ImagePolygon& other) {
     size = other.size;
     std::copy_n(other.x.begin(), size, x.begin());
@@ -52,16 +52,18 @@ struct ImagePolygon {
 // digits.
 class ImageFrame {
  public:
-  // REQUIRES: the polygon lies within 80 degrees of the axis, as the parts of SplitForImages() do.
+  // REQUIRES: all directions of the polygon lie within 80 degrees of the axis, as in the parts that
+  // SplitForImages() makes.
   ImageFrame(const DirectionPolygon& polygon, const Vec3& axis);
 
-  // The image of a direction. REQUIRES: the direction lies before the plane, axis . direction > 0.
+  // The image point of a direction. REQUIRES: axis . direction > 0, that is, the direction points to the
+  // image plane.
   Vec2 Image(const Vec3& direction) const {
     const double w = axis_.dot(direction);
     const Vec3 offset = direction - first_;
     // For directions close to the first vertex, the formula with the difference `offset` loses no digits. For
-    // other directions, such as those of vertices close to the point, the difference itself would lose
-    // digits.
+    // directions far from the first vertex, such as those of vertices close to the point, the difference
+    // `offset` itself would lose digits.
     if (offset.squaredNorm() > kNearFirstSquared * direction.squaredNorm())
       return Vec2(e1_.dot(direction), e2_.dot(direction)) / w - shift_;
     return (Vec2(e1_.dot(offset), e2_.dot(offset)) - axis_.dot(offset) * shift_) / w;
@@ -74,7 +76,7 @@ class ImageFrame {
     }
     return image;
   }
-  // The direction of an image point, from the viewpoint to the image plane.
+  // The vector from the viewpoint to the point of the image plane with the image coordinates p.
   Vec3 Direction(const Vec2& p) const { return origin_ + p.x() * e1_ + p.y() * e2_; }
   // The direction of the image's origin, and the coordinates of that direction along E1 and E2.
   const Vec3& Origin() const { return origin_; }
@@ -83,48 +85,51 @@ class ImageFrame {
   const Vec3& E2() const { return e2_; }
   const Vec3& Axis() const { return axis_; }
 
-  // (x, y, w): the image point is (x/w, y/w) if w > 0. Directions behind the point have w < 0.
+  // The homogeneous image coordinates (x, y, w) of a direction: the image point is (x/w, y/w) if w > 0.
+  // Directions that point away from the image plane have w < 0.
   Vec3 Homogeneous(const Vec3& direction) const {
     const double w = axis_.dot(direction);
     return {e1_.dot(direction) - w * shift_.x(), e2_.dot(direction) - w * shift_.y(), w};
   }
 
-  // The image of plane k of a cone. In small images, the line's distance from the origin, ImageLine::h, is a
-  // small sum of large terms; `digits` is the precision with which the sum is computed.
+  // The image of plane k of a blocker's cone. In small images, the line's distance from the origin,
+  // ImageLine::h, is a small sum of large terms; `digits` is the precision with which the sum is computed.
   ImageLine Line(const Cone& cone, int k, Digits digits) const;
 
  private:
-  // Let r = |direction - first_| / |direction|. Image() computes with the difference direction - first_ if
-  // r^2 is at most this constant, that is, if r <= 1/10. For larger r, image coordinates that are computed
-  // from the direction itself lose less than one decimal digit.
+  // Image() computes with the difference direction - first_ if |direction - first_|^2 / |direction|^2 is at
+  // most kNearFirstSquared. If this ratio is larger, image coordinates that are computed from the direction
+  // itself lose less than one decimal digit.
   static constexpr double kNearFirstSquared = 0.01;
 
   Vec3 axis_, e1_, e2_;
-  Vec3 first_;   // the polygon's first vertex as seen
-  Vec3 origin_;  // the same direction, with axis . origin_ = 1
+  Vec3 first_;   // direction to the polygon's first vertex
+  Vec3 origin_;  // first_ scaled so that axis . origin_ = 1
   Vec2 shift_;   // coordinates of origin_ along e1 and e2
 };
 
-// Identifies the edge, of the source or of a blocker, that bounds a visible part of the source. A
-// default-constructed label is uninitialised, so that arrays of labels cost nothing.
+// The label of an edge of a visible part of the source, which identifies the edge of the source or of a
+// blocker that bounds the visible part. A default-constructed EdgeLabel is uninitialised, so that making
+// arrays of labels takes no time.
 class EdgeLabel {
  public:
   EdgeLabel() = default;
 
-  // A border between two pieces of the same source.
+  // The label of a border between two pieces of the same source.
   static constexpr EdgeLabel Inner() { return EdgeLabel(kInner, 0); }
-  // The edge of the source from vertex `edge` to the next vertex.
+  // The label of the edge of the source from the vertex with index `edge` to the next vertex.
   static constexpr EdgeLabel OfSource(int edge) { return EdgeLabel(kSource, edge); }
-  // A plane of the cone of an occluder; `occluder` is the index in the list of occluders.
+  // The label of an edge in plane `plane` of the cone of an occluder; `occluder` is the index in the list of
+  // occluders.
   static constexpr EdgeLabel OfOccluder(std::size_t occluder, int plane) {
     return EdgeLabel(static_cast<std::int32_t>(occluder), plane);
   }
 
   constexpr bool IsInner() const { return occluder_ == kInner; }
   constexpr bool IsOfSource() const { return occluder_ == kSource; }
-  // REQUIRES: IsOfSource() is true.
+  // REQUIRES: the label is that of an edge of the source.
   constexpr int SourceEdge() const { return edge_; }
-  // REQUIRES: IsInner() and IsOfSource() are false.
+  // REQUIRES: the label is that of an edge of an occluder.
   constexpr std::size_t Occluder() const { return static_cast<std::size_t>(occluder_); }
   constexpr std::size_t Plane() const { return static_cast<std::size_t>(edge_); }
 
@@ -135,19 +140,20 @@ class EdgeLabel {
   std::int32_t occluder_, edge_;
 };
 
-// A part of a direction polygon that fits into one image.
+// A part of a polygon of directions that fits into one image.
 struct ImagePart {
   DirectionPolygon polygon;
   Vec3 axis;
-  std::array<EdgeLabel, DirectionPolygon::kCapacity> label;  // labels of the edges
+  std::array<EdgeLabel, DirectionPolygon::kCapacity> label;  // labels of the polygon's edges
 };
 
-// An axis for an ImageFrame whose image contains the whole polygon; the zero vector if there is no such axis.
+// A projection axis for which one ImageFrame can show the whole polygon; the zero vector if no such axis
+// exists.
 Vec3 ImageAxis(const DirectionPolygon& polygon);
 
-// Appends the polygon as parts that each fit into an image: one part if the whole polygon fits, and otherwise
-// the parts that two planes through `normal` cut. A polygon that contains the whole horizon gives four parts.
-// REQUIRES: the polygon lies above the horizon of `normal`.
+// Divides the polygon into parts that each fit into one image, and appends them to `parts`. A polygon that
+// fits as a whole gives one part; otherwise two planes through `normal` cut the polygon. A polygon that
+// contains the whole horizon gives four parts. REQUIRES: the polygon lies above the horizon of `normal`.
 void SplitForImages(const DirectionPolygon& polygon, const Vec3& normal, std::vector<ImagePart>& parts);
 
 }  // namespace penumbra

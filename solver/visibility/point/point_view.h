@@ -1,7 +1,8 @@
 // solver/visibility/point/point_view.h
 //
-// The scene as seen from one receiver point: one source after another, and the blockers before each source.
-// The view of a blocker is computed once for each point, whatever the number of sources behind the blocker.
+// The scene as seen from one receiver point: the sources, one after another, and the blockers in front of
+// each source. The view of a blocker is computed only once for each receiver point, even if the blocker hides
+// parts of many sources.
 
 #pragma once
 
@@ -17,10 +18,11 @@
 namespace penumbra {
 
 // A PointView must be a local variable, because it borrows its buffers from the thread that creates it
-// (Scratch). All arguments must outlive the object.
+// (Scratch). The arguments of the constructor must outlive the PointView.
 class PointView {
  public:
-  // Sources are seen as if they were moved by `source_push_off` * (the receiver's normal) [m] (thesis 6.4).
+  // Sources are treated as if they were moved by `source_push_off` * (the receiver's normal) [m] (thesis
+  // 6.4).
   PointView(const Scene& scene, const ReceiverPoint& at, const OcclusionMethod& method = FastestExactMethod(),
             double source_push_off = 0);
   ~PointView();
@@ -28,31 +30,33 @@ class PointView {
   PointView& operator=(const PointView&) = delete;
 
   const ReceiverPoint& at() const { return at_; }
-  // The current source, which the last FaceSource() set.
+  // The current source, which the last call of FaceSource() has set.
   const Patch& Source() const { return *source_; }
 
-  // The viewpoint from which sources are seen: the receiver point, shifted because of source_push_off.
+  // The viewpoint from which sources are seen: the receiver point, moved by -source_push_off * normal.
   const Vec3& SourceEye() const { return source_at_.position; }
 
-  // Makes `source` the current source. Returns false if no part of the source's front is above the receiver's
-  // horizon and faces the point.
+  // Makes `source` the current source. Returns false if no part of the source's front lies above the
+  // receiver's horizon and faces the receiver point.
   bool FaceSource(PatchId source);
 
   // The directions of a convex part of the current source as seen from the point, clipped to the horizon.
   DirectionPolygon SeeSource(std::span<const Vec3> part) const;
 
-  // True if the current source lies above the horizon as a whole and its plane does not contain the point. If
-  // the result is true, the view of the source needs neither clipping to the horizon nor a one-sided limit.
+  // True if the whole current source lies above the horizon and the plane of the source does not contain the
+  // receiver point. The view of a source for which SourceIsPlain() is true needs neither clipping to the
+  // horizon nor a one-sided limit.
   bool SourceIsPlain() const { return !source_in_contact_ && !source_crosses_horizon_; }
 
-  // True if the plane of the current source contains the point, so that the view of the source is a one-sided
-  // limit.
+  // True if the plane of the current source contains the receiver point, so that the view of the source is a
+  // one-sided limit.
   bool SourceInContact() const { return source_in_contact_; }
 
-  // Appends the candidates that may hide parts of `seen`, clipped to the front of the current source's plane.
-  // `own`, the receiver's patch, does not block. If the outline of a solid bounds exactly what the solid
-  // hides, a single occluder represents all sides of the solid. Returns false and appends nothing if one
-  // occluder hides all of `seen`. The occluders' cones are valid until the next FaceSource().
+  // Appends to `occluders` the candidates that may hide parts of `seen`, clipped to the front side of the
+  // current source's plane. `own`, the receiver's patch, does not block light. If the outline of a convex
+  // solid bounds exactly the region that the solid hides, a single occluder represents all sides of the
+  // solid. Returns false and appends nothing if one occluder hides all of `seen`. The cones of the occluders
+  // are valid until the next call of FaceSource().
   bool FindBlockers(std::span<const PatchId> candidates, PatchId own, const DirectionPolygon& seen,
                     std::vector<Occluder>& occluders);
 
@@ -60,7 +64,8 @@ class PointView {
   // method passed to the constructor.
   double VisibleFormFactor(const DirectionPolygon& seen, std::span<const Occluder> occluders) const;
 
-  // True if a result since construction is a one-sided limit, which depends on ReceiverPoint::approach.
+  // True if any result since the construction of the PointView was a one-sided limit, which depends on
+  // ReceiverPoint::approach.
   bool one_sided() const { return one_sided_; }
 
   // A buffer for lists of occluders, for use by the caller; it is empty when the PointView is constructed.
@@ -69,8 +74,8 @@ class PointView {
  private:
   struct BlockerView {
     bool in_limit = false;
-    bool entered = false;  // of a solid: SolidOutline::entered
-    Cone cone;             // size 0: blocks nothing
+    bool entered = false;  // for a solid, the value of SolidOutline::entered
+    Cone cone;             // the cone has the size 0 if the blocker hides nothing
   };
   struct Buffers;
 

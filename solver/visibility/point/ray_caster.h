@@ -1,8 +1,8 @@
 // solver/visibility/point/ray_caster.h
 //
-// Nearest-hit rays through a scene (Embree, robust and watertight). Embree computes in float: use RayCaster
-// where missing a set of rays of measure zero does not matter (escaped light, picking), never for exact
-// visibility.
+// Finds the nearest hits of rays in a scene by the library Embree, in its robust and watertight mode. Embree
+// computes in single precision: use RayCaster only where errors for a few rays do not matter (escaped light,
+// picking), never for exact visibility.
 
 #pragma once
 
@@ -18,34 +18,36 @@ namespace penumbra {
 class RayCaster {
  public:
   struct Hit {
-    PatchId patch = kNoPatch;  // kNoPatch: the ray leaves the scene
-    double distance = 0;       // in units of the length of the given direction
-    bool front = false;        // the ray hit the front of the patch
+    PatchId patch = kNoPatch;  // the patch that is hit; kNoPatch if the ray leaves the scene
+    double distance = 0;       // (distance of the hit) / (length of the direction vector)
+    bool front = false;        // true if the ray hit the front of the patch
   };
 
   explicit RayCaster(const Scene& scene);
   ~RayCaster();
 
-  // The first patch other than `ignore` that the ray from `origin` along `direction` hits. If two patches
-  // with opposite fronts coincide, the hit is the one whose front faces the ray. May be called from any
-  // thread.
+  // Finds the first patch other than `ignore` that the ray from `origin` along `direction` hits. If two
+  // patches with opposite fronts coincide, the patch whose front faces the ray is returned. Cast() may be
+  // called from any thread.
   Hit Cast(const Vec3& origin, const Vec3& direction, PatchId ignore = kNoPatch) const;
 
-  // True if a patch, seen from either side, crosses the segment between the two points. An end that lies on a
-  // patch must be moved off it by ContactGap() or more. May be called from any thread.
+  // True if a patch intersects the segment between the two points; fronts and backs both block. An end point
+  // that lies on a patch must be moved off the patch by ContactGap() or more. Blocked() may be called from
+  // any thread.
   bool Blocked(const Vec3& from, const Vec3& to) const;
 
-  // The largest number of rays of a packet.
+  // The largest number of rays that CastTogether() and BlockedTogether() trace together.
   static constexpr std::size_t kPacket = 8;
   // Sets hits[i] to Cast(origins[i], direction). Parallel rays from neighbouring origins take a third of the
-  // time of single rays. REQUIRES: at most kPacket origins, as many hits. May be called from any thread.
+  // time of single rays. REQUIRES: there are at most kPacket origins, and as many hits as origins.
+  // CastTogether() may be called from any thread.
   void CastTogether(std::span<const Vec3> origins, const Vec3& direction, std::span<Hit> hits) const;
-  // Bit i of the result tells whether the segment from from[i] to to[i] is Blocked(). REQUIRES: at most
-  // kPacket segments. May be called from any thread.
+  // Tests several segments: bit i of the result is Blocked(from[i], to[i]). REQUIRES: there are at most
+  // kPacket segments. BlockedTogether() may be called from any thread.
   std::uint32_t BlockedTogether(std::span<const Vec3> from, std::span<const Vec3> to) const;
 
-  // The first patch whose front the ray hits; rays pass through backs, as in the display (thesis 3.6,
-  // footnote 1). May be called from any thread.
+  // Finds the first patch whose front the ray hits; rays pass through the backs of patches, as in the display
+  // (thesis 3.6, footnote 1). CastToFront() may be called from any thread.
   Hit CastToFront(const Vec3& origin, const Vec3& direction) const;
 
  private:

@@ -6,17 +6,18 @@
 
 namespace penumbra {
 
-// A point at which irradiance is computed, exactly or as a one-sided limit.
+// A receiver point: a point on a surface at which irradiance is computed, at the point itself or as a
+// one-sided limit.
 struct ReceiverPoint {
   Vec3 position = Vec3::Zero();  // [m]
-  Vec3 normal = Vec3::UnitZ();   // unit
-  // For a one-sided limit, the direction from the point towards the region for which the limit is taken, of
-  // any length. If `approach` is zero, no limit is taken: a polygon whose plane contains the point neither
-  // lights the point nor blocks.
+  Vec3 normal = Vec3::UnitZ();   // unit normal of the surface
+  // For a one-sided limit, `approach` is a vector of any length from the point towards the region for which
+  // the limit is taken. If `approach` is zero, no limit is taken: a polygon whose plane contains the point
+  // neither lights the point nor blocks light.
   Vec3 approach = Vec3::Zero();
-  // The largest distance of `position` from the intended position [m], in addition to the rounding of the
-  // coordinates. Planes whose distance from the point is at most `uncertainty` count as containing the point.
-  // The uncertainty is 0 for points that users give.
+  // The uncertainty of the point is the largest distance of `position` from the intended position [m], in
+  // addition to the rounding of the coordinates. Planes whose distance from the point is at most
+  // `uncertainty` count as containing the point. The uncertainty is 0 for points that users give.
   double uncertainty = 0;
 };
 

@@ -7,9 +7,9 @@
 namespace penumbra {
 
 // Occlusion by sampling: the method that chapter 6 of the thesis considers first and rejects. The source is
-// divided into a regular grid, and a cell counts if its centre is visible. The method is not exact: the error
-// is about the fraction of the source in cells that shadow borders cross, and the result jumps from point to
-// point.
+// divided into the cells of a regular grid, and a cell counts as visible if its centre is visible. Occlusion
+// by sampling is not exact: the relative error is about the fraction of the source in cells that shadow
+// borders cross. As a function of the receiver point, the sampled form factor jumps.
 class SampledVisibility final : public OcclusionMethod {
  public:
   // Each quadrilateral or triangle of the source is divided into divisions^2 cells.
