@@ -25,8 +25,8 @@ void AddCameraOptions(CLI::App& app, CameraArguments* arguments, std::optional<U
 
 // Chooses a camera: the camera of the scene that the user requests; by default, the first camera of the
 // scene, or FrameScene() if the scene has no cameras. Values from the command line replace the corresponding
-// members of the camera. Throws UsageError if there is no camera with the requested name, or if the result is
-// invalid (ValidateCamera).
+// members of the camera. Throws UsageError if there is no camera with the requested name, or if the resulting
+// camera is invalid (ValidateCamera).
 Camera ChooseCamera(const Scene& scene, const CameraArguments& arguments);
 
 }  // namespace penumbra

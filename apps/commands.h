@@ -27,8 +27,9 @@ class Interrupted : public std::runtime_error {
 };
 
 struct Command {
-  CLI::App* app = nullptr;    // converts to true if the user has given this command
-  std::function<void()> run;  // throws InputError, UsageError, Interrupted
+  // The parser of the command's options, which converts to true if the user has given the command.
+  CLI::App* app = nullptr;
+  std::function<void()> run;  // runs the command; throws InputError, UsageError, Interrupted
 };
 
 Command AddSolveCommand(CLI::App& program);

@@ -26,7 +26,7 @@ struct MatrixArguments {
 // Adds the options --all, --by and -o to the command line.
 void AddMatrixOptions(CLI::App& app, MatrixArguments* arguments);
 
-// The name of a kind of matrix rows, as the option --by takes it.
+// The name of a kind of matrix rows (faces or objects), as the user writes it after the option --by.
 const char* MatrixRowsName(MatrixRows by);
 
 // Computes the form factor matrix of the scene, and writes it to the file MatrixArguments::output, or as CSV

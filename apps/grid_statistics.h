@@ -19,8 +19,8 @@ namespace penumbra {
 // are 0.
 struct GridStatistics {
   double mean = 0, minimum = 0, maximum = 0;
-  double overall_uniformity = 0;    // U0
-  double diversity_uniformity = 0;  // Ud
+  double overall_uniformity = 0;    // U0 = minimum / mean
+  double diversity_uniformity = 0;  // Ud = minimum / maximum
 };
 
 // Computes mean, minimum, maximum and uniformities. REQUIRES: `values` is not empty.

@@ -17,7 +17,7 @@ namespace penumbra {
 
 // The contents of a solution file.
 struct StoredSolve {
-  PipelineState state;             // unspecified after a SolveRun has taken over the state
+  PipelineState state;             // results of the solve; unspecified after a SolveRun has taken them over
   PipelineOptions solving;         // the options of the solve
   nlohmann::ordered_json options;  // all options in the format of OptionsUsed(), without `threads`
   std::string version;             // version of the program that wrote the solution file
@@ -27,10 +27,11 @@ struct StoredSolve {
 struct LoadedScene {
   std::unique_ptr<const Scene> owner;
   const Scene& scene = *owner;
-  double seconds = 0;                                // time for reading the scene [s]
-  std::optional<StoredSolve> stored = std::nullopt;  // set if the scene is from a solution file
+  double seconds = 0;  // time for reading the scene [s]
+  // The contents of the solution file; nullopt if the scene does not come from a solution file.
+  std::optional<StoredSolve> stored = std::nullopt;
   // The solution that the user names with --restart. The solution given with --restart has the same geometry
-  // as `scene`, and its links are used to solve `scene` (LoadToSolve).
+  // as `scene`, and `scene` is solved with the links of this solution (LoadToSolve).
   std::optional<StoredSolve> restart = std::nullopt;
 };
 
@@ -42,8 +43,8 @@ struct LoadedScene {
 // for reading or solving a scene together with a solution.
 LoadedScene LoadScene(const SceneArguments& arguments);
 // LoadWithoutWarnings() does the same as LoadScene(), but prints no warnings; TellWarnings() prints these
-// warnings. Use LoadWithoutWarnings() and TellWarnings() if a scene may be rejected after loading, so that in
-// this case only the error is printed.
+// warnings. Use LoadWithoutWarnings() and TellWarnings() for a scene that may be rejected after loading, so
+// that only the error is printed if the scene is rejected.
 LoadedScene LoadWithoutWarnings(const SceneArguments& arguments);
 void TellWarnings(const LoadedScene& loaded);
 // Reads a solution file. Throws InputError if the file is not a solution.

@@ -19,7 +19,7 @@ void PrintText(const std::string& text);
 // The line that Say() prints for `message`, without the line end.
 std::string OneLine(const std::string& message);
 
-// True if printing some message has failed.
+// True if an attempt to print a message has failed since the program started.
 bool MessageFailed();
 
 }  // namespace penumbra

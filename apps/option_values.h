@@ -39,8 +39,8 @@ inline constexpr NumberRule kPositive{[](double x) { return x >= kTiniestOption 
 inline constexpr NumberRule kEmittance{[](double x) { return x >= 0 && x <= kLargestEmittance; },
                                        "a number, 0 or more, up to 1e100"};
 
-// Joins names to a phrase "a, b and c". For long lists, the phrase contains only the first names and the
-// number of the other names.
+// Joins names to a phrase "a, b and c". For a long list of names, the phrase contains only the first names
+// and the number of the other names.
 std::string NameList(const std::vector<std::string>& names);
 
 // Adds an option `NAME X` to the command line, where X is a number. The help shows the value of `target` as

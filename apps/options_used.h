@@ -1,7 +1,7 @@
 // apps/options_used.h
 //
-// Converts the options of a command to JSON, and back. The JSON is part of reports and of solution files, and
-// the option -v prints it.
+// Converts the options of a command to JSON, and back. The JSON of the options is part of reports and of
+// solution files, and the command-line option -v prints this JSON.
 
 #pragma once
 
@@ -20,8 +20,8 @@ nlohmann::ordered_json OptionsUsed(const SceneArguments& arguments, const Resolv
 // equals `options`. Throws nlohmann::json::exception if a value has the wrong type. Throws InputError if an
 // option is missing, or if the value of an option is an unknown name.
 PipelineOptions SolvingFrom(const nlohmann::ordered_json& options);
-// Prints the section "Options used:" to standard error. A user who gives the printed options obtains the same
-// result.
+// Prints the section "Options used:" to standard error. A run with the printed options gives the same result
+// as the run that printed them.
 void PrintOptionsUsed(const nlohmann::ordered_json& options);
 
 }  // namespace penumbra

@@ -18,9 +18,9 @@ class PipeClosed : public std::runtime_error {
   PipeClosed() : std::runtime_error("the pipe was closed") {}
 };
 
-// Prepares the standard streams. After PrepareStreams(), writing to a closed, full or limited stream is an
-// error with a message, and the descriptor of a closed standard stream is not reused for another file.
-// PrepareStreams() must be called before any file is opened.
+// Prepares the standard streams (input, output and error). After PrepareStreams(), writing to a closed, full
+// or limited stream is an error with a message, and the descriptor of a closed standard stream is not reused
+// for another file. PrepareStreams() must be called before any file is opened.
 void PrepareStreams();
 
 // True if all output to standard output and all messages to standard error have been written without error.

@@ -32,7 +32,7 @@ struct Measurement {
   Rgb exact = Rgb::Zero();   // exact irradiance [W/m^2]; nan if the normal is zero
   Rgb direct = Rgb::Zero();  // if requested, the part of `exact` directly from emitters [W/m^2]
   IrradianceGradient gradient = IrradianceGradient::Zero();  // if requested, the gradient of `exact` [W/m^3]
-  // interpolated irradiance [W/m^2]; nan without a solution or off all fronts
+  // interpolated irradiance [W/m^2]; nan if there is no solution, or if the point lies on no front
   Rgb interpolated = Rgb::Zero();
   PointPlace place = PointPlace::kOpen;
   bool sound = true;  // true if no value is infinite, and values are nan only where documented
@@ -41,7 +41,7 @@ struct Measurement {
 class Prober {
  public:
   // If `pipeline` is null, Measurement::interpolated is nan. If `parts` is true, direct light and gradients
-  // are measured, too. All arguments must outlive the Prober.
+  // are measured in addition to irradiance. All arguments must outlive the Prober.
   Prober(const Scene& scene, const PointIrradiance& irradiance, const Pipeline* pipeline, bool parts);
 
   // Measures the irradiance at all points, in parallel. The measured values do not depend on the number of
@@ -61,11 +61,11 @@ class Prober {
   const Pipeline* pipeline_;
   bool parts_;
   Surroundings surroundings_;
-  double reach_;  // distance within which a point lies on a patch [m]
+  double reach_;  // largest distance from a patch at which a point counts as lying on the patch [m]
 };
 
 struct ProbeColumns {
-  bool parts = false;  // if true, direct light and gradients have columns, too
+  bool parts = false;  // if true, direct light and gradients have columns in addition to irradiance
   LightUnit unit = LightUnit::kWatts;
 };
 

@@ -22,8 +22,8 @@ namespace penumbra {
 // The methods by which the colour of a pixel is computed.
 enum class RenderMethod {
   kTwoPass,
-  kRayShade,   // rays, with exact irradiance at their hits
-  kLerpShade,  // rays, with interpolated irradiance at their hits
+  kRayShade,   // ray casting, with exact irradiance where a ray hits a surface
+  kLerpShade,  // ray casting, with interpolated irradiance where a ray hits a surface
 };
 
 struct RenderMode {
@@ -58,11 +58,12 @@ struct RenderArguments {
   Backend backend = Backend::kSoftware;
   OpenGlCoordinates coordinates = OpenGlCoordinates::kFloat;
   int width = 1280, height = 960;
-  std::optional<double> exposure;  // exposure [m^2/W]; if not set, it is metered
+  std::optional<double> exposure;  // exposure [m^2/W]; nullopt: MeterExposure() determines it
   bool false_colour = false;       // true if PNG pictures show false colours
   // The end of the false colour scale [W/m^2]; by default, the irradiance that the exposure shows as white.
   std::optional<double> scale_max;
-  bool split = false;        // true if PNG pictures also show the scratch images
+  // True if PNG pictures show triangle ids, barycentric coordinates and depths in addition to the picture.
+  bool split = false;
   int benchmark_frames = 0;  // number of benchmark frames; 0 for no benchmark
   int supersampling = 2;     // PNG pictures have supersampling^2 samples for each pixel
   int samples = 1;           // number of rays for each pixel, in modes that cast rays

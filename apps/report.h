@@ -17,8 +17,8 @@ struct RunReport {
   PipelineReport pipeline;
 };
 
-// The report on a solve as JSON text. Memory use, number of threads and version are those of the running
-// program.
+// The report on a solve as JSON text. In the report, memory use, number of threads and version are those of
+// the running program.
 std::string ReportJson(const RunReport& report);
 
 // The part of the report, as JSON, that is the same in every run with the same options. The result of

@@ -14,7 +14,7 @@ namespace penumbra {
 // also reads the solution FILE into LoadedScene::restart, and sets the link options (IsLinkOption) to the
 // values of this solution. Throws InputError if FILE is not a solution, has no links, or has another
 // geometry. Throws UsageError if --restart is given and the input of the command is a solution instead of a
-// scene, or link options are given.
+// scene, or if link options (IsLinkOption) are given.
 LoadedScene LoadToSolve(SceneArguments& arguments);
 
 }  // namespace penumbra

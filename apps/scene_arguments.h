@@ -26,14 +26,15 @@ struct SceneArguments {
   std::vector<std::string> scenes;  // scenes of commands that process several scenes
   SceneOptions reading;
   std::vector<MaterialChange> emittance, reflectance;
-  std::vector<Dimming> dims;  // factors on the light of emitters (AddDimOption)
+  std::vector<Dimming> dims;  // factors by which the light of emitters is multiplied (AddDimOption)
   PipelineOptions solving;
   int threads = 0;  // number of threads; 0 for all processors
   bool verbose = false;
   std::optional<std::string> report;   // path of the report file
   std::optional<std::string> restart;  // path of the solution whose links are used (LoadToSolve)
-  OutputFiles outputs;                 // output files; must differ from all input files
-  bool lit = true;                     // true if the command computes light, not only geometry
+  // The output files of the command, which must differ from all input files.
+  OutputFiles outputs;
+  bool lit = true;  // true if the command computes light, not only geometry
 };
 
 // The heading, in the help, of the options for reading scenes.

@@ -24,7 +24,7 @@ nlohmann::ordered_json StoredOptions(const nlohmann::ordered_json& stored, const
 std::string SolutionFileOf(const Pipeline& pipeline, const nlohmann::ordered_json& options);
 
 // A message of one sentence that the error of the solution exceeds the requested error, and why; the message
-// is empty if no measurement shows such an error.
+// is empty if no measurement shows that the requested error is exceeded.
 std::string MissedErrorMessage(const PipelineReport& report);
 
 // The plan of a run: what RunStages() computes.
@@ -44,15 +44,15 @@ void RunStages(const RunPlan& plan, Pipeline* pipeline, const ExecutionContext& 
 class SolveRun {
  public:
   // If -v is given, prints the options used; `command_options` are the options of the command itself. The
-  // scene and the arguments must outlive the SolveRun. If `loaded` is a solution, its content is moved out of
-  // `loaded`.
+  // scene and the arguments must outlive the SolveRun. If `loaded` is a solution, the SolveRun moves the
+  // solution out of `loaded`.
   SolveRun(const SceneArguments& arguments, LoadedScene& loaded,
            const nlohmann::ordered_json& command_options = nlohmann::ordered_json::object());
 
   // Solves the scene, with the links of LoadedScene::restart if this member is set. Builds a mesh of the kind
-  // `kind` if it is set. Measures the error if `measure` is true. A solution from a file was solved and
-  // measured before it was saved, and is therefore neither solved nor measured again. Throws Interrupted if
-  // the user interrupts the work.
+  // `kind`, unless `kind` is nullopt. Measures the error if `measure` is true. A solution from a file was
+  // solved and measured before it was saved, and is therefore neither solved nor measured again. Throws
+  // Interrupted if the user interrupts the work.
   void Run(std::optional<MeshKind> kind, bool measure);
 
   // Builds a flat mesh of the undivided elements without solving, for pictures that show no light. Throws

@@ -31,7 +31,7 @@ struct PointFace {
   PatchId patch = kNoPatch;
 };
 
-// The distance from a patch of the scene within which a point counts as lying on the patch [m].
+// The largest distance from a patch of the scene at which a point counts as lying on the patch [m].
 double PatchReach(const Scene& scene);
 
 // Finds the face on whose front the point lies; if the point lies on several fronts, the face with the lowest
@@ -52,7 +52,7 @@ class Surroundings {
   // The two patches of a thin wall lie in one plane, except for rounding errors of their corners. Because of
   // rounding errors, the patch on the back of a thin wall may lie in front of the point `foot` on the front
   // patch `id`, and hide light. Returns the point `foot`, moved along the normal of patch `id` so that no
-  // patch of the wall's back lies in front of it.
+  // patch of the wall's back lies in front of the moved point.
   Vec3 BeforeBacks(PatchId id, const Vec3& foot) const;
   // True if only backs of patches are visible from the point with unit normal `normal`, which then lies
   // inside a solid or behind faces.
@@ -61,7 +61,7 @@ class Surroundings {
  private:
   const Scene& scene_;
   RayCaster rays_;
-  double reach_;     // distance within which a point lies on a patch [m]
+  double reach_;     // largest distance from a patch at which a point counts as lying on the patch [m]
   Vec3 low_, high_;  // corners of the scene's bounding box [m]
 };
 

@@ -31,8 +31,8 @@ struct PixelRays {
 struct Projection {
   glm::dvec3 x{0.0}, y{0.0}, depth{0.0};
 
-  // The depth is a sum of three terms; the last two terms are added first. Another order of the additions
-  // would round differently, and would change some bytes of pictures.
+  // The depth is a sum of three terms; the last two terms are added first. Another order of the three terms
+  // of the depth would round differently, and would change some bytes of pictures.
   glm::dvec3 operator()(const glm::dvec3& from_eye) const {
     return {glm::dot(x, from_eye), glm::dot(y, from_eye),
             depth.x * from_eye.x + (depth.y * from_eye.y + depth.z * from_eye.z)};

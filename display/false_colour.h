@@ -13,8 +13,8 @@
 
 namespace penumbra {
 
-// A colour scale of monotonically increasing lightness: black, blue, violet, orange, yellow, white. `x` is
-// clamped to [0, 1].
+// A colour scale of monotonically increasing lightness: black, blue, violet, orange, yellow, white. The
+// position `x` on the scale, from black to white, is clamped to [0, 1].
 ScreenColour FalseColour(double x);
 // The number of colours between which the false-colour scale interpolates linearly in the 8-bit codes. Colour
 // i of the false-colour scale lies at x = i / (kFalseColourStops - 1).
@@ -30,7 +30,7 @@ Srgb8Image FalseColours(const std::vector<float>& map, int width, int height);
 // Paints a legend in the lower right corner of the picture: the colour scale from 0 to `top`, with the unit
 // above the scale. PaintLegend() does nothing if the picture is smaller than kLegendWidth x kLegendHeight.
 void PaintLegend(double top, const std::string& unit, Srgb8Image* picture);
-inline constexpr int kLegendWidth = 120, kLegendHeight = 160;  // [pixels]
+inline constexpr int kLegendWidth = 120, kLegendHeight = 160;  // size of the legend [pixels]
 
 // A colour for an id number, for pictures that show triangle ids. Consecutive id numbers have different
 // colours.

@@ -64,7 +64,7 @@ struct Srgb8Image {
 };
 
 struct ScreenColour {
-  std::uint8_t red = 0, green = 0, blue = 0;  // sRGB
+  std::uint8_t red = 0, green = 0, blue = 0;  // 8-bit sRGB codes
 };
 
 inline void SetPixel(Srgb8Image* image, std::size_t i, ScreenColour c) {

@@ -17,7 +17,7 @@ namespace penumbra {
 
 struct MeshNodes {
   struct Node {
-    Vec3 position = Vec3::Zero();  // [m]
+    Vec3 position = Vec3::Zero();  // position of the node [m]
     Rgb irradiance = Rgb::Zero();  // value of the quadratic interpolant [W/m^2]; may be negative
     Rgb radiosity = Rgb::Zero();   // irradiance * reflectance + emittance [W/m^2]
     PatchId patch = kNoPatch;
@@ -26,7 +26,7 @@ struct MeshNodes {
   // For each triangle of the mesh, the nodes at its corners 0, 1 and 2, then the nodes at the midpoints of
   // the edges 01, 12 and 20.
   std::vector<std::array<std::uint32_t, 6>> triangles;
-  std::vector<std::int32_t> face;  // the number of each triangle's face in outputs
+  std::vector<std::int32_t> face;  // number of the face that contains each triangle, as in outputs
 };
 
 // Two irradiances count as equal if they differ by less than kEqualIrradiance * (largest irradiance of the
@@ -43,7 +43,8 @@ std::array<std::array<std::uint32_t, 3>, 4> Quarters(const std::array<std::uint3
 // An exposure that suits the radiosities of the nodes [m^2/W], as MeterExposure() determines it, but with
 // areas as weights instead of numbers of pixels.
 double MeterNodes(const Scene& scene, const IrradianceMesh& mesh, const MeshNodes& nodes);
-// The result of MeterNodes() for all nodes of the mesh.
+// An exposure that suits the radiosities of the mesh [m^2/W]: the result of MeterNodes() for the nodes of all
+// triangles.
 double MeterMesh(const Scene& scene, const IrradianceMesh& mesh);
 
 }  // namespace penumbra

@@ -21,8 +21,8 @@
 namespace penumbra {
 
 enum class OpenGlCoordinates {
-  kFloat,    // as floats, which agree with the software rasteriser to 1e-4
-  kTexture,  // from a texture of 256 x 256 texels of 8 bits, as in the thesis: multiples of 1/255
+  kFloat,    // coordinates as floats, which agree with the software rasteriser to 1e-4
+  kTexture,  // coordinates from a texture of 256 x 256 texels of 8 bits, as in the thesis: multiples of 1/255
 };
 
 // Makes OpenGL passes that draw the triangles of the mesh. Throws InputError if the system has no OpenGL 3.3

@@ -11,8 +11,8 @@
 namespace penumbra {
 
 enum class LightUnit : std::uint8_t {
-  kWatts,  // W/m^2, of red, green and blue
-  kLux,    // lm/m^2
+  kWatts,  // W/m^2 for each of red, green and blue
+  kLux,    // lux = lm/m^2, one value for all channels
 };
 
 // The luminous efficacy of white light that Radiance uses [lm/W], and the weights of red, green and blue in

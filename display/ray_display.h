@@ -47,7 +47,7 @@ struct SampledPicture {
 
 // The radiosity that one ray of a picture finds, and the kind of object that the ray hits.
 struct RaySample {
-  Rgb radiosity = Rgb::Zero();  // including emittance [W/m^2]
+  Rgb radiosity = Rgb::Zero();  // radiosity that the ray finds, including emittance [W/m^2]
   PixelKind kind = PixelKind::kBackground;
 };
 

@@ -14,7 +14,7 @@ namespace penumbra {
 
 struct TileGrid {
   int width = 0, height = 0;  // size of the picture [pixels]
-  int across = 0, down = 0;   // tiles
+  int across = 0, down = 0;   // number of tiles in a row and in a column
 
   TileGrid() = default;
   TileGrid(int w, int h)
@@ -27,7 +27,7 @@ struct TileGrid {
 
 // Divides the pixels in the first `height` rows of the tile at (x0, y0) that lie in the picture into runs of
 // n <= 4 pixels of one row. Calls body(index in the tile, index in the picture, n) for each run of n pixels.
-// With `height` 4, ForEachPart() treats one row of blocks instead of a whole tile.
+// With `height` 4, ForEachPart() divides one row of 4 x 4 blocks instead of a whole tile.
 template <class Body>
 void ForEachPart(const TileGrid& grid, int x0, int y0, int height, const Body& body) {
   const int rows = std::min(height, grid.height - y0), columns = std::min(kTileSize, grid.width - x0);
@@ -48,8 +48,8 @@ void ForEachBlockRow(const TileGrid& grid, std::size_t tile, const Body& body) {
   for (int y = grid.Y(tile); y < end; y += kBlockSize) body(grid.X(tile), y);
 }
 
-// Copies n values of a part of a pixel row. The common case n == kBlockSize is a separate branch, so that the
-// compiler can copy the values as one word.
+// Copies n values of a part of a pixel row. If n == kBlockSize, as is common, a separate branch lets the
+// compiler copy the values as one word.
 template <class T>
 void CopyPart(const T* from, std::size_t n, T* to) {
   if (n == kBlockSize)

@@ -26,7 +26,7 @@ double SrgbFromLinear(double linear);
 double LinearFromSrgb(double encoded);
 
 struct ToneMapping {
-  // linear screen value in [0, 1] per unit of the image; [m^2/W] for images of radiosity
+  // factor that converts values of the image to linear screen values; [m^2/W] for images of radiosity
   double exposure = 1;
   bool dither = true;  // false: each value is rounded to the nearest 8-bit code
 };
@@ -53,8 +53,8 @@ const float* DitherOffsets();
 // Converts an exposed image to 8-bit sRGB.
 void EncodeSrgb(const RgbImage& exposed, bool dither, Srgb8Image* out);
 
-// A picture in which each pixel is the mean of k x k pixels of `screen`, in linear light. REQUIRES: k > 0
-// divides width and height.
+// A picture in which each pixel is the mean of k x k pixels of `screen`; the mean is that of linear values.
+// REQUIRES: k > 0 divides width and height.
 Srgb8Image ShrinkScreen(const Srgb8Image& screen, int k);
 
 // Does the same as Expose() followed by EncodeSrgb(), in one pass over the pixels. ToneMap() reuses the

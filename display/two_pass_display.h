@@ -78,9 +78,9 @@ class TwoPassDisplay {
   // Computes RenderedFrame::screen from the frame of the last Render().
   const RenderedFrame& ToneMap(const ToneMapping& settings);
 
-  // Computes only RenderedFrame::screen, with the same bytes as Render() and ToneMap(). All steps are applied
-  // to one tile before the next tile, so that the data of a tile remain in the processor's caches. Use
-  // RenderScreen() for frames whose intermediate results are not needed.
+  // Computes only RenderedFrame::screen, to the same bytes as Render() followed by ToneMap(). All steps are
+  // applied to one tile before the next tile, so that the data of a tile remain in the processor's caches.
+  // Use RenderScreen() for frames whose intermediate results are not needed.
   const RenderedFrame& RenderScreen(const Camera& camera, int width, int height, ShadingMode mode,
                                     const ToneMapping& settings);
 
@@ -94,11 +94,12 @@ class TwoPassDisplay {
                  const Finish& finish);
 
   std::unique_ptr<Passes> passes_;
-  Rasteriser* rasteriser_;  // passes_ if it is a Rasteriser, which can draw tile by tile; otherwise null
-  std::vector<TriangleShade> radiosity_;    // per triangle
-  std::vector<TriangleShade> screen_;       // like radiosity_, but emitters have values above any white
-  std::vector<TriangleShade> reflectance_;  // per triangle: constants that evaluate to the reflectance
-  std::vector<PixelKind> kind_;             // per triangle
+  Rasteriser* rasteriser_;  // passes_ as a Rasteriser, which can draw tile by tile; null for other passes
+  std::vector<TriangleShade> radiosity_;  // data from which the radiosity of each triangle is computed
+  // Like radiosity_, except that emitters have infinite radiosity, so that any exposure shows them white.
+  std::vector<TriangleShade> screen_;
+  std::vector<TriangleShade> reflectance_;  // data from which the reflectance of each triangle is computed
+  std::vector<PixelKind> kind_;             // kind of each triangle
   std::vector<FrameTimes> tile_times_;
   RenderedFrame frame_;
 };

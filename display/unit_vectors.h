@@ -18,7 +18,8 @@ inline glm::dvec3 Normalized(const glm::dvec3& v) {
   return length > 0 ? v / length : v;
 }
 
-// Like Normalized(), but also correct for vectors whose squared length overflows or underflows.
+// Returns the unit vector along v, like Normalized(), but is also correct if the squared length of v
+// overflows or underflows.
 inline glm::dvec3 StableNormalized(const glm::dvec3& v) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   const glm::dvec3 scaled = v / largest;

@@ -14,9 +14,9 @@ namespace penumbra {
 
 struct ValueMap {
   ValueGrid grid;             // grid of values >= 0
-  Vec2 first = Vec2::Zero();  // x and y of column 0 and row 0 [m]
+  Vec2 first = Vec2::Zero();  // position (x, y) of the grid point in column 0 and row 0 [m]
   double spacing = 1;         // distance between columns, and between rows [m]
-  std::string title;          // a title of one line
+  std::string title;          // title of the drawing, one line
   std::string unit;           // unit of the values
 };
 

@@ -62,14 +62,14 @@ inline constexpr float kFringe = 0x1p-10f;
 struct TriangleShade {
   float a[3], b2[3], c2[3], d[3], e2[3], f[3];  // coefficients of the QuadraticInterpolant [W/m^2]
   float reflectance[3];
-  float emittance[3];  // [W/m^2]
+  float emittance[3];  // emittance of the patch [W/m^2]
 };
 
 // The data of a tile (64 x 64 pixels) in pass one, which finds triangle ids.
 struct Tile {
   int x = 0, y = 0;  // upper left pixel, in picture coordinates
   alignas(64) std::uint32_t ids[kTilePixels];
-  alignas(64) float inverse_z[kTilePixels];  // 1 / depth; 0 without a triangle
+  alignas(64) float inverse_z[kTilePixels];  // 1 / depth of each pixel [1/m]; 0 at pixels without a triangle
 };
 
 // A triangle that is visible in a block of 4 x 4 pixels.
@@ -85,7 +85,7 @@ struct BlockRow {
   alignas(64) std::uint32_t ids[kRowPixels];
   alignas(64) float s[kRowPixels], t[kRowPixels];
   alignas(64) float rgb[3][kRowPixels];
-  alignas(64) std::uint32_t screen[kRowPixels];  // codes: red + 2^8 green + 2^16 blue
+  alignas(64) std::uint32_t screen[kRowPixels];  // code of each pixel: red + 2^8 green + 2^16 blue
   int run_count = 0;
   BlockRun runs[kRowPixels];
 };
@@ -94,8 +94,8 @@ struct BlockRow {
 void ClearTile(Tile* tile);
 
 // Draws the triangle into tile->inverse_z and tile->ids. Each pixel of the tile shows the nearest triangle;
-// of several triangles at the same depth, the pixel shows the triangle with the lowest id. The drawn tile
-// therefore does not depend on the order in which triangles are drawn.
+// if several triangles are nearest, the pixel shows the triangle with the lowest id. The drawn tile therefore
+// does not depend on the order in which triangles are drawn.
 void DrawTileTriangle(const TileTriangle& triangle, Tile* tile);
 
 // A tile is divided into regions of 16 x 16 pixels; for each region, the depth of the farthest pixel is
@@ -131,7 +131,7 @@ struct ScreenTransfer {
   ScreenTransfer(float exposure, float background, const float* dither);
 
   float exposure;    // factor by which values are multiplied before they are clipped at 1
-  float background;  // linear value that is shown in place of negative values
+  float background;  // linear value shown at background pixels, which have negative values
   bool dithered;
   // The dither offsets of two neighbouring blocks: offset[0] in even rows of blocks, offset[1] in odd rows.
   // The dither pattern repeats every 8 x 8 pixels.

@@ -16,9 +16,9 @@ namespace penumbra {
 
 struct SceneArrays {
   std::string name = "scene";
-  std::vector<Vec3> vertices;                    // [m]
+  std::vector<Vec3> vertices;                    // positions of the vertices [m]
   std::vector<std::vector<std::int64_t>> faces;  // vertex indices of each face, from 0, counter-clockwise
-  std::vector<Rgb> reflectance, emittance;       // one per face; reflectance in [0, 1), emittance in W/m^2
+  std::vector<Rgb> reflectance, emittance;       // reflectance, in [0, 1), and emittance [W/m^2] of each face
   std::vector<std::string> objects;  // object name of each face; empty if all faces form one object
 };
 

@@ -25,8 +25,8 @@ using NumberArray = pybind11::array_t<double, pybind11::array::c_style | pybind1
 // InputError if the array has another shape; `name` is the name of the array in the message.
 std::vector<Vec3> RowsOf(const pybind11::object& array, const std::string& name);
 
-// Converts `value` to a vector of three numbers. Throws InputError if `value` is no such vector; `name` is
-// its name in the message.
+// Converts `value` to a vector of three numbers. Throws InputError if `value` is no vector of three numbers;
+// `name` is the name of `value` in the message.
 Vec3 VectorOf(const pybind11::object& value, const std::string& name);
 
 // Converts `value`, three numbers or one number for all channels, to an RGB colour. Throws InputError unless

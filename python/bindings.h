@@ -11,8 +11,8 @@ namespace penumbra {
 
 void BindScene(pybind11::module_& module);
 void BindMesh(pybind11::module_& module);
-void BindSolution(pybind11::module_& module);  // call after BindScene() and BindMesh()
-void BindSolver(pybind11::module_& module);    // call after BindSolution()
+void BindSolution(pybind11::module_& module);  // REQUIRES: BindScene() and BindMesh() were called
+void BindSolver(pybind11::module_& module);    // REQUIRES: BindSolution() was called
 void BindFormFactors(pybind11::module_& module);
 void BindPictures(pybind11::module_& module);
 

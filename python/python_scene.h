@@ -14,7 +14,7 @@ namespace penumbra {
 // scene.
 struct PythonScene {
   std::shared_ptr<const Scene> scene;
-  SceneArguments arguments;  // name of the scene and reading options, as stored in solution files
+  SceneArguments arguments;  // name of the scene and options for reading it, as stored in solution files
 };
 
 }  // namespace penumbra

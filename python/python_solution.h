@@ -22,10 +22,11 @@
 
 namespace penumbra {
 
-// How the irradiance at points is measured.
+// The method by which irradiance at points is measured, and the choice whether direct light and gradients are
+// measured.
 struct ProbeRequest {
   std::string method = "auto";  // an occlusion method in OcclusionMethods(), or "auto"
-  bool parts = false;           // if true, direct light and gradients are measured, too
+  bool parts = false;           // if true, direct light and gradients are measured in addition to irradiance
 };
 
 // The Python class Solution: a solved scene. Several threads may use one PythonSolution at the same time. No
@@ -70,7 +71,8 @@ class PythonSolution {
   nlohmann::ordered_json options_;
   bool measured_ = false;
   mutable std::mutex busy_, probing_;
-  // For measurements with the default method, made at the first call of Probe().
+  // The objects that measure irradiance with the default occlusion method; the first call of Probe() makes
+  // them.
   mutable std::unique_ptr<const PointIrradiance> irradiance_;
   mutable std::unique_ptr<const Prober> prober_;
   mutable std::map<MeshKind, IrradianceMesh> other_meshes_;
@@ -79,7 +81,7 @@ class PythonSolution {
 // The Python class Solver, by which a scene is solved step by step.
 struct PythonSolver {
   PythonScene scene;
-  std::unique_ptr<Pipeline> pipeline;  // null after the solve is finished
+  std::unique_ptr<Pipeline> pipeline;  // pipeline of the solve; null after the solve is finished
   nlohmann::ordered_json options;
   bool linked = false;
   std::mutex busy;

@@ -16,8 +16,8 @@
 namespace penumbra {
 
 // The keyword arguments that set the options of a solve; `solver` comes first, because other options depend
-// on the solver. A keyword throws TypeError for a value of a wrong type. A keyword throws InputError for a
-// value that is not allowed or that the chosen solver does not use.
+// on the solver. A keyword argument throws TypeError for a value of a wrong type. A keyword argument throws
+// InputError for a value that is not allowed or that the chosen solver does not use.
 std::vector<Keyword> SolveKeywords(PipelineOptions* solving);
 
 // Throws InputError if options of the solve contradict each other, or if a distance among the options is too

@@ -11,7 +11,8 @@
 
 namespace penumbra {
 
-// The number of times that the map can be halved (mipmap levels) before charts run into one another.
+// The number of times that the map can be halved (mipmap levels) before the charts of different patches run
+// into one another.
 inline constexpr int kAtlasLevels = 2;
 // The number of padding pixels of a chart on each side of its patch; charts begin at multiples of
 // kChartPadding. A pixel of mipmap level l covers 2^l x 2^l pixels of level 0. Because of the padding, a
@@ -24,7 +25,7 @@ struct Chart {
   Vec3 corner = Vec3::Zero();                 // corner of the rectangle around the patch [m]
   Vec3 u = Vec3::UnitX(), v = Vec3::UnitY();  // unit axes of the rectangle; v x u is the patch's normal
   double across = 0, along = 0;               // sides of the rectangle along u and v [m]; across >= along
-  int x = 0, y = 0, width = 0, height = 0;    // the chart with its padding [pixels], rows from the top
+  int x = 0, y = 0, width = 0, height = 0;    // place of the chart with its padding [pixels], y from the top
 };
 
 struct ChartLayout {

@@ -40,7 +40,7 @@ class ArcballDrag {
 
   Camera start_;
   PictureSize size_;
-  glm::dmat3 axes_;  // columns: right, up, backward
+  glm::dmat3 axes_;  // axes of the view; the columns are the directions right, up and backward
   std::optional<glm::dvec3> constraint_;
   glm::dvec3 from_;
 };

@@ -102,7 +102,8 @@ class Deferred {
   std::optional<Key> key_;
   std::shared_ptr<const Value> value_;
   std::shared_ptr<ExecutionContext> context_;
-  std::shared_ptr<const Value> result_;  // written by the computing thread until done_ is true
+  // The result of the computation, which only the computing thread may access until done_ is true.
+  std::shared_ptr<const Value> result_;
   std::atomic<bool> done_{false}, no_memory_{false};
   bool running_ = false;
   std::thread thread_;

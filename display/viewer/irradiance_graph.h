@@ -30,9 +30,11 @@ struct GraphSheet {
 using IrradianceGraph = std::vector<GraphSheet>;
 
 struct GraphOptions {
-  int density = 1;       // largest number of cells per side of a triangle
-  bool dynamic = false;  // use fewer grid cells if the triangle fills a small part of its quadtree leaf
-  bool exact = false;    // also compute exact irradiances, which takes time
+  int density = 1;  // largest number of grid cells per side of a triangle
+  // If true, a triangle that fills a small part of its quadtree leaf has fewer grid cells than `density` per
+  // side.
+  bool dynamic = false;
+  bool exact = false;  // if true, exact irradiances are also computed, which takes time
 };
 
 // Computes the irradiance graph over each triangle of the list `triangles`.

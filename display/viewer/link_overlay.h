@@ -6,8 +6,8 @@
 
 namespace penumbra::viewer {
 
-// An overlay that shows the links between elements as arrows from source to receiver, with a different colour
-// for each LinkClass (thesis B.4.3).
+// An overlay that shows the links between elements as arrows from source to receiver, in a different colour
+// for visible, partly visible and split pairs (LinkClass; thesis B.4.3).
 OverlayRegistry::Method LinkOverlayMethod();
 
 }  // namespace penumbra::viewer

@@ -15,7 +15,7 @@
 namespace penumbra::viewer {
 
 enum class LinkClass : std::uint8_t {
-  kVisible,  // white
+  kVisible,  // white: nothing lies between source and receiver
   kSplit,    // pink: the plane of the source intersects the receiver, or the reverse
   kPartial,  // green: blockers may lie between source and receiver
 };

@@ -16,9 +16,10 @@ namespace penumbra::viewer {
 struct MenuItem {
   std::string path;  // path of the item in the menus, such as `Iteration/Iterate`
   std::string key;   // a key chord such as `ctrl+s`, or empty
-  std::string help;  // a text that says what the item does
+  std::string help;  // text that says what the menu item does
   std::function<void()> run;
-  std::function<bool()> checked;  // tells whether the item has a check mark; empty if it never has one
+  // A function that tells whether the item has a check mark; empty if the item never has a check mark.
+  std::function<bool()> checked;
 };
 
 class Menu {

@@ -14,7 +14,7 @@
 namespace penumbra::viewer {
 
 std::array<Vec3, 3> TriangleVertices(const IrradianceMesh& mesh, std::uint32_t triangle);
-double TriangleArea(const IrradianceMesh& mesh, std::uint32_t triangle);  // [m^2]
+double TriangleArea(const IrradianceMesh& mesh, std::uint32_t triangle);  // area of the triangle [m^2]
 Vec3 NormalOf(const Scene& scene, const IrradianceMesh& mesh, std::uint32_t triangle);
 // The point of a triangle at barycentric coordinates (s, t) [m].
 Vec3 PointInTriangle(const IrradianceMesh& mesh, std::uint32_t triangle, double s, double t);

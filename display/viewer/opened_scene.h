@@ -37,8 +37,8 @@ struct ReadingOption {
 };
 
 // The file functions of the viewer. Each function of ViewerFiles throws InputError with one line that
-// describes the fault. Functions of ViewerFiles that write use a temporary file in the same folder, and then
-// rename the temporary file.
+// describes the fault. The functions of ViewerFiles that write a file write a temporary file in the same
+// folder, and then rename the temporary file.
 struct ViewerFiles {
   using WriteSolved = std::function<void(const std::string& path, const Pipeline& pipeline)>;
 

@@ -48,7 +48,8 @@ struct OverlayContext {
 
 // The results that must be computed before an overlay can be drawn.
 struct OverlayNeeds {
-  bool triangles = false;        // the triangles of a mesh, even if the drawing mode shows no mesh
+  // True if the overlay needs the triangles of a mesh, even in drawing modes that show no mesh.
+  bool triangles = false;
   bool discontinuities = false;  // the list of all discontinuities of the irradiance
   bool graph = false;            // the graph of the irradiance over the selected object
   bool exact_graph = false;      // the graph of the exact irradiance over the selected object
@@ -57,8 +58,8 @@ struct OverlayNeeds {
 // A part of an overlay that the user can switch on and off.
 struct OverlaySwitch {
   std::string name;  // name of the switch, as in the script line `set NAME on`
-  std::string help;  // a few words, shown as the label in panels
-  std::string menu;  // the switch's item in the menu `Visualisation`
+  std::string help;  // label of the switch in panels, in a few words
+  std::string menu;  // name of the switch's item in the menu `Visualisation`
   std::string key;   // a key chord such as `ctrl+s`, or empty
   OverlayNeeds needs;
 };

@@ -59,6 +59,7 @@ void PaintOverlay(const OverlayDrawing& drawing, const DepthMap& depth, Srgb8Ima
 // Selects the visible overlay line nearest to the picture point (x, y): returns its OverlayLine::pick if the
 // distance is at most kPickDistance, and an empty selection otherwise.
 Selection PickLine(const OverlayDrawing& drawing, const DepthMap& depth, double x, double y);
-inline constexpr double kPickDistance = 6;  // [pixels]
+// The largest distance of a click from an overlay line that the click selects [pixels].
+inline constexpr double kPickDistance = 6;
 
 }  // namespace penumbra::viewer

@@ -49,7 +49,8 @@ class Panels {
   void Dialog(Viewer& viewer);
   void Message(Viewer& viewer);
   void Legend(Viewer& viewer);
-  // Runs the action. If the action throws an exception, Try() shows the exception's message to the user.
+  // Runs an action that the user requests. If the action throws an exception, Try() shows the exception's
+  // message to the user.
   template <class Action>
   void Try(Viewer& viewer, const Action& action);
 
@@ -59,7 +60,7 @@ class Panels {
     std::pair<float, float> window;  // the window's size when the user placed the panel; 0: not placed
   };
   std::map<std::string, PanelPlace> places_;  // place of each panel, by the panel's name
-  std::string asked_;                         // the open dialog
+  std::string asked_;                         // name of the open dialog
   char text_[1024] = {};                      // text in the input field of the open dialog
   std::string edited_;                        // the setting whose field the user edits
   char edit_[1024] = {};                      // text in the edited field, for example a path

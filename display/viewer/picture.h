@@ -48,7 +48,8 @@ class PictureMaker {
   // The kind of the drawn mesh. The kind of the drawn mesh differs from MeshOf(view.mode) until the mesh of
   // kind MeshOf(view.mode) has been built.
   MeshKind drawn_kind() const { return kind_; }
-  double exposure() const { return exposure_; }  // exposure: linear screen value per W/m^2
+  // The exposure of the last picture: linear screen value per W/m^2 of radiosity.
+  double exposure() const { return exposure_; }
   ColourScale scale() const { return scale_; }
   double scale_top() const { return scale_top_; }  // value at the upper end of the false-colour scale
   // The reason why the chosen back end (OpenGL) could not draw the picture, so that the software rasteriser
@@ -68,16 +69,17 @@ class PictureMaker {
   std::shared_ptr<const MeshState> whole_;  // the mesh for the drawing mode
   // the drawn mesh: whole_, or its selected part if the picture shows only the selection
   std::shared_ptr<const MeshState> drawn_;
-  std::vector<std::uint32_t> left_;  // if only the selection is drawn: the indices of its triangles in whole_
+  // If only the selection is drawn, the indices of the drawn triangles in whole_.
+  std::vector<std::uint32_t> left_;
   Selection isolated_;
   AnalysisResults isolated_by_;
   std::optional<TwoPassDisplay> display_;
-  Backend backend_ = Backend::kSoftware;  // the requested back end
+  Backend backend_ = Backend::kSoftware;  // back end that the view requests
   OpenGlCoordinates coordinates_ = OpenGlCoordinates::kFloat;
   std::string backend_error_;
   std::optional<DepthMap> depth_;
   RayPicture rays_;
-  bool by_rays_ = false;  // whether the last picture shows rays
+  bool by_rays_ = false;  // true if the last picture was made by ray casting
   RgbImage ray_linear_;
   std::vector<PixelKind> ray_kind_;
   Srgb8Image screen_, part_;

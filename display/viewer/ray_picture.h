@@ -49,8 +49,9 @@ class RayPicture {
   double Fraction() const;
 
   // Copies the complete pixels of the ray picture into a picture of radiosity of the same size [W/m^2].
-  // Pixels that are not complete get the value of a complete pixel nearby, if a coarser round has computed
-  // one. Paint() leaves all other pixels of the target picture unchanged.
+  // Pixels that are not complete get the value of a complete pixel nearby, if the computation, which goes
+  // from coarse to fine, has already computed such a pixel. Paint() leaves all other pixels of the target
+  // picture unchanged.
   void Paint(RgbImage* linear, std::vector<PixelKind>* kinds);
 
  private:

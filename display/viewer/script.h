@@ -29,8 +29,8 @@ struct ScriptStep {
   } kind = Kind::kInput;
   int line = 0;  // line number in the file
   InputEvent event;
-  std::string text, value;  // the menu path, the option with its value, or the file name
-  double amount = 0;        // how long to wait: frames or seconds
+  std::string text, value;  // argument of the step: a menu path, an option with its value, or a file name
+  double amount = 0;        // duration of a wait, in frames or seconds
   int width = 0, height = 0;
 };
 
@@ -74,6 +74,6 @@ class ScriptPlayer {
   double waited_frames_ = 0, waited_seconds_ = 0;
 };
 
-inline constexpr double kLongestWait = 900;  // seconds after which `wait idle` fails
+inline constexpr double kLongestWait = 900;  // time after which the script line `wait idle` fails [s]
 
 }  // namespace penumbra::viewer

@@ -17,17 +17,17 @@
 namespace penumbra::viewer {
 
 enum class SettingKind {
-  kToggle,   // on, off
+  kToggle,   // the value is `on` or `off`
   kNumber,   // a number from `low` to `high`; the slider may be logarithmic
   kInteger,  // an integer from `low` to `high`
-  kChoice,   // one of `choices`
-  kText,     // any text
+  kChoice,   // the value is one of the names in `choices`
+  kText,     // the value is any text
 };
 
 struct Setting {
   std::string name;   // name of the setting, as in the script line `set NAME VALUE`
   std::string group;  // the name of the panel group that contains the setting
-  std::string help;   // a few words, shown as the label in panels
+  std::string help;   // label of the setting in panels, in a few words
   SettingKind kind = SettingKind::kText;
   double low = 0, high = 1;
   bool logarithmic = false;

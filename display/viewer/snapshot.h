@@ -1,7 +1,7 @@
 // display/viewer/snapshot.h
 //
-// Immutable states of the solution that the solver's thread passes to the view. The view can therefore draw
-// one state while the solver computes the next state.
+// Immutable states of the solution that the solver's thread passes to the view. Because snapshots do not
+// change, the view can draw one state while the solver computes the next state.
 
 #pragma once
 

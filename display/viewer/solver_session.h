@@ -58,8 +58,8 @@ class SolverSession {
   PipelineOptions options() const;
 
   void Link();      // discards the solution and makes links between the root elements
-  void Iterate();   // makes one iteration; makes links first if the solution has none
-  void Converge();  // iterates until convergence, then makes the deferred corrections
+  void Iterate();   // makes one iteration of the solver; first makes links if the solution has none
+  void Converge();  // iterates until the light has converged, then makes the deferred corrections
   void Correct();   // makes one deferred correction by exact irradiance
   // Builds a mesh of the given kind, from the state of the solution at the start of the task. If the solver
   // has converged and `kind` is kInterpolant, the light is refined first (Pipeline::RefineLight), and the
@@ -98,7 +98,7 @@ class SolverSession {
   void PublishLight(std::size_t corrections);
   void Publish(std::shared_ptr<Snapshot> next);
 
-  mutable std::mutex mutex_;  // protects the members that several threads use, which follow
+  mutable std::mutex mutex_;  // protects the following members, which several threads use
   std::condition_variable wake_;
   std::deque<std::pair<std::string, Task>> tasks_;
   std::shared_ptr<const Snapshot> snapshot_;
@@ -114,7 +114,9 @@ class SolverSession {
   // the solution whose links transport the light; null: the scene has its own links
   std::shared_ptr<const PipelineState> restart_;
   bool settled_ = false;  // true if the iterations have ended
-  bool stored_ = false;   // pipeline_ shows the results from a file, from which it cannot continue
+  // True if pipeline_ holds a solution from a file. The next step of the solver then starts from the
+  // beginning.
+  bool stored_ = false;
 
   std::thread thread_;
 };

@@ -19,7 +19,7 @@
 
 namespace penumbra::viewer {
 
-// The modes in which faces are drawn, with the same meaning as in `penumbra render`.
+// The modes in which faces are drawn, with the same meaning as in the command `penumbra render`.
 enum class DrawMode : std::uint8_t { kFlat, kGouraud, kGouraudMesh, kInterpolant, kExact, kLerp, kRho };
 
 // True for drawing modes that cast rays. Until all rays of the picture have been cast, the two-pass display
@@ -60,12 +60,13 @@ struct ProbedPoint {
 struct OverlaySettings {
   std::set<std::string, std::less<>> shown;  // names of the overlay switches that are on
   int mesh_depth = 20;                       // deepest quadtree level of elements that is drawn
-  double link_min_irradiance = 0;            // links with less irradiance are omitted [W/m^2]
+  double link_min_irradiance = 0;            // smallest irradiance of a link that is shown [W/m^2]
   int link_limit = 5000;       // largest number of links that are shown; stronger links come first
   double graph_scale = 0.001;  // height of graphs and probes [m per W/m^2]
-  int grid_density = 12;       // grid cells per side of a graph over a whole element
-  bool dynamic_grid = true;    // use fewer grid cells for triangles that fill a small part of the element
-  bool hidden_lines = false;   // draw lines behind faces as well
+  int grid_density = 12;       // number of grid cells per side of a graph over a whole element
+  // If true, graphs have fewer grid cells on triangles that fill a small part of their element.
+  bool dynamic_grid = true;
+  bool hidden_lines = false;  // if true, overlay lines behind faces are also drawn
 
   bool Shows(std::string_view name) const { return shown.contains(name); }
   bool operator==(const OverlaySettings&) const = default;
@@ -74,7 +75,7 @@ struct OverlaySettings {
 struct ViewState {
   Camera camera;
   Navigation navigation = Navigation::kArcball;
-  double walk_speed = 2;  // [m/s]
+  double walk_speed = 2;  // speed of the camera in walk mode [m/s]
   bool mouse_look = false;
   glm::dvec3 up_axis{0, 0, 1};  // the vertical direction in walk mode
 
@@ -83,22 +84,23 @@ struct ViewState {
   // how the OpenGL passes compute barycentric coordinates
   OpenGlCoordinates coordinates = OpenGlCoordinates::kFloat;
   bool faces = true;
-  bool trees_by_reflectance = false;  // show the reflectance of each face as a flat colour (thesis B.4.1)
+  bool trees_by_reflectance = false;  // if true, faces show their reflectance as a flat colour (thesis B.4.1)
   bool split = false;  // show triangle ids, barycentric coordinates and picture side by side (thesis B.3.2)
   bool auto_exposure = true;
-  double exposure = 0.01;  // exposure: linear screen value per W/m^2, the thesis's Irradiance-2-Pixel
+  double exposure = 0.01;  // linear screen value per W/m^2 of radiosity (Irradiance-2-Pixel in the thesis)
   bool false_colour = false;
   // upper end of the false-colour scale [W/m^2]; 0: the value that the exposure makes white
   double false_colour_max = 0;
   bool error_map = false;
   double error_map_max = 0.1;  // upper end of the colour scale for relative errors [1]
-  int supersampling = 2;       // of saved pictures: number of samples along a side of a pixel
-  bool isolate = true;         // draw only the selected object
+  int supersampling = 2;       // number of samples along a side of a pixel, in saved pictures
+  bool isolate = true;         // if true, only the selected object is drawn
 
   OverlaySettings overlays;
   Selection selection;
-  std::optional<ProbedPoint> probe;           // point at which the irradiance is probed
-  std::optional<ProbedPoint> backprojection;  // point from which backprojections are shown
+  std::optional<ProbedPoint> probe;  // point at which the irradiance is probed
+  // The point from which backprojections (visible parts of sources) are shown.
+  std::optional<ProbedPoint> backprojection;
 };
 
 }  // namespace penumbra::viewer

@@ -78,7 +78,8 @@ class Viewer {
   const PictureMaker& picture() const { return picture_; }
   const std::vector<Camera>& cameras() const { return cameras_; }
   SessionStatus status() const { return session_.status(); }
-  // A few words about the running computations, except those of the solver.
+  // A few words for the status line about the state of the viewer while the solver is idle, for example
+  // "ready" or "analysing".
   std::string activity();
   // The message for the user: the last error that occurred before the last frame; empty if no error occurred.
   const std::string& message() const { return message_; }
@@ -97,18 +98,18 @@ class Viewer {
   // Sets the list of recently opened scenes, the latest first.
   void SetRecent(const std::vector<std::string>& names);
   void AddCamera(const Camera& camera);
-  // Throws InputError if ValidateCamera() rejects the camera.
+  // Shows the scene from another camera. Throws InputError if ValidateCamera() rejects the camera.
   void GoTo(const Camera& camera);
 
  private:
-  // Defined in viewer_settings.cpp:
+  // The following functions are defined in viewer_settings.cpp.
   void AddViewSettings();
   void AddVisualisationSettings();
   void AddViewingSettings();
   void AddSolveSettings();
   void AddSolveSetting(const SolveOption& option);
   void AddFileSettings();
-  // Defined in viewer_menu.cpp:
+  // The following functions are defined in viewer_menu.cpp.
   void AddMenus();
   void AddFileMenu();
   void AddViewingMenu();
@@ -122,7 +123,7 @@ class Viewer {
                   const std::string& value);
   void AskItem(const std::string& path, const std::string& key, const std::string& name);
   void AddCameraMenu();
-  // Defined in viewer_input.cpp:
+  // The following functions are defined in viewer_input.cpp.
   void KeyDown(const InputEvent& event);
   void ButtonDown(const InputEvent& event);
   void ButtonUp(const InputEvent& event);
@@ -133,7 +134,7 @@ class Viewer {
 
   void Home();
 
-  // Defined in viewer_files.cpp:
+  // The following functions are defined in viewer_files.cpp.
   void AddSceneSettings();
   void Take(const OpenedScene& opened);
   void TakeOptions(const OpenedScene& opened);
@@ -160,7 +161,7 @@ class Viewer {
   void SolvingChanged() { session_.SetOptions(options_.solving); }
 
   ViewerOptions options_;
-  // if links of another solution are in use: the options for the scene's own links
+  // the options for the scene's own links, set while links of another solution are used
   std::optional<PipelineOptions> own_links_;
   SolverSession session_;
   std::shared_ptr<const Snapshot> snapshot_;

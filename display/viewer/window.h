@@ -18,6 +18,6 @@ namespace penumbra::viewer {
 // ScriptPlayer::Advance().
 void RunWindow(Viewer& viewer, const Script* script, const UserFiles* files,
                std::optional<double> scale = std::nullopt);
-inline constexpr double kScriptFrame = 1.0 / 60;  // seconds
+inline constexpr double kScriptFrame = 1.0 / 60;  // time that a frame counts while a script runs [s]
 
 }  // namespace penumbra::viewer

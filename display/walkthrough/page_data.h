@@ -27,7 +27,8 @@ struct PageData {
 // The samples of a triangle are integer multiples of the triangle's scale. The error of a sample is at most
 // kSampleError * (largest irradiance of the triangle) + kEqualIrradiance * (largest irradiance of the mesh).
 inline constexpr int kLargestSample = 32767;
-// half a quantisation step, and the rounding error of the scale
+// The value of kSampleError is half a quantisation step, plus an allowance for the rounding error of the
+// scale.
 inline constexpr double kSampleError = 0.51 / kLargestSample;
 
 // Makes the data of the HTML page. Throws InputError if a position or an irradiance exceeds the range of

@@ -2,10 +2,9 @@
 //
 // Refines the quadtree at the ends of contacts, the segments where another surface touches a patch (thesis
 // 4.4.2, drawback 2). Near the end of a line where surfaces touch, the irradiance depends on the direction in
-// which a point approaches the end, and no polynomial fits the irradiance. At the end of a contact with
-// another surface, each adjacent triangle therefore has its own value of the irradiance. Dividing the
-// quadtree leaves at the end of a contact reduces the area where separate values for triangles do not
-// suffice.
+// which a point approaches the end, and no polynomial fits the irradiance. Each triangle with a vertex at the
+// end of a contact therefore has its own value of the irradiance at this vertex. Dividing the quadtree leaves
+// at the end of a contact reduces the area where the interpolants remain inaccurate.
 
 #pragma once
 
@@ -21,8 +20,9 @@ namespace penumbra {
 // contacts that lie within SnapDistance() of each other count as one.
 std::vector<Vec2> ContactEnds(const Patch& patch, std::span<const Discontinuity> found);
 
-// For each point in `ends`, divides the quadtree leaf that contains the point, `divisions` times in
-// succession, and then balances the quadtree. No quadtree leaf becomes smaller than `min_area` [m^2].
+// For each point in `ends`, divides the quadtree leaf that contains the point, then the child that contains
+// the point, and so on, `divisions` times. DivideTowards() then balances the quadtree. No quadtree leaf
+// becomes smaller than `min_area` [m^2].
 void DivideTowards(std::span<const Vec2> ends, int divisions, double min_area, PatchId patch,
                    ElementForest& forest);
 

@@ -27,29 +27,30 @@
 
 namespace penumbra {
 
-// A discontinuity of kind kNear is no discontinuity in the strict sense. Below the edge of a source that
-// hangs closely above the receiver, the irradiance falls within a few times the edge's height. If the
-// triangles of the mesh are larger than a few times the height of an edge that hangs closely above the
-// receiver, the mesh must follow the edge like a discontinuity.
+// A line of kind kNear is no discontinuity in the strict sense, but a line near which the irradiance varies
+// quickly. Below the edge of a source that hangs closely above the receiver, the irradiance falls steeply,
+// over a distance of a few times the edge's height above the receiver. If the triangles of the mesh are
+// larger than this distance, the mesh needs edges that follow the hanging edge.
 enum class DiscontinuityKind : std::uint8_t { kVE, kEV, kHorizon, kContact, kEEE, kNear };
 
 // The order of the lowest derivative of the irradiance that jumps across a discontinuity. At generic VE
 // (vertex-edge), EV (edge-vertex) and EEE (three-edge) events, the second derivative of the irradiance jumps
 // (D2). At the horizon of a source (where the source's plane meets the receiver), the first derivative of the
-// irradiance jumps (D1). The first derivative also jumps if the source edge and the blocker edge of an event
-// lie in one plane. At a contact with another surface, the irradiance itself jumps (D0).
+// irradiance jumps (D1). The first derivative of the irradiance also jumps if the source edge and the blocker
+// edge of an event lie in one plane. At a contact with another surface, the irradiance itself jumps (D0).
 enum class DiscontinuityDegree : std::uint8_t { kD0, kD1, kD2 };
 
 // The change of the irradiance across a discontinuity, along the normal of its line in the receiver, for a
 // source of 1 W/m^2. `gradient` and `curvature` are the jumps of the irradiance's first and second
-// derivatives. `largest_gradient` and `largest_value` are upper bounds of the total changes of gradient and
-// irradiance that the event causes. The total changes of gradient and irradiance are bounded because the
-// effect of an event ends at some distance from its discontinuity.
+// derivatives. `largest_gradient` bounds the change of the irradiance's gradient, and `largest_value` the
+// change of the irradiance, at any distance from the discontinuity. Both bounds follow from the size of the
+// source, because a blocker hides at most the whole source.
 struct IrradianceJump {
   double gradient = 0;          // jump of the first derivative, of D1 events [1/m]
   double curvature = 0;         // jump of the second derivative, of D2 events; infinite for D1 [1/m^2]
-  double largest_gradient = 0;  // [1/m]
-  double largest_value = 0;     // [1]
+  double largest_gradient = 0;  // bound of the change of the first derivative [1/m]
+  // Bound of the change of the irradiance, relative to the source's radiosity [1].
+  double largest_value = 0;
 };
 
 // A discontinuity is a segment of nonzero length on the receiver (thesis 5.5.3).
@@ -58,16 +59,16 @@ struct Discontinuity {
   DiscontinuityKind kind = DiscontinuityKind::kVE;
   DiscontinuityDegree degree = DiscontinuityDegree::kD2;
   PatchId receiver = kNoPatch;
-  PatchId source = kNoPatch;  // source of light; kNoPatch for a contact
-  // The blocker; kNoPatch for the horizon of a source and for kind kNear. For a contact, the blocker is the
-  // patch that touches the receiver.
+  PatchId source = kNoPatch;  // patch that sends the light; kNoPatch for a contact
+  // The patch that blocks the light; kNoPatch for the horizon of a source and for a line of kind kNear. For a
+  // contact, the blocker is the patch that touches the receiver.
   PatchId blocker = kNoPatch;
   // source_part and blocker_part are the numbers of the source's and the blocker's vertices or edges that
   // cause the event. For a VE event, source_part is a vertex of the source, and blocker_part an edge of the
   // blocker. For an EV event, source_part is an edge of the source, and blocker_part a vertex of the blocker.
   // For an EEE event, source_part and blocker_part are edges; source_part is -1 if all three edges belong to
-  // blockers. For kind kNear (a line close below an edge of a source), source_part is the number of this
-  // edge. An edge of a patch has the number of the vertex where it starts.
+  // blockers. For kind kNear (a line close below an edge of a source), source_part is the number of the
+  // source's edge. The number of an edge of a patch is the number of the vertex where the edge starts.
   std::int32_t source_part = -1, blocker_part = -1;
   // The second and third blocker edges of an EEE (three-edge) event. A three-edge event has a third blocker
   // edge only if no edge of the event belongs to the source.
@@ -76,18 +77,20 @@ struct Discontinuity {
   // the irradiance therefore jumps (D1).
   std::int32_t shared_source_edge = -1;
   PatchEdge shared_blocker_edge;
-  // The geometric weight is the largest ratio d_sb / d_sr of the distances source-blocker and
-  // source-receiver, at most 1. The geometric weight of a horizon is 1, and that of a contact is infinite.
+  // The geometric weight is the ratio d_sb / d_sr <= 1 of the distances source-blocker and source-receiver,
+  // at the point of the segment where this ratio is largest. The geometric weight of the horizon of a source
+  // is 1, and that of a contact is infinite.
   double geometric_weight = 0;
   static constexpr int kJumps = 3;
-  std::array<IrradianceJump, kJumps> jump;  // jumps at points spread along the segment
-  double strength = 0;                      // largest radiosity of the source [W/m^2]
-  double weight = 0;                        // result of Weight() for the whole receiver [W/m^2]
-  bool wanted = false;  // refinement of the mesh has requested this edge, whatever its weight
+  // The jumps of the irradiance's derivatives at three points of the segment.
+  std::array<IrradianceJump, kJumps> jump;
+  double strength = 0;  // largest radiosity of the source [W/m^2]
+  double weight = 0;    // result of Weight() for the whole receiver [W/m^2]
+  bool wanted = false;  // true if refinement has requested an edge here, even if `weight` is small
 };
 
-// True if `a` and `b` are the same part of the same critical surface on the receiver, even if separate calls
-// found them.
+// True if `a` and `b` are the same segment of the receiver, with the same source and of the same kind, even
+// if separate calls found `a` and `b`.
 inline bool SameTrace(const Discontinuity& a, const Discontinuity& b) {
   return a.source == b.source && a.kind == b.kind && a.end[0] == b.end[0] && a.end[1] == b.end[1];
 }
@@ -95,8 +98,8 @@ inline bool SameTrace(const Discontinuity& a, const Discontinuity& b) {
 inline constexpr double kInfiniteWeight = std::numeric_limits<double>::infinity();
 
 // Returns the weight [W/m^2] of the discontinuity on a piece of the mesh, such as a quadtree leaf. `size` [m]
-// is the extent of the piece of the mesh across the discontinuity. `margin` [m] is the smallest distance
-// between the discontinuity and the borders of the piece.
+// is the extent of the piece of the mesh perpendicular to the discontinuity. `margin` [m] is the smallest
+// distance between the discontinuity and the borders of the piece.
 //  kThesis: the weight is geometric_weight * strength (thesis 5.3), independent of the piece of the mesh.
 //  kIrradiance: the weight is strength * min(largest_value, KinkError() * max(|gradient|, largest_gradient),
 //   BendError() * |curvature|), with the members of IrradianceJump. The weight kIrradiance estimates the
@@ -132,19 +135,20 @@ class DiscontinuityFinder {
   //  (1) Every discontinuity lies on the receiver and is longer than SnapDistance().
   //  (2) The same input gives the same list of discontinuities, in the same order. Equal segments may occur
   //   several times in the list of discontinuities.
-  //  (3) An edge that two patches share causes a VE event only if the edge is a silhouette: the source's
-  //   vertex sees the front of exactly one of the two patches. The VE event of a shared edge occurs once in
-  //   the list, not once per patch. A corner of a blocker causes an EV event only if at least two edges at
-  //   the corner are silhouettes, and these edges do not lie in one line.
+  //  (3) An edge that two patches share causes a VE (vertex-edge) event only if the edge is a silhouette: the
+  //   source's vertex sees the front of exactly one of the two patches. The VE event of an edge that two
+  //   patches share occurs once in the list, not once per patch. A corner of a blocker causes an EV
+  //   (edge-vertex) event only if at least two edges at the corner are silhouettes, and these edges do not
+  //   lie in one line.
   //  (4) Unless options.keep_hidden is set, the list omits the hidden parts of discontinuities. A part of a
-  //   discontinuity is hidden if another blocker cuts the lines from this part through the vertex and the
-  //   edge of the event.
+  //   discontinuity is hidden if another blocker cuts the lines of sight from this part through the vertex
+  //   and the edge of the event to the source.
   //  (5) Edges and vertices of blockers within ContactGap() of the receiver count as touching the receiver.
   //   Edges and vertices that touch the receiver cause contacts, but no other discontinuities.
   //  (6) If options.triple_edge_tolerance > 0, the list includes the polylines of EEE (three-edge) events.
-  //  (7) The list includes lines of kind kNear for each source edge whose height above the receiver is at
-  //   most kMaxHangingHeight * (length of the edge). Lines of kind kNear are parallel to the edge of the
-  //   source, at increasing distances from the edge.
+  //  (7) The list includes lines of kind kNear (where the irradiance falls steeply) for each source edge
+  //   whose height above the receiver is at most kMaxHangingHeight * (length of the edge). Lines of kind
+  //   kNear are parallel to the edge of the source, at increasing distances from the edge.
   // Find() may be called from several threads at once. If the computation is cancelled, the list of
   // discontinuities is incomplete.
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
@@ -161,14 +165,15 @@ class DiscontinuityFinder {
   std::vector<Discontinuity> FindFrom(PatchId receiver, const PatchPair& pair, double strength,
                                       const DiscontinuityOptions& options,
                                       const ExecutionContext& context = ExecutionContext()) const;
-  // True if a source of radiosity `strength` can cause a discontinuity of the minimum weight. No weight of a
-  // discontinuity exceeds `strength`, because geometric weights and form factors are at most 1.
+  // True if a source of radiosity `strength` can cause a discontinuity whose weight is at least
+  // options.min_weight. No weight of a discontinuity exceeds `strength`, because geometric weights and form
+  // factors are at most 1.
   static bool Counts(double strength, const DiscontinuityOptions& options) {
     return strength > 0 && strength >= options.min_weight;
   }
 
-  // Returns the result of JumpAt() for a discontinuity of this scene. The point `at` lies on the line of the
-  // discontinuity, and is given in the receiver's frame [m].
+  // Returns the jumps of the irradiance's derivatives (JumpAt) across a discontinuity of this scene. The
+  // point `at` lies on the line of the discontinuity, and is given in the receiver's frame [m].
   IrradianceJump Jump(const Discontinuity& d, const Vec2& at) const;
 
  private:

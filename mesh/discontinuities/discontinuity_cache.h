@@ -22,16 +22,16 @@ class DiscontinuityCache {
 
   // DiscontinuityCache::Find() returns exactly the result of DiscontinuityFinder::Find(). The discontinuities
   // of a source are computed when the source's largest radiosity first reaches the minimum weight. The
-  // discontinuities of a source are computed again only if options other than the radiosities change, or if
-  // the source has become so bright that further discontinuities reach the minimum weight. Several threads
-  // may call Find() at once for different receivers. If the computation is cancelled, the result is
-  // incomplete, and the cache keeps the discontinuities of those sources that were completed.
+  // discontinuities of a source are computed again only if the DiscontinuityOptions change, or if the source
+  // has become so bright that further discontinuities reach the minimum weight. Several threads may call
+  // Find() at once for different receivers. If the computation is cancelled, the result is incomplete, and
+  // the cache keeps the discontinuities of those sources that were completed.
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
                                   const DiscontinuityOptions& options,
                                   const ExecutionContext& context = ExecutionContext());
 
-  // Counts the pairs of receiver and source whose discontinuities were computed since construction, and the
-  // pairs whose discontinuities were already in the cache.
+  // `traced` counts the pairs of receiver and source whose discontinuities were computed since construction.
+  // `kept` counts the pairs of receiver and source whose discontinuities Find() took from the cache.
   struct Counts {
     std::size_t traced = 0, kept = 0;
   };
@@ -40,12 +40,13 @@ class DiscontinuityCache {
  private:
   struct Source {
     bool traced = false;
-    double least = 0;  // smallest weight, for a source of 1 W/m^2, that `edges` includes
+    // `edges` holds all discontinuities whose weight is at least `least` for a source of 1 W/m^2.
+    double least = 0;
     std::vector<Discontinuity> edges;
   };
   struct Receiver {
     bool known = false;
-    DiscontinuityOptions options;  // options with which all entries were found
+    DiscontinuityOptions options;  // options with which the discontinuities of this receiver were found
     std::vector<Discontinuity> contacts;
     std::vector<Source> sources;  // sources of the receiver, in the order of PatchVisibility::SourcesOf()
     Counts counts;

@@ -24,18 +24,18 @@ using LeafFilter = std::function<bool(const Discontinuity&, ElementId)>;
 
 // Determines the order in which the discontinuities of a patch become edges of the mesh.
 struct DiscontinuityRanks {
-  std::vector<double> rank;  // rank of each discontinuity; the highest comes first
-  double least = 0;          // discontinuities of lower rank do not become edges
+  std::vector<double> rank;  // rank of each discontinuity; the discontinuity of the highest rank comes first
+  double least = 0;          // smallest rank of a discontinuity that becomes an edge
 };
 
 // A method that chooses the discontinuities that become edges of the mesh. By default, a
-// DiscontinuityChoiceMethod chooses discontinuities by weight (ActivateDiscontinuities).
+// DiscontinuityChoiceMethod chooses discontinuities in order of decreasing weight (ActivateDiscontinuities).
 class DiscontinuityChoiceMethod {
  public:
   virtual ~DiscontinuityChoiceMethod() = default;
 
-  // True if the method makes any discontinuity an edge of the mesh. If TakesAny() is false, no
-  // discontinuities need to be found.
+  // True if the method can make discontinuities edges of the mesh, false if the method always omits all
+  // discontinuities. If TakesAny() is false, no discontinuities need to be found.
   virtual bool TakesAny() const { return true; }
 
   // True if only the weights of discontinuities determine the choice. If ByWeightAlone() is true, refinement
@@ -47,8 +47,8 @@ class DiscontinuityChoiceMethod {
     return static_cast<std::size_t>(options.max_leaf_dsets);
   }
 
-  // Returns ranks of the discontinuities, which replace their weights. If Rank() returns nullopt, the weights
-  // of the discontinuities are used as ranks.
+  // Returns a rank for each discontinuity; in the choice of edges, the ranks replace the weights of the
+  // discontinuities. If Rank() returns nullopt, the weights of the discontinuities are used as ranks.
   virtual std::optional<DiscontinuityRanks> Rank(PatchId /*patch*/, std::span<const Discontinuity> /*found*/,
                                                  const DiscontinuityOptions& /*options*/) const {
     return std::nullopt;

@@ -36,8 +36,8 @@ struct DiscontinuityLine : DirectedLine {
 bool Covers(std::span<const LineInterval> intervals, double t, double reach);
 
 // Returns the part of the line inside the convex counter-clockwise outline and at least `inset` [m] from each
-// side of the outline. A negative `inset` enlarges the outline by which the line is clipped. The returned
-// interval is empty if t0 > t1.
+// side of the outline. A negative `inset` enlarges the outline by which the line is clipped. If no part of
+// the line is inside, the returned interval has t0 > t1.
 LineInterval ClipLine(const Vec2& origin, const Vec2& direction, const Polygon2& outline, double inset);
 
 }  // namespace penumbra

@@ -1,13 +1,13 @@
 // mesh/discontinuities/dset.h
 //
 // DSets (thesis 5.5.4-5.5.7) determine which discontinuities of a patch become edges of the leaves'
-// triangulations. A DSet is a pair of a discontinuity line and a quadtree leaf. A DSet contains the
+// triangulations. A DSet is a pair of a discontinuity line and a quadtree leaf. A DSet contains those
 // discontinuities on its line that meet its leaf. Each DSet contributes at most one edge to the leaf's
 // triangulation.
 //
-// The thesis stores DSets in every node of the quadtree and passes them on when a node splits. In this
-// implementation, the discontinuity lines of a patch are found once, when the quadtree is final, and leaves
-// refer to the lines by number.
+// The thesis stores DSets in every node of the quadtree and passes the DSets on to the children when a node
+// is split. In this implementation, the discontinuity lines of a patch are found once, when the quadtree is
+// final, and leaves refer to the lines by number.
 
 #pragma once
 
@@ -42,55 +42,62 @@ struct PatchDSets {
   // For each leaf, the numbers of the lines that are active in the leaf or along its border, ascending.
   std::vector<std::vector<std::int32_t>> leaf_lines;
   std::size_t activated = 0;         // number of active discontinuities (edges of the mesh)
-  std::size_t dsets_active = 0;      // number of DSets whose line crosses the interior of the leaf
+  std::size_t dsets_active = 0;      // number of DSets (line and leaf) whose line crosses the leaf's interior
   std::size_t refused = 0;           // number of discontinuities omitted because leaves were full
-  std::size_t refused_contacts = 0;  // number of contacts among `refused`
+  std::size_t refused_contacts = 0;  // number of contacts omitted because leaves were full
   std::size_t most_merged = 0;       // largest number of collinear active discontinuities in one leaf
-  // The leaves that had no room for a discontinuity that therefore is an edge in no leaf; in ascending order.
-  // A full leaf is listed in `crowded` only if the refused discontinuity is a contact, or if (number of
-  // leaves without room for the discontinuity) <= (number of leaves with room).
+  // The leaves, in ascending order, that had no room for a discontinuity, which therefore became an edge in
+  // no leaf. A full leaf is listed in `crowded` only if the refused discontinuity is a contact, or if (number
+  // of leaves without room for the discontinuity) <= (number of leaves with room).
   std::vector<ElementId> crowded;
-  // The omitted discontinuities that refinement may request: those whose cost of omission is at least
-  // options.min_wanted_weight on some leaf.
+  // The omitted discontinuities that refinement may request as edges. Refinement may request a discontinuity
+  // if, on some leaf, the error of the mesh without an edge along the discontinuity (OmissionCost) is at
+  // least options.min_wanted_weight.
   std::vector<OmittedDiscontinuity> omitted;
 };
 
-// A function that returns the factor by which errors of irradiance on a quadtree leaf are multiplied. An
-// empty ErrorScale function stands for the factor 1.
+// A function that returns the factor by which errors of irradiance on a quadtree leaf are multiplied before
+// they are compared, for example a larger factor for a darker leaf. An empty ErrorScale function stands for
+// the factor 1.
 using ErrorScale = std::function<double(ElementId)>;
 // A function that returns the factor by which errors of irradiance at a point of a quadtree leaf are
-// multiplied. The point passed to a PlaceScale is given in the frame of the patch [m].
+// multiplied before they are compared. The point passed to a PlaceScale is given in the frame of the patch
+// [m].
 using PlaceScale = std::function<double(ElementId, const Vec2&)>;
 
 // Functions by which the caller modifies the choice of discontinuities. Each function in ActivationRules may
 // be empty.
 struct ActivationRules {
-  LeafFilter filter = {};  // result of DiscontinuityChoiceMethod::FilterOf()
-  ErrorScale scale = {};   // factor of errors on each quadtree leaf
-  // Factor of errors at a point, used in leaves where more lines of sufficient weight compete than have room.
+  // The filter tells which discontinuities may become edges in which leaf
+  // (DiscontinuityChoiceMethod::FilterOf).
+  LeafFilter filter = {};
+  ErrorScale scale = {};  // factor by which errors of irradiance on a quadtree leaf are multiplied
+  // The factor by which errors of irradiance at a point are multiplied, in place of `scale`, in leaves that
+  // are crossed by more than max_leaf_dsets lines of sufficient weight.
   PlaceScale at_place = {};
 };
 
 // Activates discontinuities, that is, makes them edges of the mesh: first the contacts, then the others in
 // order of decreasing weight. Without a filter, a discontinuity becomes active (an edge) on all quadtree
-// leaves that it meets, or on none (thesis 5.5.7).
+// leaves that the discontinuity meets, or on no leaf (thesis 5.5.7).
 //  (1) Only discontinuities with weight >= options.min_weight, and those that refinement has requested,
-//   become active. If options.weight is kIrradiance, the weight is the cost of omitting the discontinuity's
-//   line from the mesh whose edges are the lines that are already active (OmissionCost). The cost of omission
-//   multiplies the errors on each leaf by `rules.scale`. If a leaf has too little room for all lines of
-//   sufficient weight, error factors at points (`rules.at_place`, if not empty) replace the factors of leaves
-//   (`rules.scale`) in the weights that determine the order of activation. The weight of a line is sufficient
-//   if it is at least options.min_weight with either of the error factors rules.scale and rules.at_place.
+//   become active. If options.weight is kIrradiance, the weight of a discontinuity is the error of a mesh
+//   that has the edges chosen so far, but no edge along this discontinuity (OmissionCost). Errors of
+//   irradiance on a leaf are multiplied by rules.scale. In a leaf that more than options.max_leaf_dsets lines
+//   of sufficient weight cross, errors are multiplied by rules.at_place (if not empty), so that lines in dark
+//   places become edges first. A line may become an edge if its weight is at least options.min_weight with
+//   errors multiplied by the larger of rules.scale and rules.at_place.
 //  (2) At most options.max_leaf_dsets discontinuity lines cross the interior of any quadtree leaf.
 //   Discontinuity lines along the border of a leaf add no edge and are not counted.
 //  (3) The discontinuity of the largest weight becomes active (an edge) first. Discontinuities of equal
 //   weight become active in the order of `found`.
-// The method with the name options.choice may replace the weights in rules (1) and (3) by ranks, and may
-// replace the largest number of lines in rule (2). If rules.filter is not empty, the filter decides for each
-// leaf separately. With a filter, a discontinuity becomes active (an edge) on those leaves that pass the
-// filter and have room for the discontinuity. REQUIRES: the patch's quadtree is balanced, and `found`
-// contains discontinuities on this patch. REQUIRES: rules.filter is the result of FilterOf() of the method
-// with the name options.choice. Throws InputError if there is no method with the name options.choice.
+// The method with the name options.choice may rank discontinuities by other numbers than their weights, and
+// may allow another number of lines in a leaf than options.max_leaf_dsets. If rules.filter is not empty, the
+// filter decides for each leaf separately. With a filter, a discontinuity becomes active (an edge) on those
+// leaves that pass the filter and have room for the discontinuity. REQUIRES: the patch's quadtree is
+// balanced, and `found` contains discontinuities on this patch. REQUIRES: rules.filter is the result of
+// FilterOf() of the method with the name options.choice. Throws InputError if there is no method with the
+// name options.choice.
 PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
                                    std::span<const Discontinuity> found, const DiscontinuityOptions& options,
                                    const ActivationRules& rules = {});

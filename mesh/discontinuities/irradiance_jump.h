@@ -10,16 +10,16 @@
 // VE or EV event, the derivative of the chord's length with respect to the position of the edge jumps by some
 // value s. The second derivative of the source's visible area, and thus of the irradiance, jumps by w^2 s,
 // where w is the speed of the edge in the image and s is the jump of the chord's derivative. If the edge of
-// the source and the edge of the blocker lie in one plane, their images overlap in a segment. If the source
-// edge and the blocker edge are coplanar, the length of the chord itself jumps by the length of the overlap
-// of the edges' images. The gradient of the irradiance then jumps by (speed w of the edge in the image) *
-// (length of the overlap).
+// the source and the edge of the blocker lie in one plane with x, the images of the two edges overlap in a
+// segment. If the source edge and the blocker edge are coplanar, the length of the chord itself jumps by the
+// length of the overlap of the edges' images. For coplanar edges, the gradient of the irradiance jumps by
+// (speed w of the edge in the image) * (length of the overlap).
 //
 // In an EEE (three-edge) event, three edges meet in one point of the image. At a distance d from the
 // discontinuity of an EEE event, the three edges enclose a triangle of the area (d * sum lambda_i w_i)^2 / (2
 // |lambda_1 lambda_2 lambda_3|), where w_i is the speed of edge i in the image, and lambda_i the sine of the
-// angle between the other two edges. At an EEE event, the triangle between the three edges becomes visible or
-// hidden on one side of the discontinuity.
+// angle between the other two edges. On one side of the discontinuity of an EEE event, the part of the source
+// in the triangle between the three edges becomes visible or hidden.
 
 #pragma once
 
@@ -29,17 +29,17 @@
 
 namespace penumbra {
 
-// Returns the jump of the irradiance's derivatives at `x`, a point of a VE, EV, EEE, near or horizon
-// discontinuity. `across` is a unit vector in the receiver's plane, perpendicular to the discontinuity.
-// JumpAt() assumes a source with radiosity 1 W/m^2 everywhere. JumpAt() takes only those blockers into
-// account that take part in the event. All members of the IrradianceJump are zero for a contact, where the
+// Returns the jump of the irradiance's derivatives at `x`, a point of a discontinuity of any kind but
+// kContact. `across` is a unit vector in the receiver's plane, perpendicular to the discontinuity. JumpAt()
+// assumes a source with radiosity 1 W/m^2 everywhere. JumpAt() ignores all blockers except those whose edges
+// or vertices cause the discontinuity. All members of the IrradianceJump are zero for a contact, where the
 // irradiance itself jumps.
 IrradianceJump JumpAt(const Scene& scene, const Silhouettes& silhouettes, const Discontinuity& d,
                       const Vec3& x, const Vec3& across);
 
 // Returns the edge of the source at its vertex `k` that lies within `tolerance` [m] of the plane of the
-// vertex and the segment ab. If both edges of the source at vertex `k` lie within `tolerance`, the closer
-// edge is returned. If neither edge lies within `tolerance`, the result is -1.
+// vertex and the segment ab. If both edges of the source at vertex `k` lie within `tolerance`, the edge
+// closer to the plane is returned. If neither edge lies within `tolerance`, the result is -1.
 std::int32_t CoplanarEdge(const Patch& source, std::int32_t k, const Vec3& a, const Vec3& b,
                           double tolerance);
 

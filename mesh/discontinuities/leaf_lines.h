@@ -24,7 +24,7 @@ Polygon2 LeafOutline(const Element& leaf, const Frame& frame);
 // A quadtree leaf that a discontinuity meets.
 struct Impinged {
   std::size_t leaf;  // index of the leaf in LeafLines::leaves()
-  bool inside;       // the discontinuity crosses the leaf's interior, not only its border
+  bool inside;       // true if the discontinuity crosses the leaf's interior, not only its border
 };
 
 class LeafLines {
@@ -40,8 +40,8 @@ class LeafLines {
   // call of Meet().
   std::span<const Impinged> Meet(const Discontinuity& d);
   // Adds to `cost` the parts of the discontinuity in the interiors of leaves, with their jumps of irradiance.
-  // `number` is the index of the line in the LineJumps `jumps`. The errors on leaf i are multiplied by
-  // scale[i].
+  // `number` is the index of the line in the LineJumps `jumps`. In the cost, errors of irradiance on leaf i
+  // are multiplied by scale[i].
   void Describe(const Discontinuity& d, const LineJumps& jumps, const DirectedLine& line, std::int32_t number,
                 std::span<const double> scale, OmissionCost* cost);
 
@@ -51,8 +51,8 @@ class LeafLines {
   // True if at least one leaf that the discontinuity crosses has no room for the discontinuity's line. `line`
   // is the number of the discontinuity's line, or -1 for a line that no leaf has yet.
   bool Crowds(const Discontinuity& d, std::int32_t line);
-  // Adds the discontinuity line to the leaf. If the leaf has the line already, Join() counts one more
-  // discontinuity on the line.
+  // Adds the discontinuity line to the leaf. If the leaf has the discontinuity line already, Join() counts
+  // one more discontinuity on the line.
   void Join(const Impinged& i, std::int32_t line);
 
   // inside()[i] lists the discontinuity lines through the interior of leaf i, in the order of the calls of
@@ -81,7 +81,7 @@ class LeafLines {
   std::vector<ElementId> leaves_;
   std::vector<std::int32_t> node_of_leaf_;
   std::vector<std::vector<std::int32_t>> inside_, touching_;
-  std::vector<std::vector<std::size_t>> merged_;  // number of discontinuities on each line of touching_
+  std::vector<std::vector<std::size_t>> merged_;  // number of discontinuities on each line in touching_[leaf]
   std::size_t most_merged_ = 0;
   std::vector<Impinged> impinged_;
 };

@@ -27,10 +27,10 @@ struct LineJump {
 // Returns an estimate [W/m^2] of the error of a quadratic interpolant on a piece of the mesh that a
 // discontinuity line crosses without an edge along the line. `size` [m] is the extent of the piece of the
 // mesh across the line. `margin` [m] is the smallest distance of the line from the borders of the piece. The
-// error estimate is that of Weight() with kIrradiance, except that largest_value is multiplied by sqrt(2
-// margin / size). If largest_value is the smallest term of the error estimate, the change of the irradiance
-// ends within the piece of the mesh. If the change of the irradiance ends within a piece of the mesh, an edge
-// along the line improves only the smaller part of the piece.
+// error estimate is that of Weight() with kIrradiance, except that largest_value (bound of the change of the
+// irradiance) is multiplied by sqrt(2 margin / size). The reason for the factor sqrt(2 margin / size) is that
+// an edge along the line reduces the error of a bounded change only on the smaller of the two parts into
+// which the line cuts the piece.
 double ErrorWithout(const LineJump& jump, double size, double margin);
 
 class LineJumps {
@@ -42,7 +42,7 @@ class LineJumps {
 
   // Returns the sum of the jumps of derivatives across the line at parameter `t` [m]. The same D1 event of a
   // source may have been found twice, from both ends of the segment in which the two coplanar edges overlap.
-  // At() counts a D1 event only once, even if the event was found twice.
+  // At() counts a D1 event (jump of the first derivative) only once, even if the event was found twice.
   LineJump At(std::int32_t line, double t) const;
 
  private:
@@ -50,11 +50,11 @@ class LineJumps {
     double t0, t1;
     LineJump jump;
   };
-  // A segment tree over the ends of pieces of a line: each node holds the sum of the jumps that cover the
-  // node's whole range. At() adds up nodes of the segment tree and never subtracts, so that no rounding
-  // errors remain from jumps elsewhere.
+  // A segment tree over a line: each node of the tree stands for an interval of the line, and holds the sum
+  // of the jumps on pieces that cover the whole interval. At() adds up nodes of the segment tree and never
+  // subtracts, so that no rounding errors remain from jumps elsewhere.
   struct Line {
-    std::vector<double> place;  // ends of the pieces on the line, ascending
+    std::vector<double> place;  // parameters at which pieces of the line begin or end, ascending [m]
     std::vector<LineJump> node;
   };
 

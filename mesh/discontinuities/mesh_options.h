@@ -14,11 +14,11 @@ namespace penumbra {
 // The kinds of weights of discontinuities. With both kinds of weights, the weight of a contact with another
 // surface is infinite.
 enum class DiscontinuityWeight : std::uint8_t {
-  // The largest ratio d_sb / d_sr of the distances source-blocker and source-receiver, times the source's
-  // radiosity (thesis 5.3).
+  // The weight is the largest ratio d_sb / d_sr of the distances source-blocker and source-receiver,
+  // multiplied by the source's radiosity (thesis 5.3).
   kThesis,
-  // An estimate of the error of a leaf's quadratic interpolant if no edge of the mesh follows the
-  // discontinuity (after thesis 8.2).
+  // The weight is an estimate of the error of a leaf's quadratic interpolant if no edge of the mesh follows
+  // the discontinuity (after thesis 8.2).
   kIrradiance,
 };
 
@@ -30,13 +30,15 @@ inline constexpr int kMostCornerDivisions = 20;
 
 // Options that determine which discontinuities become edges of the mesh (thesis 5.2, Appendix A).
 struct DiscontinuityOptions {
-  std::string choice = "ranked";  // a name in DiscontinuityChoices()
+  std::string choice = "ranked";  // method that chooses discontinuities: a name in DiscontinuityChoices()
   DiscontinuityWeight weight = DiscontinuityWeight::kThesis;
-  double min_weight = 0;  // smallest weight of an edge, Tree::minDiscontWeight in the thesis [W/m^2]
+  // The smallest weight of a discontinuity that becomes an edge, Tree::minDiscontWeight in the thesis
+  // [W/m^2].
+  double min_weight = 0;
   // With the choice "ranked" and the weight kIrradiance, refinement may request discontinuities of weight <
-  // min_weight. Refinement may request a discontinuity only if the cost of its omission is at least
-  // min_wanted_weight on some quadtree leaf [W/m^2]. If min_wanted_weight >= min_weight, refinement may not
-  // request any discontinuity.
+  // min_weight. Refinement may request a discontinuity only if, on some quadtree leaf, the error of the mesh
+  // without an edge along the discontinuity (OmissionCost) is at least min_wanted_weight [W/m^2]. If
+  // min_wanted_weight >= min_weight, refinement may not request any discontinuity.
   double min_wanted_weight = std::numeric_limits<double>::infinity();
   // The largest number of discontinuity edges in a quadtree leaf, Tree::maxLeafDSets in the thesis.
   int max_leaf_dsets = 10;
@@ -47,11 +49,12 @@ struct DiscontinuityOptions {
   // are omitted, as in the thesis.
   double triple_edge_tolerance = 0;
   std::uint64_t seed = 1;  // seed of the choice "random"
-  // Fraction of the discontinuities, apart from contacts, that the choice "random" tries.
+  // Fraction of the discontinuities, apart from contacts, that the choice "random" tries to make edges of the
+  // mesh.
   double random_share = 1;
   // If a quadtree leaf has no room for a discontinuity that other leaves could use as an edge, the leaf is
-  // split, and the choice is repeated, at most crowded_splits times. If crowded_splits is 0, no leaf is
-  // split, as in the thesis. No leaf that is split becomes smaller than min_split_area [m^2].
+  // split, and the choice of discontinuities is repeated, at most crowded_splits times. If crowded_splits is
+  // 0, no leaf is split, as in the thesis. Splits make no leaf smaller than min_split_area [m^2].
   int crowded_splits = 0;
   double min_split_area = 0;
   // The quadtree leaf that contains the end of a contact with another surface is divided corner_divisions
@@ -59,20 +62,21 @@ struct DiscontinuityOptions {
   // contact with another surface becomes smaller than min_split_area.
   int corner_divisions = 0;
 
-  // True if the method `choice` makes any discontinuity an edge of the mesh. The functions enabled(),
-  // ranks_by_error(), can_want() and LeastWeight() throw InputError if there is no method with the name
-  // `choice`.
+  // True if the method `choice` can make discontinuities edges of the mesh, false if the method always omits
+  // all discontinuities. The functions enabled(), ranks_by_error(), can_want() and LeastWeight() throw
+  // InputError if there is no method with the name `choice`.
   bool enabled() const;
-  // True if only the error of the mesh without the edge (cost of omission) determines the order in which
-  // discontinuities become edges.
+  // True if discontinuities become edges in the order of their cost of omission: the error of the mesh
+  // without an edge along the discontinuity (OmissionCost).
   bool ranks_by_error() const;
   bool can_want() const { return ranks_by_error() && min_wanted_weight < min_weight; }
-  // The smallest weight of a discontinuity that may become an edge, possibly because refinement requests it.
+  // The smallest weight of a discontinuity that may become an edge: min_wanted_weight if refinement may
+  // request discontinuities below min_weight, otherwise min_weight.
   double LeastWeight() const { return can_want() ? min_wanted_weight : min_weight; }
 };
 
 enum class InterpolantOrder : std::uint8_t {
-  kConstant,   // irradiance of the quadtree leaf in the solution
+  kConstant,   // constant irradiance of each quadtree leaf, from the radiosity solution
   kLinear,     // linear interpolants of samples at the vertices (Gouraud)
   kQuadratic,  // quadratic interpolants of samples at vertices and edge midpoints
 };
@@ -80,30 +84,31 @@ enum class InterpolantOrder : std::uint8_t {
 struct MeshOptions {
   DiscontinuityOptions discontinuities;
   InterpolantOrder order = InterpolantOrder::kQuadratic;
-  double smooth = 0;  // Interpolation::smooth
+  double smooth = 0;  // largest relative bend of irradiance at predicted midpoints (Interpolation::smooth)
 };
 
 struct MeshReport {
   struct Counts {
     // Number of discontinuities found with at least the minimum weight, or requested by refinement.
     std::size_t discontinuities = 0;
-    std::size_t activated = 0;         // number of discontinuities that are edges of the mesh
-    std::size_t dsets_active = 0;      // number of pairs of leaf and line that give edges (active DSets)
-    std::size_t refused = 0;           // number of discontinuities omitted because a leaf was full
-    std::size_t refused_contacts = 0;  // number of contacts in `refused`, where the picture leaks light
-    // Number of segments too close to a leaf's border for a conforming mesh.
+    std::size_t activated = 0;     // number of discontinuities that are edges of the mesh
+    std::size_t dsets_active = 0;  // number of pairs of leaf and line that give edges (active DSets)
+    std::size_t refused = 0;       // number of discontinuities omitted because a leaf was full
+    // Number of contacts omitted because a leaf was full; at these contacts, light leaks in pictures.
+    std::size_t refused_contacts = 0;
+    // Number of discontinuity edges omitted because they are within rounding of a leaf's border.
     std::size_t dropped_segments = 0;
-    std::size_t most_merged = 0;   // largest number of active discontinuities in one edge of a leaf
+    std::size_t most_merged = 0;   // largest number of collinear discontinuities along one edge in a leaf
     std::size_t leaves_split = 0;  // number of leaves split because they had no room for a discontinuity
     std::size_t pairs_traced = 0;  // number of pairs receiver-source whose discontinuities were computed
     std::size_t pairs_kept = 0;    // number of pairs receiver-source whose discontinuities were in the cache
-    std::size_t leaves_made = 0;   // number of leaves with discontinuity lines triangulated anew
-    std::size_t leaves_kept = 0;   // number of leaves with lines whose triangles were reused
+    std::size_t leaves_made = 0;   // number of leaves with discontinuity lines that were triangulated anew
+    std::size_t leaves_kept = 0;   // number of leaves with discontinuity lines whose triangles were reused
     std::size_t triangles = 0;
     std::size_t interpolants = 0;
     std::size_t point_evaluations = 0;  // number of calls of IrradianceAtPoint()
-    // How many times the light of one source at one sample point was gathered again because the light
-    // changed.
+    // Number of pairs (source, sample point) for which the light of the source at the point was gathered
+    // again after a change of the light.
     std::size_t sources_renewed = 0;
   };
   struct Seconds {

@@ -1,9 +1,9 @@
 // mesh/discontinuities/omission_cost.h
 //
 // The cost of omission: the error that arises if a discontinuity is no edge of a mesh that already has other
-// edges (thesis 8.2). In a quadtree leaf, the lines that are already edges of the mesh enclose a cell around
-// the discontinuity. The cost of omission is the error of a quadratic interpolant on the cell around the
-// discontinuity, if the interpolant does not follow the jumps across the discontinuity.
+// edges (thesis 8.2). In a quadtree leaf, the lines that are already edges of the mesh bound a cell (convex
+// part of the leaf) around the discontinuity. The cost of omission is the error of a quadratic interpolant on
+// the cell around the discontinuity, if the interpolant does not follow the jumps across the discontinuity.
 
 #pragma once
 
@@ -34,35 +34,37 @@ class OmissionCost {
   // Starts a new discontinuity, to which the following calls of AddPart() add segments.
   void Begin() { first_part_.push_back(parts_.size()); }
   // Adds a segment of the current discontinuity, in a quadtree leaf with the outline `outline` and the area
-  // `area` [m^2]. Errors of irradiance on the leaf are multiplied by `scale`.
+  // `area` [m^2]. In the cost, errors of irradiance on the leaf are multiplied by the factor `scale`.
   void AddPart(const OmittedPart& part, const Polygon2& outline, double area, double scale) {
     parts_.push_back({part, area, scale, scale, outline, 0});
   }
 
-  // Sets the error factor of every segment to scale(segment, error factor of the segment's leaf).
+  // For every segment, sets the factor by which errors of irradiance are multiplied to scale(segment, f),
+  // where f is the factor that AddPart() has set.
   void Rescale(const std::function<double(const OmittedPart&, double)>& scale) {
     for (Part& part : parts_) part.scale = scale(part.segment, part.leaf_scale);
   }
 
   // In the following functions, inside[k] holds the numbers of those lines of `active` that cross leaf k.
   // Between two calls of members of OmissionCost, lines may be added to inside[k] but not removed. `own` is
-  // the number of the line on which the discontinuity itself lies, or -1 if this line is not active. The line
-  // of the discontinuity itself does not bound the cell on which the cost of omission is measured.
+  // the number of the line on which the discontinuity itself lies, or -1 if this line is no edge of the mesh.
+  // The line of the discontinuity itself does not bound the cell on which the cost of omission is measured.
 
   struct Cost {
-    double by_place = 0;  // cost if each error has the factor set by Rescale() [W/m^2]
-    double at_most = 0;   // cost if each error has the larger of the segment's and the leaf's factors [W/m^2]
+    double by_place = 0;  // cost with errors multiplied by the factors of Rescale() [W/m^2]
+    // Cost with errors multiplied by the larger of the factors of AddPart() and Rescale() [W/m^2].
+    double at_most = 0;
   };
 
-  // The cost of omitting discontinuity i: the root mean square of the errors on the leaves that the
-  // discontinuity crosses [W/m^2]. The costs by_place and at_most decrease as more lines become edges of the
-  // mesh.
+  // The cost of omitting discontinuity i: the root mean square, over the area of the leaves that the
+  // discontinuity crosses, of the error without an edge along the discontinuity [W/m^2]. The costs by_place
+  // and at_most decrease as more lines become edges of the mesh.
   Cost Of(std::size_t i, std::int32_t own, std::span<const std::vector<std::int32_t>> inside,
           std::span<const DiscontinuityLine> active);
   // The number of quadtree leaves whose interior discontinuity i crosses.
   std::size_t LeavesOf(std::size_t i) { return PartsOf(i).size(); }
-  // Returns the segments of discontinuity i in leaves without an edge along its line, if the cost of omission
-  // on the leaf is at least `least` [W/m^2].
+  // Returns the segments of discontinuity i in those leaves that have no edge along its line, and where the
+  // error without this edge, multiplied by its factor, is at least `least` [W/m^2].
   std::vector<OmittedPart> PartsWithout(std::size_t i, std::int32_t own,
                                         std::span<const std::vector<std::int32_t>> inside,
                                         std::span<const DiscontinuityLine> active, double least);
@@ -71,8 +73,8 @@ class OmissionCost {
   struct Part {
     OmittedPart segment;
     double leaf_area, leaf_scale, scale;
-    Polygon2 cell;          // convex polygon
-    std::size_t lines = 0;  // number of the leaf's lines by which the cell has been cut
+    Polygon2 cell;          // part of the leaf around the segment, a convex polygon
+    std::size_t lines = 0;  // number of lines in the leaf by which the cell has been cut
   };
 
   std::span<Part> PartsOf(std::size_t i);

@@ -21,8 +21,8 @@ class ShadowCrossing {
   ShadowCrossing(const ElementForest& forest, const PatchVisibility& visibility, PatchId receiver);
 
   // Tests which of the source's corners and centre are visible from the leaf's corners and centre. Returns
-  // false if the same points of the light source are visible from all tested points of the leaf. As in the
-  // paper, the visibility test misses shadows that lie between the tested points.
+  // false if the same points of the light source are visible from all points of the leaf that are tested. As
+  // in the paper, the visibility test misses shadows that lie between the tested points.
   bool Crosses(PatchId source, ElementId leaf);
 
  private:

@@ -28,7 +28,7 @@ class Silhouettes {
   explicit Silhouettes(const Scene& scene);
 
   // CornerAt() returns the number of the corner at vertex k of the patch, and EdgeAt() the number of the edge
-  // that starts there.
+  // that starts at this vertex.
   std::int32_t CornerAt(PatchId patch, std::int32_t k) const { return corner_at_[Index(patch, k)]; }
   std::int32_t EdgeAt(PatchId patch, std::int32_t k) const { return edge_at_[Index(patch, k)]; }
 
@@ -42,8 +42,8 @@ class Silhouettes {
   // the edge.
   Vec3 Away(std::int32_t edge, std::int32_t corner) const;
 
-  // Returns false if exactly two faces meet in the edge, and the point sees the fronts of both or of neither.
-  // Seen from a point in the plane of one of its faces, an edge counts as a silhouette.
+  // Returns false if exactly two faces meet in the edge, and the point sees the fronts of both faces or of
+  // neither face. Seen from a point in the plane of one of its faces, an edge counts as a silhouette.
   bool IsSilhouette(std::int32_t edge, const Vec3& from) const;
   // A conservative test for a convex polygon of viewpoints: returns false only if the edge is a silhouette
   // from no point of the polygon.
@@ -71,7 +71,8 @@ class Silhouettes {
   const Scene& scene_;
   std::vector<Corner> corners_;
   std::vector<Edge> edges_;
-  std::vector<std::int32_t> corner_at_, edge_at_;  // four entries per patch
+  // The numbers of the corners and edges of each patch, with four entries per patch.
+  std::vector<std::int32_t> corner_at_, edge_at_;
 };
 
 }  // namespace penumbra

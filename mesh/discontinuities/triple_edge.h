@@ -9,8 +9,9 @@
 // The line through a point p of the first edge that meets the two other edges has the direction n2 x n3,
 // where n2 and n3 are normals of the planes through p and the second or the third edge. The normals n2 and n3
 // of the planes through p and an edge are linear in p, and the direction n2 x n3 is therefore quadratic in p.
-// The function whose sign tells on which side of another edge the line n2 x n3 through p passes is quadratic
-// in p, too. Triple-edge events begin and end at roots of quadratic functions of p.
+// The function whose sign tells on which side of another edge the line n2 x n3 through p passes is also
+// quadratic in p. A triple-edge event begins and ends at points p of the first edge that are roots of
+// quadratic functions.
 
 #pragma once
 
@@ -41,16 +42,16 @@ struct TripleEdgeTrace {
 };
 
 struct TripleEdgeOptions {
-  double tolerance = 0;      // largest distance of the curve from its polyline, plus rounding [m]
-  bool keep_hidden = false;  // if true, keeps the parts that other blockers hide
-  double gap = 0;            // blockers closer than this to the receiver count as touching it [m]
-  double rounding = 0;       // distances up to this count as zero [m]
+  double tolerance = 0;      // largest distance between curve and polyline, apart from rounding errors [m]
+  bool keep_hidden = false;  // if true, keeps the parts of the curve that other blockers hide
+  double gap = 0;            // blockers within the distance `gap` of the receiver count as touching it [m]
+  double rounding = 0;       // distances up to `rounding` count as zero [m]
 };
 
 // Traces the triple-edge events of all triples of edges. A triple consists of an edge of the source and two
 // silhouette edges of blockers, or of three silhouette edges of blockers. Triples of edges in which two edges
-// lie in one plane are omitted, because their events are VE or EV events, or degenerate to points. REQUIRES:
-// options.tolerance > 0.
+// lie in one plane are omitted, because the events of two coplanar edges are VE or EV events, or degenerate
+// to points. REQUIRES: options.tolerance > 0.
 std::vector<TripleEdgeTrace> TraceTripleEdges(const Scene& scene, const Silhouettes& silhouettes,
                                               PatchId receiver, PatchId source,
                                               std::span<const PatchId> blockers,

@@ -22,8 +22,8 @@ struct Wedge {
   // True for an EV event: the lines of the wedge continue beyond the apex, to the source.
   bool through_apex = false;
   Vec3 receiver_normal, source_normal;
-  Vec3 on_receiver, on_source;  // a point of the receiver's plane, and of the source's plane
-  double rounding = 0;          // distances up to this count as zero [m]
+  Vec3 on_receiver, on_source;  // one point of the receiver's plane, and one of the source's plane
+  double rounding = 0;          // distances up to `rounding` count as zero [m]
 };
 
 // The visible parts of a wedge's trace on the receiver: ascending disjoint intervals of the parameter t. The
@@ -33,9 +33,9 @@ class TraceParts {
   struct Part {
     double t0, t1;
   };
-  // Removes the parts of the trace that the blocker hides: those where the blocker cuts the wedge's lines
-  // strictly between source and receiver. A patch that lies in the critical plane, or on only one side of
-  // this plane, hides nothing.
+  // Removes the parts of the trace that the blocker hides: the parts where the blocker cuts the wedge's lines
+  // of sight strictly between source and receiver. A patch that lies in the wedge's critical plane, or on
+  // only one side of this plane, hides nothing.
   void Hide(const Wedge& wedge, const Patch& blocker);
   const std::vector<Part>& parts() const { return parts_; }
 

@@ -4,7 +4,7 @@
 // other surface is. In the radiosity solution, a quadtree leaf sends its mean radiosity, which is right for
 // receivers that see the whole leaf. A point within a distance of a few leaf sizes may see only a part of the
 // leaf. CloserSources divides the leaves near the point into quarters, quarters of quarters, and so on. The
-// radiosities of the parts of a leaf follow from the displayed irradiance, that of the mesh's interpolants.
+// radiosities of the parts of a leaf are computed from the displayed irradiance (interpolants of the mesh).
 
 #pragma once
 
@@ -22,8 +22,8 @@ namespace penumbra {
 
 class CloserSources {
  public:
-  // A function that returns the displayed irradiance at a point of a patch [W/m^2], or nullopt where none is
-  // displayed.
+  // A function that returns the displayed irradiance at a point of a patch [W/m^2], or nullopt where no
+  // irradiance is displayed.
   using ShownLight = std::function<std::optional<Rgb>(PatchId, const Vec3&)>;
 
   // `sources` are the light sources of the solution. A part of a leaf is divided while the light on the part
@@ -31,8 +31,8 @@ class CloserSources {
   // this part. All constructor arguments must outlive the CloserSources.
   CloserSources(const RadiositySolution& solution, const SourceSet& sources, ShownLight light, double error);
 
-  // Returns the patches with leaves near the point, with these leaves divided; nullopt if no leaf is near.
-  // At() may be called from several threads at once.
+  // Returns the patches that have leaves near the point, with these leaves divided into smaller light
+  // sources; nullopt if no leaf is near the point. At() may be called from several threads at once.
   std::optional<DividedSources> At(const ReceiverPoint& at) const;
 
  private:
@@ -42,7 +42,7 @@ class CloserSources {
   const SourceSet& sources_;
   const ShownLight light_;
   const double tolerance_;
-  const Rgb floor_;  // smallest radiosities to which errors are relative [W/m^2]
+  const Rgb floor_;  // errors of radiosity are relative to max(radiosity, floor_) [W/m^2]
 };
 
 }  // namespace penumbra

@@ -14,27 +14,28 @@ namespace penumbra {
 
 class CornerSheets {
  public:
-  // Finds the sheets of a mesh, without regard to its interpolants.
+  // Finds the sheets (sets of triangle corners with continuous irradiance) of a mesh. The constructor does
+  // not use the interpolants of the mesh.
   explicit CornerSheets(const IrradianceMesh& mesh);
 
   // The index of corner k of triangle t among the corners of all triangles.
   static std::size_t Corner(std::size_t t, std::size_t k) { return 3 * t + k; }
-  // Returns the number of the sheet that contains the triangle corner. Numbers of sheets are smaller than the
-  // number of all triangle corners.
+  // Returns the number of the sheet (set of corners with continuous irradiance) that contains the triangle
+  // corner. Numbers of sheets are smaller than the number of all triangle corners.
   std::size_t Of(std::size_t corner) const { return sheet_[corner]; }
   std::size_t size() const { return sheet_.size(); }
 
-  // A sheet is straight if the angles of its corners add up to pi: its vertex lies within a straight border
-  // of a patch, or within a straight discontinuity.
+  // A sheet is straight if the angles of its triangle corners add up to pi: the vertex of the corners then
+  // lies within a straight border of a patch, or within a straight discontinuity.
   bool IsStraight(std::size_t sheet) const { return !into_[sheet].isZero(0); }
-  // For a straight sheet, Into() is the direction from the sheet's vertex into the sheet, perpendicular to
-  // the border of the sheet. The direction Into() does not depend on how the patch is triangulated. For a
-  // sheet that is not straight, Into() is the zero vector.
+  // For a straight sheet, whose triangles lie on one side of a straight line, Into() is the direction from
+  // the line into these triangles, perpendicular to the line. The direction Into() does not depend on how the
+  // patch is triangulated. For a sheet that is not straight, Into() is the zero vector.
   const Vec3& Into(std::size_t sheet) const { return into_[sheet]; }
 
  private:
   std::vector<std::size_t> sheet_;  // number of the sheet of each corner
-  std::vector<Vec3> into_;          // direction into each sheet
+  std::vector<Vec3> into_;          // result of Into() for each sheet
 };
 
 }  // namespace penumbra

@@ -6,10 +6,11 @@
 // A node of the mesh is a vertex or the midpoint of an edge of a triangle. The irradiance at a mesh node is
 // the limit that is approached from the interior of the triangle that uses the sample (thesis 6.3). If the
 // irradiance at a node depends on the direction of approach, every triangle at the node gets its own value.
-// Along a straight contact or border, the limit of the irradiance is the same for all directions on one side,
-// and the triangles on this side share a value. Triangles on different sides of a contact (a D0 edge, where
-// the irradiance jumps) therefore share no value, and no light leaks across the edge. At the end point of a
-// contact edge, each triangle stores the limit of the irradiance for points inside the triangle (thesis 6.4).
+// Along a straight contact or border, the limit of the irradiance at a node is the same for all directions on
+// one side, and the triangles on this side share one value. Triangles on different sides of a contact (a D0
+// edge, where the irradiance jumps) therefore share no value, and no light leaks across the edge. At the end
+// point of a contact edge, each triangle stores the limit of the irradiance for points inside the triangle
+// (thesis 6.4).
 
 #pragma once
 
@@ -29,15 +30,15 @@
 
 namespace penumbra {
 
-// The value of ReceiverPoint::uncertainty for irradiance samples on the patch [m].
+// The uncertainty of the positions of irradiance samples on the patch [m], for ReceiverPoint::uncertainty.
 double SampleUncertainty(const Scene& scene, const Patch& patch);
 
 struct Interpolation {
   InterpolantOrder order = InterpolantOrder::kQuadratic;
   // The irradiance at the midpoint of an edge is predicted from the vertices instead of sampled if the
-  // irradiance bends little along the edge (MidpointPrediction). An irradiance is predicted if |predicted
-  // irradiance - mean of the edge's ends| <= smooth / 2 * max(irradiance, 1 % of the mean irradiance). If
-  // `smooth` is 0, all midpoints are sampled.
+  // irradiance bends little along the edge (MidpointPrediction). The irradiance is predicted if |predicted
+  // irradiance - mean of the irradiances at the edge's ends| <= smooth / 2 * max(irradiance, 1 % of the mean
+  // irradiance). If `smooth` is 0, all midpoints are sampled.
   double smooth = 0;
 
   Interpolation(InterpolantOrder of, double smoothness = 0)  // NOLINT: implicit conversion is intended
@@ -47,7 +48,7 @@ struct Interpolation {
 struct BuiltMesh {
   IrradianceMesh mesh;
   std::size_t point_evaluations = 0;     // number of calls of the sampler
-  std::vector<std::uint32_t> predicted;  // triangles with midpoints that were not sampled, ascending
+  std::vector<std::uint32_t> predicted;  // indices of triangles with predicted midpoints, ascending
   // For each triangle, the numbers of its six samples, counted in the order of the calls of the sampler. The
   // list sample_numbers is empty if samples came from a cache, were predicted, or belong to linear
   // interpolants.

@@ -24,8 +24,8 @@ class IrradianceSampler {
   // Several threads call the sampling function at once.
   template <std::invocable<PatchId, const ReceiverPoint&> Function>
   IrradianceSampler(Function one) : one_(std::move(one)) {}  // NOLINT: implicit conversion is intended
-  // The function `many` evaluates the irradiance at many points in parallel. The values of `many` agree with
-  // those of `one` within the error of both.
+  // The function `many` evaluates the irradiance at many points in parallel. At the same point, the values of
+  // `many` and of `one` differ by no more than their errors.
   IrradianceSampler(One one, Many many) : one_(std::move(one)), many_(std::move(many)) {}
 
   // Returns a sampler that calls `many` for a single point with a list of one point.
@@ -40,7 +40,7 @@ class IrradianceSampler {
 
  private:
   One one_;
-  Many many_;  // if empty, one_ is called for each point
+  Many many_;  // function for many points; if empty, one_ is called for each point
 };
 
 // Returns a sampler that calls exact.NearlyOnPatch() with the given tolerance. `exact` must outlive the

@@ -1,8 +1,8 @@
 // mesh/interpolants/known_light.h
 //
 // Known irradiance at points that are independent of any mesh. Measurements at fixed places of each triangle
-// can miss a shadow that lies within one large triangle. Points with known irradiance reveal, in every later
-// mesh, a shadow that measurements at fixed places of triangles miss.
+// can miss a shadow that lies within one large triangle. Points with known irradiance reveal such a small
+// shadow in every later mesh.
 
 #pragma once
 
@@ -18,8 +18,8 @@ namespace penumbra {
 
 struct KnownLight {
   PatchId patch = kNoPatch;
-  Vec3 position = Vec3::Zero();  // [m]
-  Rgb irradiance = Rgb::Zero();  // [W/m^2]
+  Vec3 position = Vec3::Zero();  // position of the point [m]
+  Rgb irradiance = Rgb::Zero();  // exact irradiance at the point [W/m^2]
 };
 
 // Returns a sampler that appends its samples to `known`, and that one thread at a time may use. `known` must

@@ -25,8 +25,10 @@ class MidpointPrediction {
                      std::span<const std::array<Rgb, 3>> corner);
 
   struct Midpoint {
-    Rgb value;  // irradiance by the cubic along the edge with the values and gradients at its ends [W/m^2]
-    Rgb bend;   // value - (mean of the irradiances at both ends) [W/m^2]
+    // The predicted irradiance, from the cubic along the edge that has the values and gradients at both ends
+    // [W/m^2].
+    Rgb value;
+    Rgb bend;  // bend along the edge: value - (mean of the irradiances at both ends) [W/m^2]
   };
   // The prediction for the midpoint of edge k of triangle t, with the gradients on the triangle's side of
   // discontinuities.
@@ -36,7 +38,8 @@ class MidpointPrediction {
   const IrradianceMesh& mesh_;
   const CornerSheets& sheets_;
   std::span<const std::array<Rgb, 3>> corner_;
-  std::vector<Eigen::Matrix3d> gradient_;  // gradient for each sheet; one row per channel [W/m^3]
+  // The gradient of the irradiance on each sheet, with one row for each channel [W/m^3].
+  std::vector<Eigen::Matrix3d> gradient_;
 };
 
 }  // namespace penumbra

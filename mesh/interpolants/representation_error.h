@@ -64,8 +64,8 @@ std::vector<ValueError> SeenErrors(const Scene& scene, std::span<const SurfacePo
 // Returns the q-quantile of ValueError::error, or 0 if `values` is empty.
 double Quantile(std::span<const ValueError> values, double q);
 
-// The number of random points from which the 99th percentile of errors in a part of the scene is reliable.
-// From fewer than kPointsToTellAPart points, a high percentile may be an accident.
+// The smallest number of random points whose errors give a reliable 99th percentile for a part of the scene.
+// With fewer than kPointsToTellAPart points, a high percentile may be an accident.
 inline constexpr std::size_t kPointsToTellAPart = 300;
 
 // The error in one part of the scene, for example an object (PartsOf).
@@ -81,26 +81,29 @@ struct MeasuredError {
   // sources. If there are several sets of more accurate light sources, the set with the largest differences
   // counts.
   RepresentationError sources;
-  RepresentationError whole;       // interpolants compared with exact irradiance from more accurate sources
-  double above = 0;                // fraction of the errors in `whole` that exceed ErrorMeasurement::bound
-  std::vector<PartError> by_part;  // error `whole` for each reflecting part of the scene
+  RepresentationError whole;  // interpolants compared with exact irradiance from more accurate sources
+  double above = 0;           // fraction of the errors in `whole` that exceed ErrorMeasurement::bound
+  // The errors of the interpolants, compared with exact irradiance from more accurate sources, for each
+  // reflecting part of the scene.
+  std::vector<PartError> by_part;
 };
 
 // The parameters of MeasureError().
 struct ErrorMeasurement {
   std::size_t points = 0;
   std::uint64_t seed = 0;
-  double bound = 0;  // MeasuredError::above counts errors larger than this
+  double bound = 0;  // MeasuredError::above counts errors larger than `bound`
 };
 
 // Measures errors at `points` random points, distributed uniformly by area over the reflecting fronts of
-// patches (ReflectingAreas). Additional points in each part of the scene measure the errors of small parts.
-// The same random seed gives the same points. With probability one, none of the random points is an
-// interpolation node. If the list `better` is empty, only MeasuredError::interpolant is computed.
+// patches (ReflectingAreas). Additional random points in each part of the scene make the errors of small
+// parts reliable. The same random seed gives the same points. With probability one, none of the random points
+// is an interpolation node. If the list `better` is empty, only MeasuredError::interpolant is computed.
 MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
                            std::span<const IrradianceSampler> better, const ErrorMeasurement& measurement);
 
-// Computes only MeasuredError::interpolant, as MeasureError() does.
+// Computes MeasuredError::interpolant, the error of the interpolants compared with exact irradiance from the
+// same sources.
 RepresentationError MeasureRepresentationError(const Scene& scene, const IrradianceMesh& mesh,
                                                const IrradianceSampler& sampler, std::size_t points,
                                                std::uint64_t seed);

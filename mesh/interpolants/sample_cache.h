@@ -26,9 +26,10 @@ class SampleCache {
   void Insert(PatchId patch, const ReceiverPoint& at, const PointIrradianceResult& sample);
   // Gives all samples the irradiance from other radiosities of the sources, after the light has changed.
   // `before` is the set of sources to which the cached form factors belong, and `now` is the irradiance from
-  // the changed sources. Form factors that are too inaccurate for the new light, by `tolerance`, are computed
-  // again (PointIrradiance::Renew), and so are samples without form factors. Returns how many times the light
-  // of one source at one point was gathered again. If the computation is cancelled, all samples are removed.
+  // the changed sources. Form factors whose errors are larger than `tolerance` permits for the new light are
+  // computed again (PointIrradiance::Renew), and so are samples without form factors. Returns the number of
+  // pairs (source, sample point) for which the light of the source at the point was gathered again. If the
+  // computation is cancelled, all samples are removed.
   std::size_t Relight(const SourceSet& before, const PointIrradiance& now, double tolerance,
                       const ExecutionContext& context);
   // Removes all samples from the cache.
@@ -40,7 +41,7 @@ class SampleCache {
  private:
   struct Key {
     PatchId patch = kNoPatch;
-    Vec3 position, approach;  // approach is zero if the sample does not depend on it
+    Vec3 position, approach;  // `approach` is zero if the sample does not depend on a direction
     bool operator==(const Key& other) const = default;
   };
   struct Hash {

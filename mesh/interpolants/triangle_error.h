@@ -27,7 +27,7 @@ struct MeasuredTriangles {
 };
 
 struct TriangleSampling {
-  int samples = 1;  // points per side of a triangle
+  int samples = 1;  // number of intervals of a side; samples^2 points per triangle
   Rgb mean;         // mean irradiance of each channel [W/m^2]
 };
 
@@ -39,10 +39,10 @@ MeasuredTriangles MeasureTriangles(const Scene& scene, const IrradianceMesh& mes
                                    const IrradianceSampler& sampler, SampleCache* cache = nullptr);
 
 // Estimates TriangleError::max from the mesh's interpolants alone, without evaluations of the irradiance.
-// Where the irradiance is smooth, its gradient is continuous. The jump of the interpolants' gradient across
-// an edge therefore indicates the error of the interpolants. The estimated errors indicate which triangles
-// are worth measuring. Edges of triangles that lie on discontinuities contribute nothing to the estimate.
-// `mean` is the mean irradiance of each channel [W/m^2].
+// Where the irradiance is smooth, its gradient is continuous. A jump of the interpolants' gradient across an
+// edge therefore indicates an error of the interpolants. The estimated errors indicate which triangles are
+// worth measuring. Edges of triangles that lie on discontinuities contribute nothing to the estimate. `mean`
+// is the mean irradiance of each channel [W/m^2].
 std::vector<double> GuessTriangleErrors(const Scene& scene, const IrradianceMesh& mesh, const Rgb& mean);
 
 // Returns, for each patch, the area of the triangles whose TriangleError::max is above `error` [m^2].

@@ -1,7 +1,7 @@
 // mesh/pipeline/discontinuity_list.h
 //
-// All discontinuities of a solution in one list, for inspection. The computation of the mesh does not use a
-// DiscontinuityList; it finds the discontinuities of each receiver separately.
+// All discontinuities of a solution in one list, for inspection. The computation of the mesh finds the
+// discontinuities of each receiver separately, and does not use a DiscontinuityList.
 
 #pragma once
 

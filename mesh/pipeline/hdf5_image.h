@@ -53,7 +53,7 @@ struct ScalarTypeOf<double> {
   static constexpr ScalarType value = ScalarType::kDouble;
 };
 
-using ArrayShape = std::vector<std::size_t>;  // lengths, outermost dimension first
+using ArrayShape = std::vector<std::size_t>;  // lengths of an array's dimensions, the outermost first
 
 class Hdf5Writer {
  public:

@@ -32,8 +32,8 @@ struct OptionField {
   bool optional = false;  // true if the option may be omitted; its value then follows from other options
   NumberRange numbers;    // range of values of the kind kNumber
   IntegerRange integers;  // range of values of the kind kInteger
-  // Returns the names of the values of an option of the kind kChoice, or the two words for the values of a
-  // kFlag.
+  // Returns the names of the values of an option of the kind kChoice, or the two words for the values of an
+  // option of the kind kFlag.
   std::function<std::vector<std::string>()> choices;
   // Returns the value of the option, or nullopt if the option is not set, or if the chosen solver does not
   // have the option.
@@ -97,7 +97,8 @@ OptionField MakeField(OptionKind kind, Place place, ToValue to_value, FromValue 
   return field;
 }
 
-// Makes the OptionField of a bool. `off` and `on` are the words for the values false and true of the option.
+// Makes the OptionField of an option of type bool. `off` and `on` are the words for the values false and true
+// of the option.
 template <class Place>
 OptionField FlagField(Place place, const char* off = "off", const char* on = "on") {
   OptionField field = MakeField(
@@ -107,7 +108,7 @@ OptionField FlagField(Place place, const char* off = "off", const char* on = "on
   return field;
 }
 
-// Makes the OptionField of a double.
+// Makes the OptionField of an option of type double.
 template <class Place>
 OptionField NumberField(Place place, NumberRange range) {
   OptionField field = MakeField(
@@ -117,8 +118,8 @@ OptionField NumberField(Place place, NumberRange range) {
   return field;
 }
 
-// Makes the OptionField of an integer. The type of the option's member must be able to represent all integers
-// of the range.
+// Makes the OptionField of an option of an integer type. The type of the option's member must be able to
+// represent all integers of the range.
 template <class Place>
 OptionField IntegerField(Place place, IntegerRange range) {
   using Held = typename HeldValue<std::remove_cvref_t<std::invoke_result_t<Place, PipelineOptions&>>>::type;
@@ -150,7 +151,7 @@ Enum ValueAmong(const NamedValues<Enum>& values, const std::string& name) {
   throw InputError("no such choice: " + name);
 }
 
-// Makes the OptionField of an enum.
+// Makes the OptionField of an option of an enum type.
 template <class Place, class Enum>
 OptionField ChoiceField(Place place, const NamedValues<Enum>& values) {
   OptionField field = MakeField(

@@ -73,27 +73,27 @@ struct SolveOption {
   // True if the links between elements depend on the option. If links depend on an option, a solve that
   // reuses the links of another solve keeps the other solve's value of the option.
   bool links_depend = false;
-  bool measures_only = false;  // true if the option affects only what is measured of light and mesh
-  bool tiny_distance = false;  // true if the distance is limited to a thousandth of the scene's diagonal
+  bool measures_only = false;  // true if the option affects only measurements, not light and mesh
+  bool tiny_distance = false;  // true if the option's distance is at most scene diagonal / 1000
   // True if the option is --no-NAME, and sets a flag that is on by default to off.
   bool flag_clears = false;
-  const char* otherwise = "";  // description of the default of an optional option
+  const char* otherwise = "";  // words for the default of an option without a fixed default value
   const char* help = "";       // sentence for --help, without unit, range and default
   std::vector<StudyChoice> study_choices = {};
   // A function that returns the value of the option that the solve uses. The function `resolved` is empty
   // unless the option is optional and its default depends on other options.
   std::function<OptionValue(const ResolvedOptions&)> resolved = {};
   // A function that returns the value of the option for older solution files, which do not contain the
-  // option. `before` holds the file's values of the options that precede this option in the table. The
-  // function in_older_files is empty if all solution files contain the option.
+  // option. `before` holds the values, from the solution file, of the options that precede this option in
+  // OptionTable(). The function in_older_files is empty if all solution files contain the option.
   std::function<OptionValue(const PipelineOptions& before)> in_older_files = {};
-  const char* label = "";    // name in the window's panel, in a few words, without the unit
-  const char* setting = "";  // name in the window, if different from NAME
+  const char* label = "";    // label of the option in the window's panel, in a few words, without the unit
+  const char* setting = "";  // name of the option in the window, if different from `name`
 };
 
 // Returns all options of a solve, in the order of reports and solution files.
 const std::vector<SolveOption>& OptionTable();
-// Returns the option with this name, or null if there is no such option.
+// Returns the option with the name `name`, or null if no option has this name.
 const SolveOption* FindOption(std::string_view name);
 
 // Returns the option's key in reports and solution files: the name with '_' instead of '-'.
@@ -112,8 +112,8 @@ std::string OptionHelp(const SolveOption& option);
 // Returns the option's default value, or nullopt if the default depends on other options.
 std::optional<OptionValue> DefaultValue(const SolveOption& option);
 
-// Returns a text that names what uses the option: "the x solver", "the solvers x, y", or "--form-factors a,
-// b". REQUIRES: the option does not belong to all solvers.
+// Returns a text that names the solvers or the form-factor methods that use the option: "the x solver", "the
+// solvers x, y", or "--form-factors a, b". REQUIRES: the option does not belong to all solvers.
 std::string OwnersOf(const SolveOption& option);
 
 // True if the chosen solver, or its method for form factors, uses the option.

@@ -35,8 +35,8 @@ namespace penumbra {
 
 // The kind of error by which the refinement of elements and mesh is controlled (thesis 4.4).
 enum class RefineBy : std::uint8_t {
-  kTransport,       // error of links only; the mesh has the solution's quadtree leaves
-  kRepresentation,  // error of the displayed mesh, over a coarse solution
+  kTransport,       // error of links only; the mesh is not refined beyond the solution's quadtree leaves
+  kRepresentation,  // error of the displayed mesh; the elements of the solution stay coarse
   kBoth,
 };
 
@@ -46,26 +46,38 @@ struct PipelineOptions {
   // The requested 99th percentile of the relative error |shown - true| / max(true, 1 % of the channel's mean)
   // of displayed irradiance.
   double error = 0.02;
-  std::optional<double> eps;                       // SolverOptions::eps [W/m^2] (thesis, Appendix A, 1)
-  std::optional<double> min_area;                  // smallest area of an element [m^2] (Appendix A, 2)
-  std::optional<double> min_discontinuity_weight;  // DiscontinuityOptions::min_weight [W/m^2] (Appendix A, 4)
-  std::optional<double> min_wanted_weight;         // DiscontinuityOptions::min_wanted_weight [W/m^2]
-  int max_leaf_dsets = 10;                         // DiscontinuityOptions::max_leaf_dsets (Appendix A, 5)
+  // The largest transport error of a link between elements [W/m^2] (SolverOptions::eps; thesis, Appendix A,
+  // parameter 1).
+  std::optional<double> eps;
+  // The smallest area of a quadtree element [m^2] (thesis, Appendix A, parameter 2).
+  std::optional<double> min_area;
+  // The smallest weight of a discontinuity that becomes an edge [W/m^2] (thesis, Appendix A, parameter 4).
+  std::optional<double> min_discontinuity_weight;
+  // The smallest weight of a discontinuity that refinement of the mesh may request as an edge [W/m^2].
+  std::optional<double> min_wanted_weight;
+  // The largest number of discontinuity lines in a quadtree leaf (thesis, Appendix A, parameter 5).
+  int max_leaf_dsets = 10;
   // The following options determine the choice of discontinuities that become edges. If `weight` is omitted
-  // and min_discontinuity_weight is given, the discontinuity weight is kThesis, because the user has chosen
-  // the minimum on this scale. If neither `weight` nor min_discontinuity_weight is given, the discontinuity
-  // weight is kIrradiance.
-  std::string discontinuities = "ranked";  // DiscontinuityOptions::choice
+  // and min_discontinuity_weight is given, the discontinuity weight is kThesis, because
+  // min_discontinuity_weight is then a minimum of weights of this kind. If neither `weight` nor
+  // min_discontinuity_weight is given, the discontinuity weight is kIrradiance.
+  std::string discontinuities = "ranked";  // name of a method in DiscontinuityChoices()
   std::optional<DiscontinuityWeight> weight;
   bool keep_hidden_discontinuities = false;
-  double triple_edge_tolerance = 0;       // DiscontinuityOptions::triple_edge_tolerance [m]
-  int corner_divisions = 0;               // DiscontinuityOptions::corner_divisions
-  std::optional<double> relative_cutoff;  // SolverOptions::relative_cutoff (Appendix A, 7)
-  int error_samples = 1;                  // TriangleSampling::samples (thesis, Appendix A, 8)
+  // The largest distance of the polyline of a triple-edge (EEE) discontinuity from the true curve [m]. If
+  // triple_edge_tolerance is 0, triple-edge discontinuities are omitted.
+  double triple_edge_tolerance = 0;
+  int corner_divisions = 0;  // number of times that leaves at the ends of contacts are divided
+  // The light counts as converged if |radiosity - limit| / (largest reflected radiosity) is at most
+  // relative_cutoff for every element (thesis, Appendix A, parameter 7).
+  std::optional<double> relative_cutoff;
+  // The error of each triangle is measured at error_samples^2 points (thesis, Appendix A, parameter 8).
+  int error_samples = 1;
   RefineBy refine = RefineBy::kBoth;
-  int max_corrections = 2;  // SolverOptions::max_corrections
-  // The value of SolverOptions::source_error. If PipelineOptions::source_error is given, light sources are
-  // divided by the solver's corrections instead of by RefineLight().
+  int max_corrections = 2;  // largest number of passes of deferred correction
+  // The relative error that treating a light source as constant may cause (SolverOptions::source_error). If
+  // PipelineOptions::source_error is given, light sources are divided by the solver's corrections instead of
+  // by RefineLight().
   std::optional<double> source_error;
   int max_iterations = 100;
   // The following five options set the members of SolverOptions with the same names.
@@ -79,8 +91,8 @@ struct PipelineOptions {
   // radiosity equals the emittance. If BuildMesh() reaches a limit of time or memory, the mesh is not
   // refined. If BuildMesh() has no time even for interpolants, the mesh has the mean irradiance of each
   // quadtree leaf. If Measure() reaches a limit of time or memory, the remaining measurements are omitted.
-  std::optional<double> time_limit;    // [s]
-  std::optional<double> memory_limit;  // for the whole process [bytes]
+  std::optional<double> time_limit;    // limit of the run time [s]
+  std::optional<double> memory_limit;  // limit of the memory of the whole process [bytes]
   // The fraction of memory_limit that Solve() does not use, so that memory remains for making a mesh and
   // writing a file.
   double memory_kept = 0.1;
@@ -88,14 +100,14 @@ struct PipelineOptions {
   // omitted, time_limit is counted from the call of Solve().
   std::optional<std::chrono::steady_clock::time_point> limits_from;
   int bounces = 0;               // number of bounces whose mean irradiance is reported
-  PointIrradianceOptions point;  // options of irradiance at points (thesis, Appendix A, 9 and 10)
+  PointIrradianceOptions point;  // options of irradiance at points (thesis, Appendix A, parameters 9 and 10)
   // The number of random points at which the error of the interpolants is measured; 0: the error is not
   // measured.
   std::size_t error_points = 1000;
   std::uint64_t seed = 1;
   // If true, the pipeline keeps the light of each emitter separately (Pipeline::emitters).
   bool by_emitter = false;
-  EmitterUnit emitter_unit = EmitterUnit::kFace;  // the unit that counts as one emitter
+  EmitterUnit emitter_unit = EmitterUnit::kFace;  // what counts as one emitter: faces, objects or materials
   // The name of the solver in LightSolvers(). If `solver` is omitted, SolverFor() chooses the solver for the
   // scene. Options that SolverName() does not use are refused.
   std::optional<std::string> solver;
@@ -104,16 +116,17 @@ struct PipelineOptions {
   // With the solver `sampled`, `rays` is SampledOptions::point_rays, and 0 means that the number of rays
   // depends on `error`. With form factors that are computed by rays, `rays` is LinkFormFactorOptions::rays.
   std::size_t rays = 0;
-  std::size_t resolution = 0;  // LinkFormFactorOptions::resolution
-  // The members shots, overshoot and ambient of UniformOptions, for the solvers on uniform meshes. For the
-  // solvers on uniform meshes, dense.divisions is the number of elements along each side of a patch.
+  std::size_t resolution = 0;  // side of the grids of form-factor methods such as the hemicube [cells]
+  // The values of the members shots, overshoot and ambient of UniformOptions, for the solvers on uniform
+  // meshes. For the solvers on uniform meshes, dense.divisions is the number of elements along each side of a
+  // patch.
   std::size_t shots = 0;
   bool overshoot = false, ambient = false;
 };
 
 // The values of all options that a solve uses, including those that the user has omitted.
 struct ResolvedOptions {
-  std::string solver_name;  // name in LightSolvers()
+  std::string solver_name;  // name of the solver in LightSolvers()
   SolverOptions solver;
   SampledOptions sampled;
   UniformOptions uniform;
@@ -122,7 +135,7 @@ struct ResolvedOptions {
   // --refine transport, refine_light is false, because links alone determine the light. With --source-error,
   // refine_light is false, because the solver's corrections divide the sources.
   bool refine_light = true;
-  std::size_t lookouts = 0;  // ShownMeshOptions::lookouts
+  std::size_t lookouts = 0;  // number of random points at which each mesh is tested
 };
 // Returns the name of the solver that PipelineOptions::solver names, or that is chosen for the scene. If
 // PipelineOptions::solver is omitted, the choice is `sampled` for scenes with so many polygons that pairs of
@@ -172,9 +185,10 @@ struct PipelineReport {
   std::vector<PartError> part_errors;  // whole_error of each reflecting part of the scene
   double error_asked = 0;
   bool error_met = false;
-  // The targets that were missed, and the reasons; one line each.
+  // The requirements that the run did not meet, such as the requested error, each with its reason in one
+  // line.
   std::vector<std::string> unmet;
-  std::vector<std::string> warnings;  // probable errors in the scene; one line each
+  std::vector<std::string> warnings;  // warnings about probable errors in the scene; one line each
 };
 
 // The results of the stages of a pipeline, except results that are quick to recompute.
@@ -184,7 +198,7 @@ struct PipelineState {
   MeshKind mesh_kind = MeshKind::kInterpolant;
   IrradianceMesh mesh;
   PipelineReport report;
-  std::vector<EmitterLight> emitters = {};  // Pipeline::emitters()
+  std::vector<EmitterLight> emitters = {};  // light of each emitter alone (Pipeline::emitters)
 };
 
 // A Pipeline runs the stages from a scene to its irradiance mesh, and holds their results. The scene must
@@ -193,8 +207,9 @@ class Pipeline {
  public:
   Pipeline(const Scene& scene, const PipelineOptions& options);
   // Starts with the results of another pipeline for the same scene and options. From the solution in the
-  // PipelineState, BuildMesh() can make other kinds of meshes, and Relight() can continue. Solver steps other
-  // than Relight() discard the results in the PipelineState and start from the beginning.
+  // PipelineState, BuildMesh() can make other kinds of meshes, and Relight() can compute the light of changed
+  // materials. All steps of the solver except Relight() discard the results in the PipelineState and start
+  // from the beginning.
   Pipeline(const Scene& scene, const PipelineOptions& options, PipelineState state);
   ~Pipeline();
 
@@ -202,15 +217,15 @@ class Pipeline {
   const PipelineOptions& options() const;
   const ResolvedOptions& resolved() const;
 
-  // Makes the stages "link" and "iterate": calls Link(), and then makes the solver's steps until no step is
-  // left (SolveStepByStep). If steps of the solver have already been made, Solve() continues after them. If
-  // the computation is cancelled, Solve() keeps the solution of the last complete step. Solve() calls the
-  // observer, if any, after each step of the solver. Throws InputError if the system of equations of a dense
-  // solver is too large.
+  // Runs the stages "link" and "iterate": calls Link(), and then makes the solver's steps until no step is
+  // left (SolveStepByStep). If steps of the solver have already been made, Solve() continues after the last
+  // of these steps. If the computation is cancelled, Solve() keeps the solution of the last complete step.
+  // Solve() calls the observer, if any, after each step of the solver. Throws InputError if the system of
+  // equations of a dense solver is too large.
   void Solve(const ExecutionContext& context, const StepObserver& observer = {});
 
-  // Link() and Step() make the stages of Solve() one by one, so that the result of each step can be
-  // inspected. Unless stated otherwise, a cancelled step leaves the solution and the report unchanged.
+  // Link() and Step() run the stages of Solve() one by one, so that the result of each step can be inspected.
+  // Unless stated otherwise, a cancelled step leaves the solution and the report unchanged.
   //
   // Link() computes the visibility between patches, and the links between the roots of the quadtrees. After
   // Link(), the radiosity equals the emittance. All other steps of the solver call Link() first if Link() has
@@ -248,28 +263,28 @@ class Pipeline {
   // has no effect if RefinesLight() is false. REQUIRES: Link(), or a step that calls Link(), has been called.
   void RefineLight(const ExecutionContext& context);
 
-  // BuildMesh() makes the stages "discontinuities", "triangulate" and "interpolate", as far as the kind of
+  // BuildMesh() runs the stages "discontinuities", "triangulate" and "interpolate", as far as the kind of
   // mesh needs them. BuildMesh() changes the solution only with PipelineOptions::by_emitter: the light then
-  // becomes the sum of the emitters' lights, which differs within the error. A mesh of kind kInterpolant is
-  // also refined (RefineMesh) until it meets the requested error, unless the option `refine` is kTransport.
-  // If `as_it_is` is true, BuildMesh() does not refine the mesh, so that the result of a single step can be
-  // inspected. BuildMesh() has no effect if a mesh of this kind exists already. REQUIRES: Link(), or a step
-  // that calls Link(), has been called.
+  // becomes the sum of the emitters' lights, which differs from the former light by less than the error of
+  // the light. A mesh of kind kInterpolant is also refined (RefineMesh) until it meets the requested error,
+  // unless the option `refine` is kTransport. If `as_it_is` is true, BuildMesh() does not refine the mesh, so
+  // that the result of a single step can be inspected. BuildMesh() has no effect if a mesh of this kind
+  // exists already. REQUIRES: Link(), or a step that calls Link(), has been called.
   void BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is = false);
   // KeepOperator() stores the light transport of the present solution and mesh as a matrix, for LitBy().
-  // KeepOperator() computes the form factors of each mesh node (vertex or edge midpoint) once more. Returns
-  // false if the computation is cancelled, or if irradiance is computed without form factors, as with the
-  // sampled solver and with chosen occlusion methods. The matrix of light transport is deleted when a step
-  // changes the solution or when another mesh is made. REQUIRES: this pipeline has made a mesh of kind
-  // kInterpolant after the last step of the solver.
+  // KeepOperator() recomputes the form factors of all mesh nodes (vertices and edge midpoints). Returns false
+  // if the computation is cancelled, or if irradiance is computed without form factors, as with the sampled
+  // solver and with chosen occlusion methods. The matrix of light transport is deleted when a step changes
+  // the solution or when another mesh is made. REQUIRES: this pipeline has made a mesh of kind kInterpolant
+  // after the last step of the solver.
   bool KeepOperator(const ExecutionContext& context);
   // The memory of the matrix of light transport [bytes], or 0 if there is no matrix.
   std::size_t OperatorBytes() const;
   // Returns the solution and the mesh of a scene with the same patches and other emittances or reflectances,
   // for another Pipeline. LitBy() computes products with the matrix of light transport, and no form factors.
   // The report in the PipelineState contains no measurements. The result of LitBy() is nullopt if there is no
-  // matrix, or if a patch of `other` sends light that sent none in this scene. The scene `other` must outlive
-  // the result.
+  // matrix of light transport, or if a patch that sends no light in this scene sends light in `other`. The
+  // scene `other` must outlive the result.
   std::optional<PipelineState> LitBy(const Scene& other) const;
   // CountLimits() restarts the limits of time and memory, as Solve() does at its beginning. CountLimits() is
   // for callers that make the steps of Solve() themselves.
@@ -281,8 +296,8 @@ class Pipeline {
   // pipeline has made the mesh after the last step of the solver.
   void Measure(const ExecutionContext& context);
   // Adds a line to PipelineReport::unmet if a few random points, which take negligible time, clearly show
-  // that the requested error is missed. CheckErrorRoughly() measures nothing else. REQUIRES: BuildMesh() has
-  // been called after the last step of the solver.
+  // that the requested error is missed. CheckErrorRoughly() makes no other measurements. REQUIRES:
+  // BuildMesh() has been called after the last step of the solver.
   void CheckErrorRoughly(const ExecutionContext& context);
   // Sets PipelineOptions::error_points for later measurements.
   void SetErrorPoints(std::size_t points);

@@ -27,9 +27,9 @@ inline constexpr int kSolutionSchema = 5, kOldestSolutionSchema = 4;
 // The contents of a solution file.
 struct StoredSolution {
   std::unique_ptr<const Scene> scene;
-  PipelineState state;  // refers to *scene; the report in `state` is empty
-  std::string options;  // options of the solve, a text of the writer's choice
-  std::string report;   // results of the solve, a text of the writer's choice
+  PipelineState state;  // results of the solve, which refer to *scene; the report in `state` is empty
+  std::string options;  // options of the solve, as text in any format
+  std::string report;   // report on the solve, as text in any format
   std::string version;  // version of the program that wrote the file
   int schema = 0;       // version of the file's layout
 };

@@ -48,17 +48,17 @@ class CoveredLight {
 
  private:
   struct Triangle {
-    std::uint32_t number;  // index in the mesh
+    std::uint32_t number;  // index of the triangle in the mesh
     Vec2 origin;
     Eigen::Matrix2d to_barycentric;
-    double area;  // [m^2]
+    double area;  // area of the whole triangle [m^2]
     const QuadraticInterpolant* irradiance;
 
     Vec2 BarycentricOf(const Vec2& p) const { return to_barycentric * (p - origin); }
     Rgb At(const Vec2& p) const;
   };
   struct Piece {
-    std::uint32_t triangle;    // index in *triangles_
+    std::uint32_t triangle;    // index of the triangle in *triangles_
     std::uint32_t first, end;  // range of the corners in corners_
     double area;
   };

@@ -1,7 +1,8 @@
 // mesh/refinement/emitter_interpolants.h
 //
 // The interpolants of each emitter alone, on the triangles of a mesh. The form factors of each mesh node
-// (vertex or edge midpoint) are computed once, and give the node's irradiance from every emitter.
+// (vertex or edge midpoint) to all sources are computed once, and give the node's irradiance from the light
+// of each emitter.
 
 #pragma once
 
@@ -17,16 +18,16 @@
 
 namespace penumbra {
 
-// A function that makes the exact irradiance from a solution with the same elements, or null if the
-// computation is cancelled.
+// A function that makes the exact irradiance from a radiosity solution that holds the light of a single
+// emitter. The function returns null if the computation is cancelled.
 using IrradianceOf = std::function<std::unique_ptr<const PointIrradiance>(const RadiositySolution&)>;
 
 struct EmitterInterpolation {
-  const RadiositySolution& whole;  // solution whose light is the sum of `lights`
+  const RadiositySolution& whole;  // radiosity solution whose light is the sum of all emitters' lights
   std::span<const PatchTriangulation> triangulations;
   const PointIrradiance& exact;  // exact irradiance from the light of all emitters
-  // Makes the irradiance from a single emitter's light, which is evaluated at every node if `exact` cannot
-  // record form factors (PointIrradiance::CanRecord).
+  // Makes the exact irradiance from a single emitter's light. The result of irradiance_of() is evaluated at
+  // every mesh node if `exact` cannot record form factors (PointIrradiance::CanRecord).
   IrradianceOf irradiance_of;
   double tolerance = 0;  // tolerance of irradiance samples (PointIrradiance::RecordOnPatch)
 };

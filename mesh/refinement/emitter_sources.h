@@ -1,8 +1,8 @@
 // mesh/refinement/emitter_sources.h
 //
 // Computes the light of each emitter alone, for the light sources (quadtree leaves and their fragments) of a
-// radiosity solution. Each emitter's light is transported like the light of all emitters: over the same
-// elements, links and fragments. Where mesh interpolants have refined the sources, each emitter's light also
+// radiosity solution. Each emitter's light is transported over the same elements, links and fragments as the
+// light of all emitters together. Where mesh interpolants have refined the sources, each emitter's light also
 // uses the same mesh and the same form factors of mesh nodes. Only the emittance differs from emitter to
 // emitter, so that each emitter's light needs multiplications by known form factors only.
 
@@ -29,7 +29,7 @@ struct SourceMesh {
   const ElementForest& forest;  // quadtrees of the triangulations
   std::span<const PatchTriangulation> triangulations;
   Interpolation how;
-  std::span<const SourceCell> cells;  // the refined sources
+  std::span<const SourceCell> cells;  // light sources that are smaller than leaves
   const PointIrradiance& exact;       // exact irradiance from the light of all emitters
   SampleCache& samples;               // samples at the mesh's nodes, with their form factors
   SourceSet& samples_from;            // the sources to which the form factors belong
@@ -39,11 +39,12 @@ struct SourceMesh {
 };
 
 // Returns the light of each emitter, without interpolants. If `mesh` is null, LightSolver::LitAs() computes
-// the light of each emitter. If `mesh` is not null, the sources repeatedly get the means of the interpolants
-// over them, as in ShownMesh::RefineLight(). Form factors in mesh->samples that are too inaccurate for some
-// emitter's light are renewed, and mesh->samples_from becomes the set of sources to which the renewed form
-// factors belong. The result is nullopt if the computation is cancelled, or if the solver does not implement
-// LitAs(). REQUIRES: `mesh` belongs to the present light of `whole`, and mesh->exact.CanRecord() is true.
+// the light of each emitter. If `mesh` is not null, each source repeatedly gets the mean of the interpolants
+// over the source as its irradiance, as in ShownMesh::RefineLight(). Form factors in mesh->samples that are
+// too inaccurate for some emitter's light are renewed, and mesh->samples_from becomes the set of sources to
+// which the renewed form factors belong. The result is nullopt if the computation is cancelled, or if the
+// solver does not implement LitAs(). REQUIRES: `mesh` belongs to the present light of `whole`, and
+// mesh->exact.CanRecord() is true.
 std::optional<std::vector<EmitterLight>> SolveByEmitter(const LightSolver& whole,
                                                         std::span<const std::vector<PatchId>> emitters,
                                                         const SourceMesh* mesh,

@@ -30,8 +30,8 @@ struct OperatorInput {
   const ElementForest& forest;  // quadtrees of the triangulations: the solution's or a refinement
   std::span<const PatchTriangulation> triangulations;
   const PointIrradiance& exact;  // exact irradiance from the solution
-  // The light of each emitter, if it is known: the form factors are then accurate enough for each emitter
-  // alone, too.
+  // The light of each emitter alone, or an empty list. If the light of each emitter is given, the form
+  // factors are accurate enough for the light of every single emitter.
   std::span<const EmitterLight> emitters;
   double tolerance = 0;  // tolerance of the form factors
 };
@@ -55,9 +55,9 @@ class LightOperator {
 
  private:
   struct Term {
-    double factor = 0;                        // [1]
+    double factor = 0;                        // coefficient of the node's radiosity [1]
     std::int32_t node = -1;                   // index in sources_
-    std::array<float, 3> moment = {0, 0, 0};  // factor of the slope of the node's radiosity [m]
+    std::array<float, 3> moment = {0, 0, 0};  // coefficients of the slope of the node's radiosity [m]
   };
   // Rows of a sparse matrix.
   struct Matrix {
@@ -66,7 +66,9 @@ class LightOperator {
 
     std::size_t rows() const { return first.size() - 1; }
     void Add(std::span<const Term> row);
-    Rgb Product(std::size_t row, const SourceSet& light) const;  // [W/m^2], at least 0
+    // Returns the product of a row of the matrix and the radiosities in `light` [W/m^2], or 0 if the product
+    // is negative.
+    Rgb Product(std::size_t row, const SourceSet& light) const;
   };
   struct Weighted;
 
@@ -79,14 +81,14 @@ class LightOperator {
   bool ready_ = false;
   ElementForest forest_;  // quadtrees of the solution
   SourceSet sources_;
-  IrradianceMesh mesh_;  // mesh at construction
+  IrradianceMesh mesh_;  // mesh that was given to the constructor
   Matrix nodes_;         // matrix from radiosities to irradiance at the samples of the mesh (R)
   std::vector<std::array<std::uint32_t, 6>> samples_of_triangle_;
   // The unknowns are the irradiances of the fragments (convex pieces of leaves), followed by the irradiances
   // of the leaves that have no fragments.
   Matrix means_;  // matrix from radiosities to the unknown irradiances (M R)
   std::vector<ElementId> leaf_of_unknown_;
-  std::vector<double> area_of_unknown_;  // [m^2]
+  std::vector<double> area_of_unknown_;  // area of the leaf or fragment of each unknown [m^2]
   std::size_t fragments_ = 0;
   std::vector<Rgb> start_;  // the unknown irradiances, as they are in the solution
 };

@@ -28,12 +28,12 @@
 namespace penumbra {
 
 // A mesh plan holds the quadtree leaves and the requested discontinuities of a mesh. A mesh is computed from
-// a plan, a radiosity solution and options. Refinement of a mesh adds leaves and discontinuities to the mesh
-// plan.
+// a mesh plan, a radiosity solution and options. Refinement of a mesh adds leaves and discontinuities to the
+// mesh plan.
 struct MeshPlan {
   ElementForest forest;  // the solution's quadtrees, or a refinement of them
-  // Discontinuities that refinement has requested on each patch. A patch beyond the end of the list `wanted`
-  // has no requested discontinuities.
+  // The discontinuities on each patch that refinement has requested as edges. A patch beyond the end of the
+  // list `wanted` has no requested discontinuities.
   std::vector<std::vector<Discontinuity>> wanted;
 };
 
@@ -59,8 +59,8 @@ class LocalPassCache {
 // For each patch, the maximum radiosity over the patch's leaves and the channels [W/m^2].
 std::vector<double> SourceStrengths(const RadiositySolution& solution);
 
-// The discontinuities found on a patch, and those of them that are not edges of the mesh but may be requested
-// by refinement.
+// The discontinuities found on a patch, and the subset that consists of discontinuities that are no edges of
+// the mesh but that refinement may request.
 struct OmittedOfPatch {
   std::vector<Discontinuity> found;
   std::vector<OmittedDiscontinuity> omitted;
@@ -82,7 +82,7 @@ class PatchTriangulator {
                     const DiscontinuityOptions& options, const ExecutionContext& context,
                     LocalPassCache* cache = nullptr);
 
-  // If a leaf has no room for all its discontinuities and they are ranked by
+  // If a leaf has no room for all its discontinuities, and these discontinuities are ranked by
   // DiscontinuityWeight::kIrradiance, `sampler` computes the irradiance at the discontinuities
   // (LeafIrradianceSamples). The sampler must outlive the PatchTriangulator. `samples`, unless null, holds
   // samples of `sampler`, and receives the samples that the ranking takes in addition.
@@ -94,8 +94,8 @@ class PatchTriangulator {
   // Triangulates all patches along the quadtree leaves of the mesh plan, and adds counts and run times to
   // `report`. Leaves of the mesh plan may be split further for the mesh. For each triangulated leaf,
   // PatchTriangulation::leaves names the leaf of the mesh plan that contains the triangulated leaf. If
-  // `omitted` is not null, the list receives one entry for each patch, unless the computation is cancelled.
-  // REQUIRES: the quadtrees are balanced.
+  // `omitted` is not null, the list receives an OmittedOfPatch for each patch, unless the computation is
+  // cancelled. REQUIRES: the quadtrees are balanced.
   std::vector<PatchTriangulation> Triangulate(const MeshPlan& plan, MeshReport& report,
                                               std::vector<OmittedOfPatch>* omitted = nullptr);
 
@@ -121,20 +121,21 @@ class PatchTriangulator {
   std::optional<LocalPassCache> own_cache_;
   LocalPassCache& cache_;
   ReferenceIrradiance light_;
-  std::vector<double> strength_;  // SourceStrengths()
+  std::vector<double> strength_;  // largest radiosity of each patch (SourceStrengths) [W/m^2]
   // The latest choice of the discontinuities of a patch that become edges of the mesh. The choice of
   // discontinuities holds until the patch gets other leaves, or until refinement requests another
   // discontinuity on the patch.
   struct Activation {
-    std::vector<ElementId> leaves;  // leaves of the plan; empty if nothing has been chosen
-    std::size_t wanted = 0;         // number of discontinuities that refinement has requested
+    // The quadtree leaves for which discontinuities were chosen; empty if none have been chosen yet.
+    std::vector<ElementId> leaves;
+    std::size_t wanted = 0;  // number of discontinuities that refinement has requested
     bool lists_omitted = false;
     // Quadtree elements that were split because they had no room for a discontinuity, in the order of the
     // splits, each with its first child.
     std::vector<std::pair<ElementId, ElementId>> splits;
     PatchDSets dsets;
   };
-  std::vector<Activation> activations_;  // entry for each patch
+  std::vector<Activation> activations_;  // latest choice of discontinuities for each patch
 };
 
 // Data from an earlier local pass; each member may be null.
@@ -143,8 +144,9 @@ struct LocalPassMemory {
   SampleCache* samples = nullptr;  // samples of the sampler that is passed to RunLocalPass()
 };
 
-// Runs the complete local pass. For constant interpolants, the sampler is not called. If the computation is
-// cancelled, the function returns an empty mesh. REQUIRES: the quadtrees are balanced.
+// Runs the complete local pass, which computes the irradiance mesh from a radiosity solution. For constant
+// interpolants, the sampler is not called. If the computation is cancelled, the function returns an empty
+// mesh. REQUIRES: the quadtrees are balanced.
 MeshResult RunLocalPass(const PatchVisibility& visibility, const RadiositySolution& solution,
                         const IrradianceSampler& sampler, const MeshOptions& options,
                         const ExecutionContext& context, const LocalPassMemory& memory = {});

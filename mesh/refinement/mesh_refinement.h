@@ -29,8 +29,8 @@
 namespace penumbra {
 
 // The fraction of the area of all reflecting patch fronts on which the error may exceed its limit.
-// kShareAbove is the 1 % above a 99th percentile, minus an allowance for errors that measurements at single
-// points overlook.
+// kShareAbove is smaller than 1 %, the fraction above a 99th percentile, because measurements at single
+// points overlook some errors.
 inline constexpr double kShareAbove = 0.005;
 
 struct MeshRefinementOptions {
@@ -49,11 +49,13 @@ struct MeshRefinementOptions {
   double steep = std::numeric_limits<double>::infinity();
   int samples = 1;  // each triangle is measured at samples^2 points (thesis, Appendix A)
   int max_rounds = 8;
-  std::size_t max_triangles = 2'000'000;  // refinement ends above max_triangles: about 2 GB with samples
+  // Refinement ends when a mesh has more than max_triangles triangles, which take about 2 GB of memory with
+  // their samples.
+  std::size_t max_triangles = 2'000'000;
 };
 
 struct RefinedMesh {
-  MeshPlan plan;  // plan with the leaves divided and the discontinuities requested by refinement
+  MeshPlan plan;  // the refined quadtree leaves, and the discontinuities that refinement requested
   std::vector<PatchTriangulation> triangulations;
   IrradianceMesh mesh;
   // The error of each triangle; zero for triangles that were not measured because the gradients of the
@@ -74,14 +76,15 @@ struct LightToShow {
 // Data from an earlier refinement that RefineMesh() reuses; each member may be null.
 struct RefinementMemory {
   LocalPassCache* local_pass = nullptr;
-  const MeshPlan* start = nullptr;         // plan of the first mesh; null: the result of BeginPlan()
+  const MeshPlan* start = nullptr;         // leaves of the first mesh; null: the result of BeginPlan()
   SampleCache* samples = nullptr;          // samples of LightToShow::sampler
-  std::span<const KnownLight> known = {};  // points with known irradiance that test each mesh
+  std::span<const KnownLight> known = {};  // points with known irradiance, at which each mesh is tested
 };
 
 // Refines the mesh until the error exceeds its limit on at most the fraction share_above of the area, until
-// no refinement step reduces the error, or until max_rounds rounds have been made. Each round of refinement
-// takes the steps with the largest ratio benefit / cost, and no more steps than necessary. A refinement step
+// no refinement step reduces the error, or until max_rounds rounds of refinement have been made. Each round
+// of refinement takes the steps with the largest ratio (area that the step brings below the error limit) /
+// (number of new triangles), and only as many steps as the limit on the area requires. A refinement step
 // divides a quadtree leaf, or adds an edge along a discontinuity that had been omitted because of its small
 // weight. If the computation is cancelled, the function returns an empty mesh. REQUIRES: the quadtrees are
 // balanced.

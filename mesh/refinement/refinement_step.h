@@ -30,7 +30,7 @@ struct RefinementStep {
   PatchId patch = kNoPatch;
   ElementId leaf = kNoElement;    // the leaf to divide; kNoElement: a discontinuity becomes an edge
   std::size_t discontinuity = 0;  // discontinuity that becomes an edge: index in OmittedOfPatch::found
-  double cost = 0;                // number of triangles that the step adds or makes anew
+  double cost = 0;                // number of triangles that the step adds or triangulates again
   std::vector<Mended> mended;
 
   bool Divides() const { return leaf != kNoElement; }
@@ -47,9 +47,10 @@ std::vector<RefinementStep> FindRefinementSteps(const IrradianceMesh& mesh,
                                                 std::span<const OmittedOfPatch> omitted, double error,
                                                 double floor);
 
-// Chooses refinement steps in order of decreasing (sum of Mended::area) / cost, until the steps mend `area`
-// [m^2] in total or no step is left. Returns the indices of the chosen steps. If several refinement steps
-// would mend the same triangle, the triangle's area is counted only for the first of these steps.
+// Chooses refinement steps in order of decreasing (sum of Mended::area) / cost, until the area that the steps
+// bring below the error limit reaches `area` [m^2], or no step is left. Returns the indices of the chosen
+// steps. If several refinement steps would bring the same triangle below the error limit, the triangle's area
+// is counted only for the first of these steps.
 std::vector<std::size_t> ChooseRefinementSteps(std::span<const RefinementStep> steps, double area);
 
 }  // namespace penumbra

@@ -33,20 +33,24 @@
 namespace penumbra {
 
 struct ShownMeshOptions {
-  double error = 0.02;    // PipelineOptions::error
-  int error_samples = 1;  // TriangleSampling::samples
+  double error = 0.02;    // requested 99th percentile of the relative errors of irradiance
+  int error_samples = 1;  // the error of each triangle is measured at error_samples^2 points
   std::uint64_t seed = 1;
   SolverOptions solver;  // options with which the solution is computed
-  // The fraction of the requested 99th percentile of errors that the interpolants may use.
+  // The mesh is refined until the 99th percentile of the interpolants' errors is interpolant_share * error.
   double interpolant_share = 0.6;
-  double share_above = kShareAbove;                        // MeshRefinementOptions::share_above
-  double suspicion = 0.25;                                 // MeshRefinementOptions::suspicion
-  double steep = std::numeric_limits<double>::infinity();  // MeshRefinementOptions::steep
+  // The fraction of the area of all reflecting patch fronts on which the error may exceed its limit.
+  double share_above = kShareAbove;
+  // Triangles whose estimated error is below suspicion * error are not measured.
+  double suspicion = 0.25;
+  // A triangle is measured at additional points if the irradiances at its vertices differ by more than the
+  // factor `steep`.
+  double steep = std::numeric_limits<double>::infinity();
   int most_turns = 3;  // largest number of refinements that follow tests of the mesh at random points
   // The number of random points, spread over the scene, at which each mesh is tested in addition to the
   // points of its triangles.
   std::size_t lookouts = 0;
-  int max_rounds = 8;  // MeshRefinementOptions::max_rounds
+  int max_rounds = 8;  // largest number of rounds of one refinement of the mesh
 };
 
 // Time spent on dividing sources, and on making meshes [s].
@@ -70,8 +74,8 @@ class ShownMesh {
   // until the light has converged. Where interpolants vary on a leaf, step 1 of RefineLight() divides the
   // leaf into smaller light sources. Step 2 of RefineLight() computes the radiosity of each source from the
   // mean of the interpolants over the source. Step 3 of RefineLight() refines the mesh. If the computation is
-  // cancelled, the function returns false and keeps the light of the last complete repetition. REQUIRES:
-  // solver.TakesLight() is true.
+  // cancelled, the function returns false and keeps the light after the last complete repetition of the three
+  // steps. REQUIRES: solver.TakesLight() is true.
   bool RefineLight(LightSolver& solver, const MeshOptions& options, const ExecutionContext& context);
   // Returns the light of each emitter alone, without interpolants, for the sources that RefineLight() has
   // made (SolveByEmitter). The result is nullopt if the computation is cancelled. REQUIRES: RefineLight() has
@@ -94,8 +98,8 @@ class ShownMesh {
     light_plan_.reset();
     samples_are_current_ = false;
   }
-  // TakeNewLight() must be called after the light has changed by less than its error, so that the mesh plan
-  // of RefineLight() still holds.
+  // TakeNewLight() must be called after the light has changed by less than its error, so that the quadtree
+  // leaves and the requested discontinuities of RefineLight() remain valid.
   void TakeNewLight() { samples_are_current_ = false; }
   // Replaces the interpolants of the mesh. REQUIRES: there is one interpolant for each triangle.
   void SetInterpolants(std::vector<QuadraticInterpolant> irradiance);
@@ -113,16 +117,17 @@ class ShownMesh {
   // cancelled, the result must not be used.
   SourceCells FinestCells(const RadiositySolution& solution, const ExecutionContext& context);
   // Returns the exact irradiance from light sources that are more accurate than those of the solution. If the
-  // radiosities of `finest` differ from those of the solution, the further reflections of this difference are
-  // computed over the links and added. The difference of radiosities is reflected many times between walls
-  // that face each other. If the computation is cancelled, the function returns null.
+  // radiosities of `finest` differ from those of the solution, the further reflections of this difference of
+  // radiosities are computed over the links and added. The further reflections matter between walls that face
+  // each other, which reflect a difference of radiosities many times. If the computation is cancelled, the
+  // function returns null.
   std::unique_ptr<const PointIrradiance> BetterIrradiance(const RadiositySolution& solution,
                                                           const SourceCells& finest,
                                                           const ExecutionContext& context);
   // Returns the exact irradiance from the sources `finest` alone, without the further reflections that
-  // BetterIrradiance() adds. The result of ShownIrradiance() is one reflection of the light in the mesh. If
-  // links transport light through walls by mistake, the result of ShownIrradiance() does not contain this
-  // light, because links are not used.
+  // BetterIrradiance() adds. ShownIrradiance() gathers once from the light that the mesh displays. If links
+  // transport light through walls by mistake, the result of ShownIrradiance() does not contain this light,
+  // because links are not used.
   std::unique_ptr<const PointIrradiance> ShownIrradiance(const RadiositySolution& solution,
                                                          const SourceCells& finest);
 
@@ -134,8 +139,8 @@ class ShownMesh {
   // The error of each triangle of the mesh; the list is empty if the triangles were not measured.
   std::span<const TriangleError> triangle_errors() const { return triangle_errors_; }
 
-  // The report on the present mesh: its counts, and the evaluations and seconds that were spent to make the
-  // mesh.
+  // The report on the present mesh: numbers of its parts, and the evaluations and seconds that were spent to
+  // make the mesh.
   const MeshReport& report() const { return report_; }
   // Returns the seconds spent since the last call of TakeSeconds().
   MeshSeconds TakeSeconds();
@@ -143,7 +148,7 @@ class ShownMesh {
   const std::optional<std::string>& unmet() const { return unmet_; }
 
  private:
-  // Irradiance samples need their form factors if the light will change again.
+  // Irradiance samples must store their form factors (kRecord) if the light will change again.
   enum class Rows : std::uint8_t { kNone, kRecord };
 
   void Begin();
@@ -173,19 +178,20 @@ class ShownMesh {
 
   IrradianceMesh mesh_;
   std::vector<PatchTriangulation> triangulations_;
-  MeshPlan plan_;  // the mesh plan from which triangulations_ was made
+  MeshPlan plan_;  // quadtree leaves and requested discontinuities of triangulations_
   std::vector<TriangleError> triangle_errors_;
-  std::unique_ptr<LocalPassCache> local_pass_;  // cache for the present visibility
+  std::unique_ptr<LocalPassCache> local_pass_;  // data that local passes with visibility_ reuse
   SampleCache samples_;
   SourceSet samples_from_;            // the sources to which the form factors of the samples belong
   bool samples_are_current_ = false;  // true if samples_ belong to the present light
   std::vector<SourceCell> cells_;     // the sources of the present light; empty before RefineLight()
   MeshReport report_;
   double seconds_of_sources_ = 0;
-  bool has_looked_ = false;             // true if RefineLight() made mesh_ for the present light
-  std::optional<MeshPlan> light_plan_;  // the mesh plan with which RefineLight() ended
+  bool has_looked_ = false;  // true if RefineLight() made mesh_ for the present light
+  // The quadtree leaves and requested discontinuities of the last mesh that RefineLight() made.
+  std::optional<MeshPlan> light_plan_;
   std::optional<std::string> unmet_;
-  std::vector<KnownLight> known_;  // irradiance at points that have tested meshes of the present light
+  std::vector<KnownLight> known_;  // exact irradiance at the points where meshes were tested
 };
 
 }  // namespace penumbra

@@ -2,10 +2,10 @@
 //
 // Light sources that are smaller than the quadtree leaves of the solution. Each reflecting leaf is the root
 // of a tree of cells, and each cell is a light source. If contacts (lines where the irradiance jumps) cut the
-// leaf, the pieces of the leaf are the root's children. All other cells of the tree that have children are
-// divided into quarters. Each cell stores the exact mean of the irradiance interpolants over the cell. Unlike
-// quadtree elements, cells need no links of their own. The shapes of the cells of a leaf depend on the leaf
-// and not on the light, so that the same cells can carry another light.
+// leaf, the pieces of the leaf are the root's children. A cell that is not cut by contacts is either
+// undivided, or divided into quarters. Each cell stores the exact mean of the irradiance interpolants over
+// the cell. Unlike quadtree elements, cells need no links of their own. The shapes of the cells of a leaf
+// depend on the leaf and not on the light, so that the same cells can carry another light.
 //
 // The score of a cell estimates the error at receivers that is caused by treating the radiosity of the cell
 // as constant. The score of a cell is (deviation of the interpolants from their mean, relative to the
@@ -32,9 +32,9 @@ struct SourceCell {
   SourcePolygon polygon;
   std::int32_t parent = -1;      // index of the parent cell; -1: the cell is the whole leaf
   std::int32_t skip = 1;         // number of cells in the cell's subtree, including the cell
-  double area = 0;               // [m^2]
+  double area = 0;               // area of the cell [m^2]
   Rgb irradiance = Rgb::Zero();  // mean irradiance of the cell [W/m^2]
-  double score = 0;              // [1]
+  double score = 0;              // estimated relative error at receivers if the cell is not divided [1]
 };
 
 // A mesh, together with its leaves and triangulations.
@@ -45,18 +45,18 @@ struct MeshWithLeaves {
 };
 
 struct SourceCellOptions {
-  double finest = 0;  // cells whose score is above `finest` are divided
-  // Cells for an earlier light of the same solution, if there are any: each cell that is divided in `before`
-  // is divided again.
+  double finest = 0;  // largest score (estimated error) of a cell that is not divided
+  // The cells for an earlier light of the same solution, or an empty list. Every cell that is divided in
+  // `before` is divided again.
   std::span<const SourceCell> before;
 };
 
 class SourceCells {
  public:
-  // Divides cells whose score is above options.finest, until cells are smaller than a given fraction of the
-  // mesh's triangles. The irradiance `exact` is used only to find the patches that a leaf sees. If the
-  // computation is cancelled, the list of cells is incomplete. REQUIRES: the mesh's forest is the solution's
-  // forest or a refinement of it.
+  // Divides cells whose score (estimated error at receivers) is above options.finest, until cells are smaller
+  // than a given fraction of the mesh's triangles. The irradiance `exact` is used only to find the patches
+  // that a leaf sees. If the computation is cancelled, the list of cells is incomplete. REQUIRES: the mesh's
+  // forest is the solution's forest or a refinement of it.
   SourceCells(const RadiositySolution& solution, const MeshWithLeaves& shown, const PointIrradiance& exact,
               const SourceCellOptions& options, const ExecutionContext& context = ExecutionContext());
 
@@ -70,8 +70,8 @@ class SourceCells {
 
   // The 99th percentile of the differences between the irradiance of a leaf in the solution and the mean of
   // the interpolants over the leaf. The percentile that Change() returns is weighted by the reflecting area
-  // of leaves. In Change(), differences are relative to max(mean irradiance of the leaf, 1 % of the mean
-  // irradiance over all leaves), and the channel with the largest difference counts.
+  // of leaves. In Change(), these differences of irradiance are relative to max(mean irradiance of the leaf,
+  // 1 % of the mean irradiance over all leaves), and the channel with the largest difference counts.
   double Change() const;
 
   // Converts the cells without children to fragments (convex pieces of leaves with their own radiosities).

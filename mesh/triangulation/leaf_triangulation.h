@@ -5,7 +5,7 @@
 // T-vertex inside the patch (thesis 3.6, cases A and B).
 //
 // Neighbouring quadtree leaves have the same vertices on their common border, because PatchBorders computes
-// these vertices once per patch. Vertices inside a quadtree leaf do not affect other leaves, and keep a
+// these vertices once per patch. Vertices inside a quadtree leaf do not affect other leaves, and have a
 // minimum distance from the leaf's border (leaf_margins.h).
 
 #pragma once
@@ -34,11 +34,11 @@ struct PatchTriangulation {
   };
 
   PatchId patch = kNoPatch;
-  std::vector<Vec3> positions;      // [m]
-  std::vector<Vec2> in_plane;       // positions in the patch's frame [m]
+  std::vector<Vec3> positions;      // positions of the vertices in space [m]
+  std::vector<Vec2> in_plane;       // positions of the vertices in the patch's frame [m]
   std::vector<Triangle> triangles;  // triangles of all leaves, in the order of `leaves`
   std::vector<ElementId> leaves;    // quadtree leaves of the patch, depth first
-  // Index of the first triangle of each leaf, and the number of all triangles.
+  // The index of the first triangle of each leaf, followed by the number of all triangles.
   std::vector<std::uint32_t> first_triangle;
   // Number of discontinuity edges omitted because they are within rounding of a leaf's border.
   std::size_t dropped_segments = 0;
@@ -56,10 +56,11 @@ struct PatchTriangulation {
 // to the byte, with or without a cache. REQUIRES: the quadtree is balanced, and has not changed since `dsets`
 // were computed.
 PatchTriangulation TriangulateLeaves(const ElementForest& forest, PatchId patch, const PatchDSets& dsets);
-// Like TriangulateLeaves() above, with the vertices on the borders of leaves given. `borders` was constructed
-// from `forest`, `patch` and `dsets`, and may have been welded to the borders of other patches. The cached
-// triangles of a leaf are reused if the leaf's border and its discontinuity lines are unchanged. After
-// TriangulateLeaves(), the cache contains exactly the present leaves that have discontinuity lines.
+// Triangulates the quadtree leaves in dsets.leaves, as the function above does, with given vertices on the
+// borders of leaves. `borders` was constructed from `forest`, `patch` and `dsets`, and may already share
+// vertices with the borders of other patches (WeldOutlines). The cached triangles of a leaf are reused if the
+// leaf's border and its discontinuity lines are unchanged. After TriangulateLeaves(), the cache contains
+// exactly the present leaves that have discontinuity lines.
 PatchTriangulation TriangulateLeaves(const ElementForest& forest, PatchId patch, const PatchDSets& dsets,
                                      PatchBorders borders, LeafMeshCache* cache = nullptr);
 

@@ -121,7 +121,8 @@ class LeafTriangulator {
 // cache.
 class LeafMeshCache {
  public:
-  // The triangles of the leaf with this key (LeafShape::Encode); null if the cache does not contain the leaf.
+  // Returns the triangles of the leaf whose shape LeafShape::Encode() converts to `key`; null if the cache
+  // does not contain the leaf.
   std::shared_ptr<const LeafMesh> Find(const std::vector<double>& key) const;
   void Clear() { meshes_.clear(); }
   void Insert(std::vector<double> key, std::shared_ptr<const LeafMesh> mesh) {

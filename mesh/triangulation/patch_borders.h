@@ -32,9 +32,9 @@ class PatchBorders {
 
   // The positions of the vertices on the patch's outline [m].
   std::vector<Vec3> OutlineVertices() const;
-  // Adds those of `points` that lie on the patch's outline as vertices of the outline. If a vertex of the
-  // outline lies within the snap distance of an added point, the vertex moves to this point. Other vertices
-  // of the outline remain unchanged.
+  // Adds all points in `points` that lie on the patch's outline as vertices of the outline. If a vertex of
+  // the outline lies within the snap distance of an added point, the vertex moves to this point. All other
+  // vertices of the patch's outline keep their positions.
   void Weld(std::span<const Vec3> points);
 
   std::vector<Vec3> positions;  // position of each vertex [m], by VertexId
@@ -47,9 +47,10 @@ class PatchBorders {
   // sides of a stretch refer to the same Stretch object.
   struct Stretch {
     VertexId a, b;  // ends of the stretch, at ascending lattice points
-    std::vector<std::pair<double, std::int32_t>> crossings;  // crossing lines: (fraction from a to b, line)
-    std::vector<VertexId> inner;                             // vertices between a and b, ordered from a to b
-    int uses = 0;  // number of leaves along the stretch; 1 on the patch's outline
+    // Crossings with discontinuity lines: the fraction of the way from a to b, and the number of the line.
+    std::vector<std::pair<double, std::int32_t>> crossings;
+    std::vector<VertexId> inner;  // vertices between a and b, ordered from a to b
+    int uses = 0;                 // number of leaves along the stretch; 1 on the patch's outline
   };
   struct StretchUse {
     std::uint32_t stretch;

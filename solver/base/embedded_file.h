@@ -1,7 +1,7 @@
 // solver/base/embedded_file.h
 //
-// Text files that are compiled into the program. The build script cmake/EmbedFiles.cmake converts each file
-// to source code.
+// An EmbeddedFile is a text file that is compiled into the program. The build script cmake/EmbedFiles.cmake
+// converts each of these files to source code.
 
 #pragma once
 

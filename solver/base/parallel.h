@@ -1,8 +1,8 @@
 // solver/base/parallel.h
 //
 // Parallel loops whose result does not depend on the number of threads. A loop divides the range of its index
-// into chunks of fixed size. A chunk writes only the results of its own indices, and callers add up partial
-// sums in the order of the chunks.
+// into chunks of fixed size. Each chunk of indices writes only the results of its own indices, and callers
+// add up partial sums in the order of the chunks.
 
 #pragma once
 
@@ -19,8 +19,9 @@ void SetThreadCount(int threads);
 int ThreadCount();
 
 // Divides the index range [0, count) into consecutive chunks of at most `grain` indices and calls body(begin,
-// end) once for each chunk, from several threads and in any order. If `body` throws, the loop ends, and this
-// function rethrows the exception. REQUIRES: grain > 0; `body` may be called from several threads at once.
+// end) once for each chunk, from several threads and in any order. If `body` throws, the loop ends, and
+// ParallelForChunks() rethrows the exception. REQUIRES: grain > 0; `body` may be called from several threads
+// at once.
 void ParallelForChunks(std::size_t count, std::size_t grain,
                        const std::function<void(std::size_t begin, std::size_t end)>& body);
 

@@ -10,8 +10,8 @@
 
 namespace penumbra {
 
-// The generator PCG32 (O'Neill 2014), which is small, fast, and of good statistical quality. `sequence`
-// selects one of the independent streams of a seed.
+// The generator PCG32 (O'Neill 2014), which is small, fast, and of good statistical quality. The parameter
+// `sequence` selects one of the independent streams of random numbers with the same seed.
 class Random {
  public:
   explicit Random(std::uint64_t seed, std::uint64_t sequence = 0) : increment_((sequence << 1) | 1) {
@@ -58,8 +58,8 @@ inline double AdditiveRecurrence(std::uint64_t i, double alpha, double offset = 
   const double x = offset + alpha * static_cast<double>(i);
   return x - std::floor(x);
 }
-// The constants are the powers 1 to d of 1/x, where x is the positive root of x^(d+1) = x + 1, for the
-// dimensions d = 2 and d = 4 (Roberts 2018).
+// The constants kR2Alpha and kR4Alpha are the powers 1 to d of 1/x, where x is the positive root of x^(d+1) =
+// x + 1, for the dimensions d = 2 and d = 4 (Roberts 2018).
 inline constexpr double kR2Alpha[2] = {0.7548776662466927, 0.5698402909980532};
 inline constexpr double kR4Alpha[4] = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
                                        0.5385972572236101};

@@ -1,7 +1,7 @@
 // solver/base/read_file.h
 //
 // Reads all bytes of a file, or reports an error. A standard C++ stream does not report a failing disk or
-// exhausted memory: the stream then ends as if the file had ended.
+// exhausted memory, but ends as if the file had ended.
 
 #pragma once
 

@@ -1,8 +1,8 @@
 // solver/base/registry.h
 //
 // A registry: a list of alternative methods for one task, each with a name. The command line, the help, the
-// reports and the interactive window take the methods' names from the registry; no other code lists the
-// names.
+// reports and the interactive window take the methods' names from the registry; no other code lists the names
+// of the methods.
 
 #pragma once
 
@@ -19,7 +19,8 @@ namespace penumbra {
 
 // A registry of methods, each of which makes a `Product` from `Options`. The source file of a method has a
 // function that returns the method's description, a Method. The file that defines a registry lists the
-// functions of all its methods. A program may add its own methods before it solves a scene.
+// functions that return the descriptions of its methods. A program may add its own methods before it solves a
+// scene.
 template <class Product, class... Options>
 class Registry {
  public:
@@ -36,8 +37,8 @@ class Registry {
     for (Method& method : methods) Add(std::move(method));
   }
 
-  // Appends a method to the list. REQUIRES: no method of the registry has the same name, and no thread reads
-  // the registry.
+  // Appends a method to the list. REQUIRES: no method of the registry has the name of the new method, and no
+  // thread reads the registry.
   void Add(Method method) {
     for (const Method& other : methods_) PENUMBRA_CHECK(other.name != method.name);
     methods_.push_back(std::move(method));

@@ -46,14 +46,15 @@ void ClearScratch(T& object) {
 //
 // A Scratch must be a local variable or a member of a local variable: a Scratch belongs to the thread that
 // created it, and must be destroyed before that thread ends. PENUMBRA_DCHECK detects the use of a Scratch by
-// another thread. Creating a Scratch takes a few nanoseconds: create one for each evaluation of irradiance,
-// and pass the borrowed object to the functions for single polygons.
+// another thread. Because creating a Scratch takes a few nanoseconds, create one Scratch for each evaluation
+// of irradiance, and pass the borrowed object to the functions that work on single polygons.
 template <class T>
 class Scratch {
  public:
   Scratch() : pool_(ThreadPool()) {
     if (pool_.idle.empty()) {
-      pool_.idle.reserve(pool_.leased + 1);  // so that returning an object needs no allocation
+      // Reserves space, so that returning an object to the pool needs no allocation.
+      pool_.idle.reserve(pool_.leased + 1);
       object_ = std::make_unique<T>();
     } else {
       object_ = std::move(pool_.idle.back());

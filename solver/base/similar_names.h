@@ -20,7 +20,7 @@ std::size_t EditDistance(std::string_view a, std::string_view b);
 std::vector<std::string> NearestFirst(std::string_view name, std::vector<std::string> names);
 
 // Returns the text "; did you mean 'X'?", where X is the most similar of the names; an empty text if no name
-// is similar. Capital and small letters count as equal.
+// is similar. The comparison of names treats capital and small letters as equal.
 std::string DidYouMean(std::string_view name, const std::vector<std::string>& names);
 
 }  // namespace penumbra

@@ -1,8 +1,8 @@
 // solver/base/vector_dispatch.h
 //
 // The macro PENUMBRA_VECTOR_CLONES before a function compiles the function for several widths of SIMD
-// vectors. When the program starts, it selects the widest SIMD vectors that the processor supports. The
-// binary runs on every x86-64 processor.
+// vectors. The program selects, when it starts, the version for the widest SIMD vectors that the processor
+// supports. The binary runs on every x86-64 processor.
 
 #pragma once
 

@@ -31,14 +31,16 @@ class BoxTree {
  private:
   struct Node {
     PlaneBox box;  // bounding box of the node
-    // The range of the boxes of a leaf in order_; `count` is 0 in an inner node of the tree.
+    // The boxes of a leaf of the tree are the entries `first` to `first + count - 1` of order_; `count` is 0
+    // in an inner node of the tree.
     std::int32_t first = 0, count = 0;
-    std::int32_t second = 0;  // node index of the second child; the first child follows its parent
+    // Index of the node's second child; the first child is stored directly after its parent.
+    std::int32_t second = 0;
   };
 
   std::int32_t BuildNode(std::int32_t first, std::int32_t count);
 
-  std::span<const PlaneBox> given_;  // valid during Build() only
+  std::span<const PlaneBox> given_;  // the boxes that were passed to Build(); valid only during Build()
   std::vector<PlaneBox> boxes_;      // boxes_[i] is the given box with the index order_[i]
   std::vector<std::int32_t> order_;
   std::vector<Node> nodes_;

@@ -34,7 +34,7 @@ inline constexpr double kSnapDistance = 1e-13;
 
 struct ConstraintSegment {
   std::int32_t from = 0, to = 0;  // point indices of the segment's ends
-  std::int32_t tag = kNoTag;      // kNoTag, kBorder, or a caller's tag >= 0
+  std::int32_t tag = kNoTag;      // tag of the segment: kNoTag, kBorder, or a caller's tag >= 0
 };
 
 struct ConstrainedTriangulation {
@@ -42,9 +42,10 @@ struct ConstrainedTriangulation {
     std::array<std::int32_t, 3> vertex;  // vertex indices, counter-clockwise; the smallest index comes first
     // The neighbour across edge k, which runs from vertex k to vertex k + 1; -1 if no triangle is there.
     std::array<std::int32_t, 3> neighbor;
-    std::array<std::int32_t, 3> tag;   // smallest tag >= 0 of the constraints on edge k; else kNoTag
+    // Smallest tag >= 0 of the constraints on edge k; kNoTag if there is none.
+    std::array<std::int32_t, 3> tag;
     std::array<bool, 3> border;        // true if edge k lies on a constraint with the tag kBorder
-    std::array<std::int32_t, 3> edge;  // index in `edges`; -1 if no constraint lies on edge k
+    std::array<std::int32_t, 3> edge;  // index of edge k in `edges`; -1 if no constraint lies on edge k
     std::int32_t winding = 0;          // winding number of the border around the triangle
 
     bool Inside() const { return winding != 0; }
@@ -63,9 +64,10 @@ struct ConstrainedTriangulation {
   // The vertices are the input points, followed by the crossings of segments. Of several points with equal
   // coordinates, only the first is used.
   std::vector<Vec2> vertices;
-  std::vector<Triangle> triangles;  // sorted by vertex indices; the triangles fill the convex hull
-  std::vector<Edge> edges;          // edges on constraints, sorted by (a, b)
-  std::vector<Cover> covers;        // all covers, sorted by edge, then by constraint
+  std::vector<Triangle> triangles;  // triangles that fill the convex hull, sorted by vertex indices
+  std::vector<Edge> edges;          // all edges that lie on constraints, sorted by (a, b)
+  // One Cover for each constraint on each edge, sorted by edge, then by constraint.
+  std::vector<Cover> covers;
 
   std::span<const Cover> Covers(const Edge& edge) const {
     return std::span(covers).subspan(static_cast<std::size_t>(edge.first),
@@ -100,8 +102,9 @@ class ConstrainedTriangulator {
                                               std::span<const ConstraintSegment> constraints);
 
   // Triangulates pieces of segments that SegmentSplitter::Split() has returned, without splitting or snapping
-  // them again. A piece has the tag of the constraint of which it is a part. REQUIRES: no two used points
-  // have equal coordinates.
+  // them again. A piece has the tag of the constraint of which it is a part. Only points i with used[i] ==
+  // true are vertices of the triangulation. REQUIRES: no two points i and j with used[i] and used[j] have
+  // equal coordinates.
   const ConstrainedTriangulation& TriangulatePieces(std::span<const Vec2> points,
                                                     const std::vector<bool>& used,
                                                     std::span<const SegmentPiece> pieces,

@@ -25,7 +25,7 @@ struct PlaneSegment {
 // Returns pairs (i, j), i < j, of indices of segments, in ascending order. The result contains all pairs
 // whose distance is at most `distance`, and may contain some pairs at a larger distance. For n segments that
 // form outlines without self-crossings, the search takes time O(n log n). Returns nullopt if the search would
-// take much longer, because too many segments meet.
+// take much longer than O(n log n), because too many segments meet.
 std::optional<std::vector<std::pair<std::int32_t, std::int32_t>>> FindNearbyPairs(
     std::span<const PlaneSegment> segments, double distance);
 

@@ -59,12 +59,14 @@ class SegmentSplitter {
   double rounding_ = 0;  // upper bound of a true distance whose computed value is 0
   std::vector<CutPoint> cuts_;
   std::vector<SegmentPiece> next_;
-  std::vector<char> fresh_, next_fresh_;  // for each piece: true if the piece changed since its last test
-  std::int32_t fresh_vertex_ = 0;         // first vertex added since the last test
-  std::vector<std::int32_t> order_;       // indices of vertices or pieces, sorted by smallest x
-  std::vector<double> low_;               // the smallest x of each entry of order_
-  std::vector<double> left_;              // smallest x of each piece
-  BoxTree tree_;                          // search tree, used if there are many vertices or pieces
+  // For each piece: true if the piece changed since it was last tested for vertices and crossings on it.
+  std::vector<char> fresh_, next_fresh_;
+  // Index of the first vertex that was not yet tested against all pieces.
+  std::int32_t fresh_vertex_ = 0;
+  std::vector<std::int32_t> order_;  // indices of vertices or pieces, sorted by smallest x
+  std::vector<double> low_;          // the smallest x of each entry of order_
+  std::vector<double> left_;         // smallest x of each piece
+  BoxTree tree_;                     // search tree, used if there are many vertices or pieces
   std::vector<PlaneBox> boxes_;
   std::vector<std::int32_t> found_;
 };

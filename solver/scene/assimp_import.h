@@ -12,10 +12,12 @@
 namespace penumbra {
 
 struct AssimpImport {
-  std::string ending;         // file ending without the dot; tells Assimp the format of the bytes
-  bool has_materials = true;  // false if the format has no materials; those that Assimp adds are dropped
-  bool has_default = false;   // true if Assimp adds a default material for faces without a material
-  bool turned = false;        // true if Assimp rotates scenes from z up to y up; the reader rotates them back
+  std::string ending;  // file ending without the dot; tells Assimp the format of the bytes
+  // False if the format has no materials; materials that Assimp adds are then dropped.
+  bool has_materials = true;
+  bool has_default = false;  // true if Assimp adds a default material for faces without a material
+  // True if Assimp rotates scenes from z up to y up; the reader rotates such scenes back.
+  bool turned = false;
   // unit by which Assimp multiplies the lengths of the file; the reader divides by this unit
   double applied_unit = 1;
 };

@@ -18,7 +18,7 @@ namespace penumbra {
 
 struct BuiltinScene {
   std::string name;
-  std::string description;  // one line of text
+  std::string description;  // description of the scene in one line
   std::vector<Camera> cameras;
 };
 
@@ -29,8 +29,7 @@ const std::vector<BuiltinScene>& BuiltinScenes();
 // InputError if the options do not fit the scene.
 std::optional<Scene> LoadBuiltinScene(std::string_view name, const SceneOptions& options);
 
-// The reader of built-in scenes. The reader of built-in scenes recognises the name of a built-in scene unless
-// a file has the same name.
+// The reader of built-in scenes recognises the name of a built-in scene unless a file has the same name.
 SceneReaderRegistry::Method BuiltinSceneReaderMethod();
 
 }  // namespace penumbra

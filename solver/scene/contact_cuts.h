@@ -15,9 +15,9 @@ namespace penumbra {
 //
 //  (1) The foot, a segment on the patch, is extended along its line in both directions up to the nearest
 //      obstacle, which is the outline of the patch or another foot. Feet must cover at least three fifths of
-//      the extended segment. A wall with a doorway therefore still counts as a wall.
-//  (2) The foot, together with the feet that it touches, is not small compared with the patch, and the patch
-//      is not small compared with the largest patch of the scene.
+//      the extended segment. Three fifths are enough so that a wall with a doorway still counts as a wall.
+//  (2) The foot, together with the feet that it touches, is not small compared with the diameter of the
+//      patch, and the patch is not small compared with the largest reflecting patch of the scene.
 //
 // Feet of one convex solid are not obstacles for each other: a block on a floor covers the area that its feet
 // enclose, and does not count as a wall unless it extends from wall to wall. REQUIRES: FindConvexSolids() has

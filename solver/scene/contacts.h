@@ -14,18 +14,18 @@ namespace penumbra {
 // A segment of nonzero length on a receiver along which another patch stands on the receiver or intersects
 // the receiver, or along which a patch that lies flat on the receiver ends.
 struct Contact {
-  Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // end points [m]
+  Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // end points of the contact [m]
   PatchId other = kNoPatch;
 };
 
-// All contacts on the front of the receiver, sorted by Contact::other. Patches whose distance from the
-// receiver is at most ContactGap() count as touching the receiver. Contacts along the receiver's outline are
-// omitted, because the receiver ends there.
+// All contacts on the front of the receiver, sorted by the index of the touching patch (Contact::other).
+// Patches whose distance from the receiver is at most ContactGap() count as touching the receiver. Contacts
+// along the outline of the receiver are omitted, because no part of the receiver lies beyond its outline.
 std::vector<Contact> FindContacts(const Scene& scene, PatchId receiver);
 
 // A patch is divided below an edge that hangs above the patch if (height of the edge) / (length of the edge)
-// is at most kMaxHangingHeight. Light that passes below an edge with a smaller ratio of height to length is
-// negligible, like light under a door.
+// is at most kMaxHangingHeight. Light that passes below an edge with (height) / (length) < kMaxHangingHeight
+// is negligible, like light under a door.
 inline constexpr double kMaxHangingHeight = 0.02;
 
 // Finds the contacts of many receivers of one scene. The scene must outlive the ContactSearch.
@@ -45,7 +45,7 @@ class ContactSearch {
 
  private:
   const Scene& scene_;
-  double gap_;                              // ContactGap() [m], cached because it depends on all patches
+  double gap_;                              // the value of ContactGap() for the scene [m]
   std::vector<std::vector<PatchId>> near_;  // for each patch: the patches with nearby bounding boxes, sorted
 };
 

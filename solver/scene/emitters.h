@@ -33,10 +33,11 @@ struct Dimming {
   Rgb factor = Rgb::Ones();  // one factor for each channel, at least 0
 };
 
-// For each patch, the product of the factors of all dimmings that name the patch; 1 for patches that no
-// dimming names. Throws InputError, without a file name, if a name is unknown or names no emitter. Throws
-// InputError also if the name is that of an object and of a material with different emitters, or if two named
-// faces form one patch. If two faces form one patch, a factor for one face applies to both faces.
+// For each patch, the product of the factors of all Dimming objects that name the patch; 1 for patches that
+// no Dimming names. Throws InputError, without a file name, if a name is unknown or names no emitter. Throws
+// InputError also if the name in a Dimming is that of an object and of a material with different emitters, or
+// if two named faces form one patch. If two faces form one patch, a factor for one face applies to both
+// faces.
 std::vector<Rgb> DimmingFactors(const Scene& scene, std::span<const Dimming> dimmings);
 
 // Multiplies the emittance of each patch, and of the faces of the patch, by the factor of the patch. If

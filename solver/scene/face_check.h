@@ -30,42 +30,44 @@ inline constexpr double kMostRounding = 1e-4;
 enum class FaceCondition {
   kFine,
   kZeroArea,
-  // Not planar: a vertex is off the plane by more than kPlanarTolerance, but by at most FaceTolerances::cut.
+  // Not planar: the largest (distance of a vertex from the face's plane) / (diameter of the face) exceeds
+  // kPlanarTolerance, but not FaceTolerances::cut.
   kUneven,
-  kFolded,  // a vertex is off the plane by more than FaceTolerances::cut
+  // (distance of a vertex from the face's plane) / (diameter of the face) exceeds FaceTolerances::cut.
+  kFolded,
   kSelfCrossing
 };
 
 // The permitted deviations of a face of a scene file.
 struct FaceTolerances {
-  // The largest (distance of a vertex from the face's plane) / (diameter of the face).
+  // The largest permitted (distance of a vertex from the face's plane) / (diameter of the face).
   double cut = kCutTolerance;
   double rounding = 0;  // largest rounding error of the difference of two vertices [m]
 };
 
 struct FaceCheck {
   FaceCondition condition = FaceCondition::kFine;
-  double off_plane = 0;  // largest distance of a vertex from the plane [m]; set if the face has area
-  double diameter = 0;   // [m]
+  double off_plane = 0;  // largest distance of a vertex from the face's plane [m]; valid if the area is not 0
+  double diameter = 0;   // largest distance of two vertices of the face [m]
 };
 
 // Removes vertices that equal their predecessor, and spikes: the vertices a, b, a become a. Returns the
 // number of removed vertices.
 int RemoveRepeatedVertices(Polygon3& face);
 
-// Returns the condition of the face. If several conditions apply, the result is the first of: zero area,
-// folded, self-crossing, uneven. A face may touch itself, for instance if a doubled edge joins a hole to the
-// outline. A face is self-crossing if its winding number is neither 0 nor 1 (for a reversed face, -1) in some
-// triangle that is wider than the rounding of its vertices. The rounding of a face's vertices is
-// `tolerances.rounding`, but at most kMostRounding * (diameter of the face). A face that crosses itself and
-// is nowhere wider than the rounding of its vertices has zero area. The condition of a face does not depend
-// on the direction in which its vertices run or on the first vertex.
+// Returns whether the face can be used, or which defect it has (FaceCondition). If several conditions apply,
+// the result is the first of: zero area, folded, self-crossing, uneven. A face may touch itself, for instance
+// if a doubled edge joins a hole to the outline. A face is self-crossing if its winding number is neither 0
+// nor 1 (for a reversed face, -1) in some triangle that is wider than the rounding of its vertices. The
+// rounding of a face's vertices is `tolerances.rounding`, but at most kMostRounding * (diameter of the face).
+// A face that crosses itself and is nowhere wider than the rounding of its vertices has zero area. The
+// condition of a face does not depend on the direction in which its vertices run or on the first vertex.
 FaceCheck CheckFace(const Polygon3& face, const FaceTolerances& tolerances = {});
 
 // Returns the face itself if it is planar; otherwise triangles that fill the face and whose vertices equal
 // those of the face to the bit. A quadrilateral is cut along the diagonal that gives the better shaped
-// triangles. A reversed face gives the same triangles, reversed. REQUIRES: CheckFace() returns kFine or
-// kUneven.
+// triangles. A face with reversed order of vertices gives the same triangles, each with reversed order of
+// vertices. REQUIRES: CheckFace() returns kFine or kUneven.
 std::vector<Polygon3> FlatPieces(const Polygon3& face);
 
 }  // namespace penumbra

@@ -17,12 +17,12 @@ enum class FormatKind {
   kEncoding,  // text in an encoding such as UTF-16
   kSolution,  // a solution file, written by `penumbra solve -o`
   kHdf5,      // an HDF5 file of another program
-  kOther      // a picture, a document, a program, ...
+  kOther      // any other file, such as a picture, a document or a program
 };
 
 struct ForeignFormat {
   FormatKind kind = FormatKind::kOther;
-  std::string_view name;  // such as "a Blender file"
+  std::string_view name;  // name of the format with its article, such as "a Blender file"
 };
 
 // The number of bytes at the beginning of a file that FindForeignFormat() needs.

@@ -17,12 +17,12 @@
 namespace penumbra {
 
 struct ForeignFormatEntry {
-  std::string name;                  // such as "glTF"
+  std::string name;                  // name of the format, such as "glTF"
   std::vector<std::string> endings;  // file endings without the dot; the first tells Assimp the format
-  // The value of ForeignFormat::name for files of this format; empty if their first bytes do not show the
-  // format.
+  // The value of ForeignFormat::name for files of the format; empty if the first bytes of a file do not show
+  // the format.
   std::string description;
-  AssimpImport import;     // AssimpImport::ending is not set
+  AssimpImport import;     // the settings of Assimp for the format, without AssimpImport::ending
   UpAxis up = UpAxis::kZ;  // up axis, by the format's definition or by custom
 };
 

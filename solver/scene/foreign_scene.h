@@ -36,7 +36,7 @@ struct ForeignScene {
   std::vector<std::string> lights;  // names of point lights and other lights without an area
   // The numbers of lines and points, cameras, animations and coloured meshes that are left out.
   std::int32_t lines_and_points = 0, cameras = 0, animations = 0, coloured_meshes = 0;
-  std::vector<std::string> files;  // further files that were read
+  std::vector<std::string> files;  // paths of the further files that were read
   double centimetres = 0;          // length unit of the file in cm; 0 if not given
   std::int32_t up = -1;            // axis that points up: 0, 1 or 2; -1 if not given
 };

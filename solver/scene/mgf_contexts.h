@@ -20,7 +20,7 @@ struct MgfVertex {
 };
 
 struct MgfColour {
-  Vec3 xyz = Vec3::Ones();  // CIE XYZ, scaled to the luminance 1
+  Vec3 xyz = Vec3::Ones();  // the colour as CIE XYZ, scaled to the luminance 1
 };
 
 struct MgfMaterial {
@@ -29,7 +29,8 @@ struct MgfMaterial {
   bool specular = false, transmits = false;
 };
 
-// All contexts of one kind (vertices, colours or materials), one of which is the current context.
+// All contexts (the named definitions of an MGF file) of one kind: vertices, colours or materials. One of the
+// contexts is the current context, which MGF statements use and change.
 template <class Value>
 class MgfContexts {
  public:

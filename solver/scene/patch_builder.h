@@ -15,7 +15,7 @@ namespace penumbra {
 struct PatchReport {
   // sorted indices of faces that lost an overlap to an emitter or an earlier face
   std::vector<std::int32_t> cut_faces;
-  double largest_distance = 0;             // largest distance between planes that count as equal [m]
+  double largest_distance = 0;             // largest distance between two planes that were taken as equal [m]
   std::vector<std::int32_t> narrow_faces;  // sorted indices of faces too narrow to be a patch
 };
 

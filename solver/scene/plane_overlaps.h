@@ -51,7 +51,7 @@ class PlaneTolerance {
 
  private:
   double least_;
-  Vec3 step_;  // slightly less than the unit of rounding, limited by kCoarsestPlane
+  Vec3 step_;  // slightly less than the unit to which coordinates are rounded, limited by kCoarsestPlane
 };
 
 std::vector<Vec2> Project(const PlaneProjection& projection, std::span<const Vec3> points);

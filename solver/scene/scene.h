@@ -33,7 +33,7 @@ inline constexpr double kLargestEmittance = 1e100;
 struct Material {
   std::string name;
   Rgb reflectance = Rgb::Constant(0.5);
-  Rgb emittance = Rgb::Zero();  // [W/m^2]
+  Rgb emittance = Rgb::Zero();  // emittance (radiant exitance) [W/m^2]
 };
 
 // A face is a polygon as the user gave it, such as an `f` line of an OBJ file. In output files, the index of
@@ -53,13 +53,14 @@ struct Object {
 
 // A patch is a convex planar polygon of three or four vertices, the root of a quadtree of elements.
 struct Patch {
-  std::array<Vec3, 4> vertex;  // counter-clockwise seen from the front; vertex[3] is unused in a triangle
-  std::int32_t size = 0;       // number of vertices, 3 or 4
-  std::int32_t material = 0;   // index in Scene::materials
-  std::int32_t object = 0;     // index in Scene::objects
-  Vec3 normal = Vec3::Zero();  // unit normal of the front
-  double area = 0;             // [m^2]
-  double extent = 0;           // the largest absolute coordinate [m], the scale of rounding errors
+  // Vertices, counter-clockwise seen from the front; vertex[3] is unused in a triangle.
+  std::array<Vec3, 4> vertex;
+  std::int32_t size = 0;            // number of vertices, 3 or 4
+  std::int32_t material = 0;        // index in Scene::materials
+  std::int32_t object = 0;          // index in Scene::objects
+  Vec3 normal = Vec3::Zero();       // unit normal of the front
+  double area = 0;                  // area of the patch [m^2]
+  double extent = 0;                // the largest absolute coordinate [m], the scale of rounding errors
   std::vector<std::int32_t> faces;  // indices of the faces that form the patch: one, or two that were joined
 
   std::span<const Vec3> Vertices() const { return {vertex.data(), static_cast<std::size_t>(size)}; }
@@ -74,13 +75,16 @@ Patch MakePatch(std::span<const Vec3> vertices, std::int32_t material, std::int3
 // outline bounds the region that the body hides.
 struct ConvexSolid {
   struct Side {
-    PatchId patch = kNoPatch;    // first patch of the side; kNoPatch if the side is missing, as below a block
-    Vec3 normal = Vec3::Zero();  // unit normal, outwards
-    std::vector<std::int32_t> corner;  // indices in ConvexSolid::corners, counter-clockwise seen from outside
-    // Number of the edge from each corner to the next; the two sides at an edge use the same number.
+    // First patch of the side; kNoPatch if the side is missing, as the bottom of a block may be.
+    PatchId patch = kNoPatch;
+    Vec3 normal = Vec3::Zero();  // unit normal of the side, outwards
+    // Indices of the side's corners in ConvexSolid::corners, counter-clockwise seen from outside.
+    std::vector<std::int32_t> corner;
+    // For each corner, the number of the edge from this corner to the next; the two sides at an edge use the
+    // same number.
     std::vector<std::int32_t> edge;
   };
-  Polygon3 corners;  // [m]
+  Polygon3 corners;  // corners of the solid [m]
   std::vector<Side> sides;
   double extent = 0;  // the largest absolute coordinate [m]
 };

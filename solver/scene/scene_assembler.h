@@ -30,7 +30,7 @@ struct Tally {
   }
 };
 
-// The number with the noun in singular or plural: "1 face", "2 faces".
+// Returns the number, followed by the noun in singular or plural: "1 face", "2 faces".
 std::string Plural(int count, std::string_view noun, std::string_view one = "", std::string_view many = "s");
 
 class SceneAssembler {
@@ -49,12 +49,12 @@ class SceneAssembler {
 
   // Appends the face to scene.faces. Repeated vertices of the face are removed; a face without area keeps its
   // index but loses its vertices. `line` is the line of the face in the file; 0 if the file has no lines.
-  // Throws InputError if the face crosses itself or is far from planar. If SceneOptions::strict is set, also
-  // throws InputError if the face needs a repair. The caller must add the face to Object::faces.
+  // Throws InputError if the face crosses itself or is far from planar. If SceneOptions::strict is set, Add()
+  // also throws InputError if the face needs a repair. The caller must add the face to Object::faces.
   void Add(Face face, int line);
 
-  // Completes the scene after the last face. Finish() reverses the faces (SceneOptions::flip), adds backs
-  // (SceneOptions::two_sided), appends warnings about repairs, and changes the materials
+  // Completes the scene after the last call of Add(). Finish() reverses the faces (SceneOptions::flip), adds
+  // backs (SceneOptions::two_sided), appends warnings about repairs, and changes the materials
   // (SceneOptions::change_materials). Finally, Finish() sets scene.coordinate_step and builds the patches.
   void Finish(const Vec3& coordinate_step);
 
@@ -76,10 +76,10 @@ class SceneAssembler {
   const SceneOptions& options_;
   Scene& scene_;
   std::vector<int> lines_;  // line in the file of each face that was added
-  double rounding_ = 0;     // FaceTolerances::rounding
+  double rounding_ = 0;     // the value of FaceTolerances::rounding for faces that will be added [m]
   Tally repeated_, flat_, uneven_;
-  // The largest deviation of uneven faces from their planes [m], and the same as a fraction of the face's
-  // diameter.
+  // The largest distance d of a vertex of an uneven face from the face's plane [m], and the largest ratio d /
+  // (diameter of the face).
   double largest_off_plane_ = 0, largest_off_share_ = 0;
 };
 

@@ -15,8 +15,8 @@ struct Material;
 
 // Options for reading a scene file.
 struct SceneOptions {
-  bool emission_is_radiance = false;  // if true, Ke is radiance [W/(m^2 sr)]; times pi, it is emittance
-  bool two_sided = false;             // if true, a reversed face n + i is added for each of the n faces i
+  bool emission_is_radiance = false;  // if true, Ke is a radiance [W/(m^2 sr)], and pi * Ke is the emittance
+  bool two_sided = false;  // if true, a reversed copy with index n + i is added for each of the n faces i
   // The upper limit of reflectances, in [0, 1), to which larger reflectances are clamped. If max_reflectance
   // is not set, reflectances outside [0, 1) are an error.
   std::optional<double> max_reflectance = std::nullopt;
@@ -31,7 +31,8 @@ struct SceneOptions {
   bool strict = false;  // if true, faces that would be repaired with a warning are errors
   bool flip = false;    // if true, the order of the vertices of every face is reversed
   // The unit of length of the file, and the axis of the file that points up. If `unit` or `up` is not set,
-  // the file or else its format defines the value; otherwise the unit is the metre, and z points up.
+  // its value is defined by the file, or else by the file's format. If neither the file nor its format
+  // defines them, the unit of length is the metre, and z points up.
   std::optional<LengthUnit> unit = std::nullopt;
   std::optional<UpAxis> up = std::nullopt;
   // A function that is called with the path of every material library before the library is opened; the

@@ -1,6 +1,6 @@
 // solver/scene/scene_reader.h
 //
-// The interface of scene readers. Each kind of source, such as OBJ files, has its own reader.
+// The interface of scene readers. Each kind of scene source, such as OBJ files, has its own reader.
 
 #pragma once
 
@@ -17,21 +17,21 @@ namespace penumbra {
 // The scene that a user has named, with the data by which a scene reader decides whether it can read the
 // scene.
 struct SceneSource {
-  std::string name;            // the name as the user gave it
+  std::string name;            // the name of the scene as the user gave it
   bool is_file = false;        // true if the name is that of a file, a pipe or a device, but not of a folder
-  std::string_view beginning;  // the first kFormatBytes bytes of a regular file, or fewer
+  std::string_view beginning;  // the first bytes of a regular file, at most kFormatBytes
 };
 
 class SceneReader {
  public:
   virtual ~SceneReader() = default;
 
-  // The endings of the names of the files that this reader reads, without the dot.
+  // The endings, without the dot, of the names of the files that the reader reads.
   virtual std::vector<std::string> Endings() const { return {}; }
 
-  // True if the first bytes of the source show a file format that the reader reads. All readers are asked by
-  // RecognisesContent() before Recognises(), because the content of a file determines its format, not its
-  // name.
+  // True if the first bytes of the source show a file format that the reader reads. The program calls
+  // RecognisesContent() of all readers before it calls Recognises() of any reader, because the content of a
+  // file, not its name, determines the file's format.
   virtual bool RecognisesContent(const SceneSource& source) const;
 
   // True if the reader can read the source `source`. By default, a reader recognises files whose name has one

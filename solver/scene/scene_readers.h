@@ -10,7 +10,7 @@ namespace penumbra {
 // recognises.
 SceneReaderRegistry& SceneReaders();
 
-// True if some scene reader reads files whose names end like `path`.
+// True if some scene reader reads files whose names have the same ending as `path`.
 bool HasSceneEnding(const std::string& path);
 
 }  // namespace penumbra

@@ -14,7 +14,8 @@ namespace penumbra {
 // exceeds the projection error by several orders of magnitude, and is far smaller than the details of
 // pictures and interpolants.
 inline constexpr double kSnap = 1e-9;  // (snap distance) / (diameter of the patch)
-// The value of (snap distance) / (largest coordinate of the patch), about 4e3 times the rounding of a double.
+// The value of (snap distance) / (largest coordinate of the patch), about 4e3 times the relative rounding
+// error of a double.
 inline constexpr double kSnapCoordinate = 1e-12;
 double SnapDistance(const Patch& patch);
 

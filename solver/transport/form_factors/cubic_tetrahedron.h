@@ -15,8 +15,8 @@ namespace penumbra {
 // horizon cuts the cells along the face's diagonal into halves.
 std::vector<PlaneGrid> CubicTetrahedronPlanes(int resolution, CellRule rule = CellRule::kExact);
 
-// The form-factor method `cubic-tetrahedron`, by default with 142 cells along a side of each face. All faces
-// of this cubic tetrahedron together have about as many cells as a hemicube of resolution 100.
+// The form-factor method `cubic-tetrahedron`, by default with 142 cells along a side of each face. The
+// default cubic tetrahedron has about as many cells as a hemicube of resolution 100.
 LinkFormFactorRegistry::Method CubicTetrahedronMethod();
 
 }  // namespace penumbra

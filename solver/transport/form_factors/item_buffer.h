@@ -19,15 +19,15 @@ namespace penumbra {
 struct DrawnPolygon {
   PatchId patch = kNoPatch;
   std::span<const Vec3> vertices;  // vertices [m], in the plane of the patch
-  // index of the form factor to which the polygon's cells add if its front is visible; -1: the polygon only
-  // hides others
+  // Index of the form factor to which cells that show the polygon's front are added; -1 if the polygon only
+  // hides other polygons.
   std::int32_t target = -1;
 };
 
 // The point from which the form factors are computed, with the axes of its frame; z is the surface normal.
 struct Eye {
   PatchId own = kNoPatch;
-  Vec3 position = Vec3::Zero();  // [m]
+  Vec3 position = Vec3::Zero();  // position of the eye [m]
   Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
 };
 
@@ -45,7 +45,8 @@ class ItemBuffer {
 
  private:
   struct Cell {
-    // distance to the polygon, in units of the ray's length to the cell; 0: the cell shows no polygon
+    // (distance from the eye to the polygon) / (distance from the eye to the cell), along the ray through the
+    // cell's sample point; 0 if the cell shows no polygon
     double distance = 0;
     PatchId patch = kNoPatch;
     std::int32_t target = -1;

@@ -1,6 +1,6 @@
 // solver/transport/form_factors/pair_form_factor.h
 //
-// The common parts of those form-factor methods that treat one pair of areas at a time, by rays or by
+// The common code of those form-factor methods that treat one pair of areas at a time, by rays or by
 // integrals.
 
 #pragma once
@@ -18,10 +18,11 @@ namespace penumbra {
 struct SightedPair {
   const Scene& scene;
   PatchId sender_patch = kNoPatch, target_patch = kNoPatch;
-  std::span<const Vec3> sender, target;  // convex polygons [m]
-  std::span<const PatchId> blockers;     // patches, with at least one blocker of every blocked segment
+  std::span<const Vec3> sender, target;  // vertices of the two convex polygons [m]
+  std::span<const PatchId> blockers;     // a list with at least one blocker of every blocked segment
   std::size_t rays = 0;
-  // random generators; of_sender: the same generator for all targets of a sender; of_pair: for this pair only
+  // Two random generators: of_sender is the same for all targets of a sender, and of_pair belongs to this
+  // pair of polygons only.
   Random of_sender, of_pair;
 
   const Vec3& SenderNormal() const { return scene.patches[static_cast<std::size_t>(sender_patch)].normal; }
@@ -42,13 +43,14 @@ Vec3 UniformPoint(std::span<const Vec3> polygon, double s, double t);
 // other.
 double PointKernel(const SightedPair& pair, const Vec3& at_sender, const Vec3& at_target);
 
-// The mean of random values and its standard error.
+// The mean of random samples, and the standard error of the mean.
 class SampleMean {
  public:
-  // Adds one sample; `most` is the value that the sample would have without blockers.
+  // Adds a sample with the value `value`; `most` is the value that the sample would have without blockers.
   void Add(double value, double most);
-  // The estimated error is sqrt((standard error)^2 + (largest unblocked value / count)^2). The term (largest
-  // unblocked value / count)^2 keeps the error above 0 if all samples happen to be blocked.
+  // The estimated error of the mean of the samples is sqrt((standard error)^2 + (largest unblocked value /
+  // number of samples)^2). The term (largest unblocked value / number of samples)^2 keeps the error above 0
+  // if all samples happen to be blocked.
   FormFactorEstimate Estimate() const;
 
  private:
@@ -63,8 +65,9 @@ class PairFormFactor final : public LinkFormFactorMethod {
   PairFormFactor(PairRule rule, std::size_t link_rays, bool sampled, const LinkFormFactorOptions& options);
 
   void Find(ReceiverLinks* links, const ExecutionContext& context) const override;
-  // Each sending part casts a number of rays in proportion to its area. The error of a sum over pairs is the
-  // root of the sum of squared errors if the pairs have standard errors, and the sum of errors otherwise.
+  // Each sending part casts a number of rays in proportion to its area. If the form factors of pairs of parts
+  // have standard errors, the error of their sum is the root of the sum of squared errors; otherwise, it is
+  // the sum of the errors.
   std::optional<FormFactorEstimate> Between(const Scene& scene, std::span<const AreaPart> from,
                                             std::span<const AreaPart> to,
                                             const ExecutionContext& context) const override;

@@ -14,8 +14,8 @@ namespace penumbra {
 // How the form factor of a cell of the plane is computed.
 enum class CellRule {
   kExact,  // the exact form factor of the cell's square: all cells of a hemicube add up to 1
-  // (integrand of the form factor at the cell's centre) * (area), as printed by Ashdown (1994, eq. 5.15, 5.18
-  // and 5.25)
+  // (integrand of the form factor at the cell's centre) * (area of the cell), as printed by Ashdown (1994,
+  // eq. 5.15, 5.18 and 5.25)
   kCentre,
 };
 
@@ -24,11 +24,11 @@ enum class CellRule {
 struct PlaneGrid {
   Vec3 right = Vec3::UnitX(), up = Vec3::UnitY(), ahead = Vec3::UnitZ();
   Vec2 low = Vec2::Zero();  // coordinates of the corner of cell (0, 0), along `right` and `up`
-  double cell = 1;          // side of a cell
+  double cell = 1;          // side length of a cell, relative to the distance between the plane and the point
   int columns = 0, rows = 0;
   // True if the plane is a face of a cubic tetrahedron. In each row of a cubic tetrahedron's face, the
-  // horizon cuts cell (columns - 1 - row, row) into halves, of which the upper right one lies above the
-  // horizon. In a cubic tetrahedron's face, cells to the left of the halved cell lie below the horizon.
+  // horizon cuts cell (columns - 1 - row, row) into halves, and the upper right half lies above the horizon.
+  // In a cubic tetrahedron's face, cells to the left of the halved cell lie below the horizon.
   bool halved = false;
   std::vector<double> delta;  // the form factor of each cell, row by row
 

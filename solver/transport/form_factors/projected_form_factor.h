@@ -1,7 +1,7 @@
 // solver/transport/form_factors/projected_form_factor.h
 //
-// The common parts of hemicube, cubic tetrahedron and single plane: form factors are found by drawing the
-// scene, as seen from a point, on planes around the point.
+// The common code of the methods hemicube, cubic tetrahedron, single plane and two planes: form factors are
+// found by drawing the scene, as seen from a point, on planes around the point.
 
 #pragma once
 
@@ -21,15 +21,15 @@ using PlaneMaker = std::function<std::vector<PlaneGrid>(int resolution)>;
 // Computes a form factor as the mean of point form factors, each of which is found by drawing the scene on
 // planes around the point. The points from which the scene is projected lie on the receiver of a link, or on
 // the sender of a form factor between areas. At each point, the planes are turned about the normal by a
-// seeded random angle (Ashdown 1994, 5.10). For a link, the points are those of Cubature(): 4 on a
-// quadrilateral, 3 on a triangle.
+// seeded random angle (Ashdown 1994, 5.10). For a link, the scene is projected from the points of Cubature():
+// 4 points on a quadrilateral, 3 on a triangle.
 //
 // For a form factor between areas, each part of the sender has four times as many sample points as the
-// receiver of a link. The error of a form factor between areas is a sum of three terms, an estimate and not a
-// bound. The error of a form factor between areas contains |change if a quarter of the points and half the
-// resolution are used|. The error of a form factor between areas also contains the fraction of the flux that
-// misses all planes. The error of a form factor between areas also contains (largest form factor of a cell) /
-// sqrt(number of points), because the drawn image of a target is up to one cell too large or too small.
+// receiver of a link. The stated error of a form factor between areas is an estimate, not a bound, and is the
+// sum of three terms. The first error term is the difference from the form factor that a quarter of the
+// points and half the resolution give. The second error term is the fraction of the flux that misses all
+// planes. The third error term is (largest form factor of a cell) / sqrt(number of points), because the drawn
+// image of a target is up to one cell too large or too small.
 class ProjectedFormFactor final : public LinkFormFactorMethod {
  public:
   // `standard` is the resolution of the planes if LinkFormFactorOptions::resolution is 0.

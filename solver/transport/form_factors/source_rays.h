@@ -24,7 +24,7 @@ FormFactorEstimate PointFactorByRays(const SightedPair& pair, const Vec3& at, st
 // The mean of PointFactorByRays() over the points of Cubature() on the sender. Each point of the sender casts
 // max(1, pair.rays / (number of points)) rays. With more than 1000 rays, the points of the sender are those
 // of Cubature() on 4 quarters of the sender. The error of FactorBySourceRays() is (standard error) +
-// |difference from a rule with fewer points|, which tells whether the points suffice.
+// |difference from the mean over fewer points of the sender|.
 FormFactorEstimate FactorBySourceRays(const SightedPair& pair, RayFormula formula);
 
 }  // namespace penumbra

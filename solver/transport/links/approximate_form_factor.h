@@ -26,7 +26,7 @@ FormFactorEstimate DiskFormFactor(const Scene& scene, std::span<const AreaPart> 
 
 // The mean of exact point form factors to the visible part of the receiver, over the points of Cubature() on
 // 16 pieces of each sending part (thesis 4.2, method 3). The stated error is an estimate, not a bound: the
-// difference from the form factor with 4 pieces instead of 16.
+// difference from the form factor with 4 pieces of each sending part instead of 16.
 FormFactorEstimate CubatureFormFactor(const Scene& scene, std::span<const AreaPart> from,
                                       std::span<const AreaPart> to, const ExecutionContext& context = {});
 

@@ -6,9 +6,10 @@
 // source radiosity B and form factor F, arises because the irradiance varies over the receiver. The source
 // error, F * spread(B) * variation(F) for source radiosity B and form factor F, arises because the radiosity
 // varies within the source's quarters. The AreaWeightedOracle multiplies both errors of a link by
-// sqrt(receiver area / reference area), and compares the products with eps and with a fraction of eps. The
-// factor sqrt(receiver area / reference area) has two effects. The first effect of the area factor: the sum
-// of the squared link errors equals the squared error over the scene. The second effect of the area factor:
+// sqrt(receiver area / reference area). The product for the receiver error is compared with eps, the largest
+// allowed link error, and the product for the source error with a fraction of eps. Because of the factor
+// sqrt(receiver area / reference area), the sum of the squared link errors is proportional to the squared
+// error integrated over the scene. Because errors are multiplied by sqrt(receiver area / reference area),
 // refinement ends even along edges where walls meet, where form factors vary at every scale.
 
 #pragma once
@@ -17,8 +18,8 @@
 
 namespace penumbra {
 
-// Splits that end of a link, receiver or source, that causes the larger transport error. Derived classes
-// define deviation(F), the deviation of the form factor over the receiver.
+// An AreaWeightedOracle splits that end of a link, receiver or source, that causes the larger transport
+// error. Derived classes define deviation(F), the deviation of the form factor over the receiver.
 class AreaWeightedOracle : public RefinementOracle {
  public:
   explicit AreaWeightedOracle(const OracleOptions& options) : options_(options) {}

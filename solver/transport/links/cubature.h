@@ -13,7 +13,7 @@
 namespace penumbra {
 
 struct CubaturePoint {
-  Vec3 position;      // [m]
+  Vec3 position;      // position of the sample point [m]
   double weight = 0;  // the weights of a cubature rule add up to 1
 };
 

@@ -54,13 +54,14 @@ Vec3 LatticePosition(const Patch& patch, const LatticePoint& p);
 struct Element {
   PatchId patch = kNoPatch;
   ElementId parent = kNoElement;
-  // the four children have consecutive ids; kNoElement if the element is a leaf
+  // The id of the first of the four children, which have consecutive ids; kNoElement if the element is a
+  // leaf.
   ElementId first_child = kNoElement;
   std::int32_t level = 0;              // 0 for the root element
   std::int32_t size = 0;               // number of corners: 3 or 4
   std::array<LatticePoint, 4> corner;  // corners, counter-clockwise; the fourth is unused in a triangle
   std::array<Vec3, 4> vertex;          // positions of the corners [m]
-  double area = 0;                     // [m^2]
+  double area = 0;                     // area of the element [m^2]
 
   bool IsLeaf() const { return first_child == kNoElement; }
   std::span<const Vec3> Vertices() const { return {vertex.data(), static_cast<std::size_t>(size)}; }

@@ -10,9 +10,10 @@
 namespace penumbra {
 
 // Sets Link::form_factor, variation, share and source_variation of each link. Samples the point form factor
-// at the points of Cubature() on that part of the receiver that lies before the source's plane. For sources
-// that reflect nothing, all entries of Link::share stay 1/4, because the radiosity of such a source is
-// constant. If the computation is cancelled (ExecutionContext), the links' values must not be used.
+// at the points of Cubature() on that part of the receiver that lies before the source's plane. Link::share,
+// the fractions of the form factor that the source's quarters contribute, stays 1/4 for sources that reflect
+// nothing, because the radiosity of such a source is constant. If the computation is cancelled
+// (ExecutionContext), the links' values must not be used.
 void FindByCubature(ReceiverLinks* links, const ExecutionContext& context);
 
 }  // namespace penumbra

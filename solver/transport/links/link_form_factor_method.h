@@ -22,7 +22,7 @@ struct LinkView {
   // A subset of the link's blockers that contains, for every blocked segment between the ends of the link, at
   // least one patch that blocks the segment.
   std::vector<PatchId> blockers;
-  Polygon3 lit;  // the part of the receiver before the source's plane [m]; empty: the whole receiver
+  Polygon3 lit;  // the part of the receiver before the source's plane [m]; empty if it is the whole receiver
   // (area of the receiver's part before the source's plane) / (area of the receiver)
   double lit_fraction = 1;
 };
@@ -41,9 +41,10 @@ class LinkFormFactorMethod {
   virtual ~LinkFormFactorMethod() = default;
 
   // Sets the members form_factor, variation, share and source_variation of all links. Before the call of
-  // Find(), form_factor, variation, share and source_variation have the values of a link that transports no
-  // light. The part of the receiver behind the source's plane counts as unlit. Several threads may call
-  // Find() at once. If the computation is cancelled (ExecutionContext), the links' values must not be used.
+  // Find(), form_factor, variation, share and source_variation have the initial values of a link without
+  // light transport. The part of the receiver behind the source's plane counts as unlit. Several threads may
+  // call Find() at once. If the computation is cancelled (ExecutionContext), the links' values must not be
+  // used.
   virtual void Find(ReceiverLinks* links, const ExecutionContext& context) const = 0;
 
   // The form factor sum A_i F_ij / sum A_i of all parts i in `from` to all parts j in `to`; any patch of the
@@ -58,8 +59,8 @@ class LinkFormFactorMethod {
   }
 
   // True if Find() computes the form factors of all links of the receiver in one view from the receiver, as a
-  // hemicube does. For one shooter and many receivers, one view from the shooter then costs less than a view
-  // from each receiver.
+  // hemicube does. If SeesAllAtOnce() is true, and one patch shoots light to many receivers, one view from
+  // the shooting patch costs less than a view from each receiver.
   virtual bool SeesAllAtOnce() const { return false; }
 };
 
@@ -72,10 +73,10 @@ struct LinkFormFactorOptions {
   // `max_points` the largest number of points for one form factor.
   double tolerance = 1e-7;
   std::size_t max_points = 100'000;
-  // number of cells along a side of the planes of hemicubes and similar methods; 0: the default of the
-  // method
+  // The number of cells along a side of the projection planes, for hemicubes and similar methods; 0 selects
+  // the default of the method.
   std::size_t resolution = 0;
-  std::size_t rays = 0;    // number of rays for one form factor; 0: the default of the method
+  std::size_t rays = 0;    // number of rays for one form factor; 0 selects the default of the method
   std::uint64_t seed = 1;  // seed of random rotations of planes and of random rays
   // If true, Find() needs to compute only Link::form_factor, not Link::variation and Link::share.
   bool factors_only = false;

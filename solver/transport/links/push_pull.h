@@ -16,8 +16,8 @@ namespace penumbra {
 
 // The order in which a sweep (a gather over all links) updates the elements.
 enum class IterationScheme : std::uint8_t {
-  kJacobi,       // all elements gather the light from before the sweep (as in the thesis)
-  kGaussSeidel,  // patch after patch gathers the newest light
+  kJacobi,       // all elements gather the radiosities from before the sweep (as in the thesis)
+  kGaussSeidel,  // patch after patch gathers the newest radiosities
 };
 
 class PushPull {
@@ -27,7 +27,7 @@ class PushPull {
   explicit PushPull(RadiositySolution& solution);
 
   // Update() must be called after links or elements have changed. Update() rebuilds the index of links, gives
-  // new elements the light of their parents, and undoes Balance().
+  // new elements the light of their parents, and removes the scale factors of Balance().
   void Update();
 
   // Scales the light that links bring to each leaf. After Balance(), the irradiance of the leaf leaves()[i]
@@ -44,7 +44,7 @@ class PushPull {
   // All leaves (elements without children), patch by patch, in the order of their creation.
   std::span<const ElementId> leaves() const { return leaves_; }
 
-  // Makes one sweep: sets the irradiance of each leaf to the light of its links plus correction[leaf]
+  // Makes one sweep: sets the irradiance of each leaf to (irradiance from the links) + correction[leaf]
   // [W/m^2], and updates the leaf's radiosity. `correction` is indexed by ElementId, or empty. Sweep()
   // returns the largest change of a leaf's radiosity for each channel [W/m^2].
   Rgb Sweep(IterationScheme scheme, std::span<const Rgb> correction);
@@ -78,7 +78,8 @@ class PushPull {
   std::vector<std::size_t> first_of_patch_;  // index of each patch's first element in order_
   std::vector<ElementId> order_;             // all elements, patch by patch, parents before children
   std::vector<ElementId> leaves_;
-  // for each leaf, indexed by ElementId, the factor by which Balance() scales the light of links; or empty
+  // The factor by which Balance() scales the irradiance that links bring to each leaf, indexed by ElementId;
+  // empty if no light is scaled.
   std::vector<double> scale_;
 };
 

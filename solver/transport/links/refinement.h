@@ -15,8 +15,8 @@
 
 namespace penumbra {
 
-// New links, and the old links that the new links replace. The spans LinkCandidate::blockers refer to memory
-// of the solution's links.
+// A plan of refinement: the new links, and the old links that the new links replace. The spans
+// LinkCandidate::blockers refer to memory of the solution's links.
 struct RefinementPlan {
   std::vector<char> dropped;  // dropped[l] is 1 if old link l is replaced
   std::vector<LinkGroup> groups;

@@ -24,10 +24,11 @@ class RefinementOracle {
 };
 
 struct OracleOptions {
-  double eps = 0.1;  // [W/m^2]
-  // smallest area of an element [m^2]; an element smaller than 4 * min_area is not split
+  double eps = 0.1;  // largest error of a link between elements [W/m^2]
+  // smallest area of an element [m^2]; an element with less than 4 * min_area is not split
   double min_area = 1e-5;
-  // the area of an element [m^2] at which the error of a link is compared with eps itself
+  // The oracle compares (link error) * sqrt((receiver area) / reference_area) with eps; reference_area is an
+  // area [m^2].
   double reference_area = 1;
 };
 

@@ -16,13 +16,13 @@
 
 namespace penumbra {
 
-// The transport of light from a source element to a receiver element. Receiver and source may be at any level
-// of their quadtrees. For any two points that see each other, exactly one link in each direction connects
-// elements that contain the two points.
+// The transport of light from a source element to a receiver element. Receiver and source of a link may be at
+// any level of their quadtrees. For any two points that see each other, exactly one link in each direction
+// connects elements that contain the two points.
 struct Link {
   ElementId receiver = kNoElement, source = kNoElement;
-  double form_factor =
-      0;  // F(receiver <- source) [1]: (mean irradiance of the receiver) / (radiosity of the source)
+  // The form factor F(receiver <- source) [1]: (mean irradiance of the receiver) / (radiosity of the source).
+  double form_factor = 0;
   double variation = 0;  // root mean square deviation of the point form factors over the receiver [1]
   // share[k] = (form factor of quarter k of the source) / (form factor of the source); the sum over k is 1.
   // Weighted by the fractions share[k], a source that has children sends the radiosities of its four children
@@ -51,8 +51,8 @@ struct LinkSet {
 struct Fragment {
   ElementId leaf = kNoElement;
   Polygon3 polygon;  // vertices [m], counter-clockwise as seen from the front
-  double area = 0;   // [m^2]
-  Rgb irradiance = Rgb::Zero(), radiosity = Rgb::Zero();  // [W/m^2]
+  double area = 0;   // area of the fragment [m^2]
+  Rgb irradiance = Rgb::Zero(), radiosity = Rgb::Zero();  // irradiance and radiosity of the fragment [W/m^2]
 };
 
 // The fragments (convex pieces) of a leaf. REQUIRES: `fragments` is sorted by leaf.

@@ -1,8 +1,9 @@
 // solver/transport/points/factor_row.h
 //
 // A FactorRow holds the form factors of one point to nodes of the sources' quadtrees: one row of the light
-// transport operator. Irradiance is linear in the radiosities. For new radiosities of the same sources, a
-// stored FactorRow therefore gives the irradiance as a sum of products, without new visibility tests.
+// transport operator. Irradiance is linear in the radiosities of the sources. For new radiosities of the same
+// sources, a stored FactorRow therefore gives the irradiance as a sum of products, without new visibility
+// tests.
 
 #pragma once
 
@@ -38,12 +39,14 @@ struct FactorRow {
   };
   std::vector<Source> sources;
   std::vector<FactorTerm> terms;
-  // the largest fraction of the point's light that returns after one reflection at a source (SentBack) [1]
+  // The largest fraction of the point's light that returns to the point after one reflection at a source
+  // (SentBack) [1].
   double returned = 0;
 };
 
 // The irradiance from the terms [first, end) of a row [W/m^2]. The irradiance from a range of terms is linear
-// in the radiosities of the SourceSet, and may be slightly negative because of errors of the slopes.
+// in the radiosities of the SourceSet, and may be slightly negative because of errors of the estimated slopes
+// of radiosity.
 Rgb Irradiance(const FactorRow& row, std::uint32_t first, std::uint32_t end, const SourceSet& sources);
 // The irradiance from all terms of the row, clamped to values >= 0 [W/m^2].
 Rgb Irradiance(const FactorRow& row, const SourceSet& sources);

@@ -4,7 +4,7 @@
 // over elements. Direct light is computed by shadow rays (ShadowRays). Reflected light is gathered by rays in
 // a fixed, cosine-distributed pattern of directions: each ray brings the reflected radiosity of the element
 // that the ray hits. All points with the same normal use the same ray directions, so that the irradiance of
-// neighbouring points varies smoothly, without noise. The cost of a final gather grows only with the
+// neighbouring points varies smoothly, without noise. The time of a final gather grows only with the
 // logarithm of the number of polygons in the scene.
 //
 // The median relative error of a final gather with n rays is about 0.1 / sqrt(n), measured in a scene of

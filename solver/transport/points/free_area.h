@@ -1,8 +1,8 @@
 // solver/transport/points/free_area.h
 //
 // The free area of each patch: the area that other objects do not cover. For example, a box on a floor covers
-// a part of the floor, which no light reaches. The sum of the floor's form factors is therefore (free area) /
-// area instead of 1.
+// a part of the floor, which no light reaches. The sum of the form factors of a partly covered floor is (free
+// area) / area instead of 1.
 
 #pragma once
 
@@ -18,10 +18,10 @@ namespace penumbra {
 // One of the parts into which contacts (lines where other surfaces touch) divide a patch, with the kinds of
 // surfaces that the part's centroid sees.
 struct ContactPart {
-  Polygon3 polygon;  // convex, in the plane of the patch
-  double area = 0;   // [m^2]
+  Polygon3 polygon;  // convex polygon in the plane of the patch
+  double area = 0;   // area of the part [m^2]
   bool sees_fronts = false;
-  bool sees_sky = false;  // computed only if sees_fronts is false
+  bool sees_sky = false;  // true if the part's centroid sees the sky; computed only if sees_fronts is false
 };
 
 // The parts into which contacts, the lines where other surfaces touch, divide each patch. ContactParts() uses

@@ -28,8 +28,8 @@ struct PointIrradianceOptions {
   double nudge = 0;
   double source_push_off = 0;
   // If `method` is null and min_backprojection_segment is positive, the visibility method is Backprojection.
-  // Backprojection then collapses segments of blockers' outlines that are shorter than
-  // min_backprojection_segment * (diameter of the source's image).
+  // Backprojection collapses segments of blockers' outlines that are shorter than min_backprojection_segment
+  // * (diameter of the source's image).
   double min_backprojection_segment = 0;
   // PointIrradiance::NearlyOnPatch() multiplies its tolerance by part_of_tolerance [1]. In nearly white
   // rooms, part_of_tolerance must be small, because light that a sample omits is missing in each of many
@@ -40,7 +40,7 @@ struct PointIrradianceOptions {
 // The irradiance that a point receives from one patch.
 struct PatchContribution {
   PatchId source = kNoPatch;
-  Rgb irradiance = Rgb::Zero();  // [W/m^2]
+  Rgb irradiance = Rgb::Zero();  // irradiance that the patch brings to the point [W/m^2]
 };
 
 // The gradient of irradiance [W/m^3]: row c holds the derivatives of channel c with respect to x, y and z.
@@ -52,9 +52,8 @@ struct IrradianceParts {
   // The gradient of irradiance with respect to the position of the point, with a fixed normal. Edges of
   // surfaces that pass through the point contribute nothing to the gradient.
   IrradianceGradient gradient = IrradianceGradient::Zero();
-  std::vector<PatchContribution>
-      // the contributions of all patches that light the point, in the order of the calls of AddSource()
-      contributions;
+  // The contributions of the patches that light the point, in the order of the calls of AddSource().
+  std::vector<PatchContribution> contributions;
 };
 
 // The fraction of a point's light that returns to the point after one reflection at the patch `source`: the
@@ -74,8 +73,8 @@ double AggregateTolerance(double tolerance, double returned, const Rgb& light, c
 class Gathering {
  public:
   // If options.method is null, blockers are cut out of the whole quadtree of a source at once, which is
-  // fastest. If options.method is not null, this method computes the form factor of every source polygon that
-  // blockers hide in part. `parts` may be null. All arguments must outlive the Gathering.
+  // fastest. If options.method is not null, *options.method computes the form factor of every source polygon
+  // that blockers hide in part. `parts` may be null. All arguments must outlive the Gathering.
   Gathering(const Scene& scene, const SourceSet& sources, const ReceiverPoint& at,
             const PointIrradianceOptions& options, IrradianceParts* parts);
   ~Gathering();
@@ -97,20 +96,21 @@ class Gathering {
   void RecordRow(FactorRow& row) { row_ = &row; }
 
   // Allows subsequent calls of AddSource() to replace a subtree of a source by an aggregate, one polygon with
-  // one radiosity, for speed. The aggregates of a source may cause an error of about tolerance *
-  // max(unoccluded light of the source, c * light of all sources added earlier), with a constant c < 1.
-  // Gathering reduces this tolerance by the factor (1 - r)^2, where r is the largest SentBack() of the
-  // sources added so far. Because the allowed error grows with the light of earlier sources, sources should
-  // be added in order of decreasing brightness. If `known`, the approximate irradiance of the point, exceeds
-  // the light of all sources added earlier, `known` replaces this light in the allowed error. If
-  // `mostly_hidden` is true, blockers hide most of the light at the point, and the allowed error does not
-  // depend on the unoccluded light of the source. REQUIRES: the point lies on a patch.
+  // one radiosity, for speed. Aggregates may change the light of a source by about tolerance * max(unoccluded
+  // light of the source, c * light of all sources added earlier), with a constant c < 1. Gathering multiplies
+  // the tolerance of aggregates by (1 - r)^2, where r is the largest SentBack() of the sources added so far.
+  // Because the allowed error grows with the light of earlier sources, sources should be added in order of
+  // decreasing brightness. If `known`, the approximate irradiance of the point, exceeds the light of all
+  // sources added earlier, `known` replaces this light in the allowed error. If `mostly_hidden` is true,
+  // blockers hide most of the light at the point, and the allowed error does not depend on the unoccluded
+  // light of the source. REQUIRES: the point lies on a patch.
   void AllowAggregates(double tolerance, const Rgb& known = Rgb::Zero(), bool mostly_hidden = false);
   // The irradiance that the sources added so far would give without blockers [W/m^2]. unhindered() excludes
   // sources that blockers hide completely. REQUIRES: AllowAggregates() was called.
   const Rgb& unhindered() const { return unhindered_; }
   // True if sources that contribute at most `light` in total may be omitted: in every channel, `light` is at
-  // most (reduced tolerance of AllowAggregates()) / 4 * (light of the sources added so far).
+  // most (1 - r)^2 * tolerance / 4 * (light of the sources added so far), with r and tolerance as in
+  // AllowAggregates().
   bool IsNegligible(const Rgb& light) const;
 
   const Rgb& irradiance() {
@@ -156,23 +156,24 @@ class Gathering {
   PointView view_;
   std::vector<Occluder>& occluders_;  // occluders of the current source
   Scratch<Buffers> buffers_;
-  Clipper& clipper_;  // the clipper in buffers_
+  Clipper& clipper_;  // the Clipper object in buffers_
   double tolerance_ = 0;
-  Rgb known_ = Rgb::Zero();     // approximate irradiance of the point; zero: unknown
+  Rgb known_ = Rgb::Zero();     // approximate irradiance of the point; zero if it is unknown
   bool mostly_hidden_ = false;  // true if blockers hide most of the light at the point; see AllowAggregates()
   Rgb unhindered_ = Rgb::Zero();  // irradiance without blockers, unhindered(); set if tolerance_ > 0
-  Rgb so_far_ = Rgb::Zero();      // approximate light of the completed sources; set if tolerance_ > 0
-  // largest fraction of light that a source so far sends back (SentBack); set if tolerance_ > 0
+  Rgb so_far_ = Rgb::Zero();  // approximate irradiance from the sources added so far; set if tolerance_ > 0
+  // The largest fraction of the point's light that a source added so far sends back to the point (SentBack);
+  // set if tolerance_ > 0.
   double returned_ = 0;
   // Data of the current source, if tolerance_ > 0: the tolerance for the source's light, the source's normal,
   // and the unoccluded form factor of the source's part above the horizon.
   double tolerance_here_ = 0;
   Vec3 source_normal_ = Vec3::Zero();
   double whole_ = 0;
-  double factor_ = 0;  // form factor of the current source, so far
+  double factor_ = 0;  // form factor to the visible part of the current source, summed up so far
   Rgb irradiance_ = Rgb::Zero();
-  std::span<double> factors_;  // form factor of each leaf of the source set; empty: not recorded
-  FactorRow* row_ = nullptr;   // the row to which form factors are appended; null: none
+  std::span<double> factors_;  // form factor to each leaf of the source set; empty if not recorded
+  FactorRow* row_ = nullptr;   // the row to which form factors are appended; null if none
 };
 
 }  // namespace penumbra

@@ -38,12 +38,12 @@ struct LeafCells {
 // The mean reflected radiosity over the fronts of all patches of the scene [W/m^2].
 Rgb MeanReflected(const RadiositySolution& solution);
 
-// Computes the light that a leaf receives from the sources of `exact`. Parts of the leaf are halved by lines
-// parallel to one of their edges, until a few pieces in each direction suffice to meet options.error. The
-// error of a piece of constant radiosity is estimated by a multiple of (change of radiosity over the piece) *
-// (width of the piece) / (distance to the nearest patch that sees the piece). `start` holds the initial parts
-// of the leaf: the parts from an earlier call, or the pieces into which contacts with other surfaces divide
-// the leaf.
+// Computes the light that a leaf receives from the sources of the PointIrradiance `exact`. Parts of the leaf
+// are halved by lines parallel to one of their edges, until a few pieces in each direction suffice to meet
+// options.error. The error of a piece of constant radiosity is estimated by a multiple of (change of
+// radiosity over the piece) * (width of the piece) / (distance to the nearest patch that sees the piece).
+// `start` holds the initial parts of the leaf: the parts from an earlier call, or the pieces into which
+// contacts with other surfaces divide the leaf.
 LeafCells CutLeaf(const RadiositySolution& solution, const PointIrradiance& exact, ElementId leaf,
                   std::vector<Polygon3> start, const LeafCellOptions& options);
 

@@ -15,7 +15,7 @@
 namespace penumbra {
 
 struct LeafIrradiance {
-  Rgb mean = Rgb::Zero();  // [W/m^2]
+  Rgb mean = Rgb::Zero();  // mean irradiance of the leaf [W/m^2]
   // mean irradiance of each fragment (convex part) of the leaf, if the leaf is cut [W/m^2]
   std::vector<Rgb> fragments;
 };

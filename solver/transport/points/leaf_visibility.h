@@ -36,8 +36,8 @@ class LeafVisibility {
   }
 
  private:
-  std::vector<std::pair<std::size_t, std::size_t>>
-      range_;  // range of each element's sources in pairs_; empty unless the element is a leaf
+  // For each element, the range of its sources in pairs_; empty unless the element is a leaf.
+  std::vector<std::pair<std::size_t, std::size_t>> range_;
   std::vector<PatchPair> pairs_;
   std::vector<PatchId> blockers_;
 };

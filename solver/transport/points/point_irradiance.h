@@ -32,7 +32,7 @@
 namespace penumbra {
 
 struct PointIrradianceResult {
-  Rgb irradiance = Rgb::Zero();  // [W/m^2]
+  Rgb irradiance = Rgb::Zero();  // irradiance at the point [W/m^2]
   // True if the irradiance is a one-sided limit, which depends on the direction from which the point is
   // approached. Triangles on different sides of a contact (line where another surface touches) must not share
   // a one-sided irradiance sample, because their one-sided limits may differ.
@@ -72,9 +72,10 @@ class PointIrradiance {
   PointIrradiance WithSources(SourceSet sources) const;
 
   // The irradiance at a point on the front of a patch. OnPatch() tests only the sources that the leaf at the
-  // point may see, and the blockers of these sources. Without a solution, OnPatch() tests the sources and
-  // blockers that the patch may see. The patch itself neither lights the point nor blocks light. If `parts`
-  // is not null, OnPatch() sets `parts` to the parts of the irradiance. Any thread may call OnPatch().
+  // point may see, and the blockers of these sources. If the PointIrradiance was made without a solution,
+  // OnPatch() tests the sources and blockers that the patch may see. The patch itself neither lights the
+  // point nor blocks light. If `parts` is not null, OnPatch() stores the direct light, the gradient and the
+  // contribution of each patch in `parts`. Any thread may call OnPatch().
   PointIrradianceResult OnPatch(PatchId patch, const ReceiverPoint& at,
                                 IrradianceParts* parts = nullptr) const;
 
@@ -99,7 +100,7 @@ class PointIrradiance {
   bool CanRecord() const { return options_.method == nullptr && forest_ != nullptr && !gather_; }
   // Brings a row of form factors up to date with the present radiosities of sources(). Renew() replaces the
   // terms of each source whose error would exceed a few times `tolerance`, because the radiosity varies too
-  // much over one of its nodes or because a term has no node (-1). Renew() also adds the terms of
+  // much over a node of the source or because a term has no node (-1). Renew() also adds the terms of
   // `new_sources`. Renew() returns the number of sources whose form factors were computed anew. REQUIRES:
   // CanRecord() is true.
   std::size_t Renew(PatchId patch, const ReceiverPoint& at, double tolerance,
@@ -150,8 +151,8 @@ class PointIrradiance {
   PointIrradianceOptions options_;
   // the visibility method in options_, if this PointIrradiance made the method
   std::shared_ptr<const OcclusionMethod> method_;
-  PatchHierarchy patches_;         // all patches of the scene
-  PatchHierarchy source_patches_;  // the patches that send light
+  PatchHierarchy patches_;         // bounding volumes of all patches of the scene
+  PatchHierarchy source_patches_;  // bounding volumes of the patches that send light
   ScreenFinder screens_;
   // Set only if RadiositySolution::rays_per_point > 0: gather_ serves NearlyOnPatch(), and closer_gather_,
   // with more rays, serves all other functions.

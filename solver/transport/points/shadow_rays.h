@@ -28,22 +28,24 @@ struct ShadowRayEffort {
   // A luminaire is divided into divisions^2 cells, with one shadow ray to each cell, if it sends at least a
   // twentieth of the unoccluded light of all luminaires. Weaker luminaires get shadow rays in proportion to
   // their light. If `divisions` is 0, a single ray goes to one luminaire, chosen with a probability in
-  // proportion to its light; the average over many seeds is right.
+  // proportion to its light; the mean over many seeds converges to the light of all luminaires.
   int divisions = 4;
-  // A partly hidden emitter gets more effort (rays_if_hidden) if its unoccluded light exceeds closer_above *
-  // (light of all visible luminaires). If the unoccluded light is smaller, the divisions^2 shadow rays alone
-  // determine the visible fraction of the emitter.
+  // A partly hidden emitter gets more shadow rays, or exact visibility, if its unoccluded light exceeds
+  // closer_above * (light of all visible luminaires); see rays_if_hidden. If the unoccluded light of a partly
+  // hidden emitter is smaller, the divisions^2 shadow rays alone determine the visible fraction of the
+  // emitter.
   double closer_above = 0.02;
-  // The number of shadow rays to a partly hidden emitter that gets more effort. If rays_if_hidden is 0, the
-  // blockers are cut out of the emitter exactly.
+  // The number of shadow rays to a partly hidden emitter whose light exceeds the limit given by closer_above.
+  // If rays_if_hidden is 0, the blockers are cut out of the emitter exactly.
   int rays_if_hidden = 0;
-  std::uint64_t seed = 0;  // seed of the places of ray ends in the cells; 0: the centres of the cells
+  // Seed of the random ends of rays in the cells; with 0, rays end at the centres of the cells.
+  std::uint64_t seed = 0;
 };
 
 // A polygon that reflects much light, treated as a luminaire of constant radiosity.
 struct BrightReflector {
   PatchId patch = kNoPatch;
-  Polygon3 polygon;             // [m]
+  Polygon3 polygon;             // vertices of the polygon [m]
   Rgb radiosity = Rgb::Zero();  // the reflected radiosity, without emittance [W/m^2]
 };
 
@@ -81,8 +83,8 @@ class ShadowRays {
     std::size_t size;  // number of vertices: 3 or 4
     Vec3 centre, normal;
     double radius, area;
-    Rgb radiosity;      // [W/m^2]
-    double brightness;  // in the brightest channel [W/m^2]
+    Rgb radiosity;      // radiosity of the luminaire [W/m^2]
+    double brightness;  // radiosity in the brightest channel [W/m^2]
     bool is_parallelogram;
 
     std::span<const Vec3> Vertices() const { return {vertex.data(), size}; }

@@ -26,8 +26,11 @@ class AndersonAcceleration {
 
  private:
   struct Step {
-    std::vector<Rgb> residual, value;  // the changes of G(x) - x and of G(x) from one step to the next
-    // scalar products of `residual` with `residual` of each kept step, up to and including this step
+    // `residual` is the change of G(x) - x since the last step, and `value` is the change of G(x) since the
+    // last step.
+    std::vector<Rgb> residual, value;
+    // The scalar products of `residual` with the residuals of all stored steps, up to and including this
+    // step.
     std::deque<Rgb> product;
   };
 

@@ -14,9 +14,9 @@ namespace penumbra {
 // irradiance that the hierarchical links bring. DeferredCorrection holds all data of the deferred correction,
 // so that a cancelled step of the solver can restore these data.
 struct DeferredCorrection {
-  // for each leaf: exact irradiance - irradiance of the links [W/m^2]; empty: no correction yet
+  // for each leaf: (exact irradiance) - (irradiance from the links) [W/m^2]; empty before the first pass
   std::vector<Rgb> of_element;
-  // for each fragment of a leaf: exact irradiance of the fragment - irradiance of the leaf [W/m^2]
+  // for each fragment of a leaf: (exact irradiance of the fragment) - (irradiance of the leaf) [W/m^2]
   std::vector<Rgb> of_fragment;
   // For each leaf, in ascending order of ElementId: the parts into which CutLeaf() has cut the leaf. The list
   // of parts is empty until leaves are cut for the first time.

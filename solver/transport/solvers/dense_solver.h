@@ -1,7 +1,7 @@
 // solver/transport/solvers/dense_solver.h
 //
 // Direct solution of the dense radiosity system for all three channels, to compute reference solutions.
-// DenseSolver implements the solver interface LightSolver by this direct solution.
+// DenseSolver implements the solver interface LightSolver by a direct solution of the dense radiosity system.
 
 #pragma once
 
@@ -20,8 +20,8 @@ struct DenseLight {
   std::vector<Rgb> irradiance, radiosity;  // irradiance and radiosity of each unknown [W/m^2]
 };
 
-// Solves B = E + rho T B by LU factorisation with pivoting. `emittance` [W/m^2] and `reflectance` have one
-// entry for each unknown; by default, the entries come from the scene's materials.
+// Solves B = E + rho T B for the radiosities B by LU factorisation with pivoting. `emittance` [W/m^2] and
+// `reflectance` have one entry for each unknown; by default, the entries come from the scene's materials.
 DenseLight SolveDense(const DenseSystem& system);
 // SolveDense() with a scene takes the emittance and reflectance of that scene's materials; the scene must
 // have the same patches as the system.

@@ -6,8 +6,8 @@
 // Constant elements use the Galerkin method with form factors between areas: the light that leaves an element
 // equals the light that arrives at the others, and the mean irradiance of a closed room is correct on every
 // mesh. Linear and quadratic elements use collocation at Gauss nodes inside the elements: a row of the matrix
-// is an integral over sources only, and no node lies on an edge where walls meet. With collocation, too, each
-// row of the matrix of a closed room adds up to 1. At points other than the nodes, the irradiance that is
+// is an integral over sources only, and no node lies on an edge where walls meet. With collocation, each row
+// of the matrix of a closed room adds up to 1. At points other than the nodes, the irradiance that is
 // computed from the solved radiosity converges faster than the radiosity itself (iterated collocation;
 // Atkinson, The numerical solution of integral equations of the second kind, 1997). With collocation,
 // reciprocity holds only to the order of the method. No row of form factors is normalised to the sum 1.
@@ -31,12 +31,13 @@ namespace penumbra {
 struct DenseOptions {
   BasisDegree degree = BasisDegree::kConstant;
   int divisions = 4;  // number of elements along each side of a patch: a power of two (UniformForest)
-  // `tolerance` and `max_points` limit the relative error, and the number of points for one pair of elements,
-  // of form factors between constant elements with blockers (AreaFormFactorOptions). Form factors without
-  // blockers, and those of linear and quadratic elements, are exact up to rounding.
+  // For form factors between constant elements with blockers, `tolerance` limits the relative error, and
+  // `max_points` limits the number of points for one pair of elements (AreaFormFactorOptions). Form factors
+  // without blockers, and those of linear and quadratic elements, are exact up to rounding.
   double tolerance = 1e-7;
   std::size_t max_points = 100'000;
-  // keep the matrix after the solve, for LightSolver::LitAs(): 8 bytes * (unknowns)^2
+  // If true, the matrix, which takes 8 bytes * (number of unknowns)^2, is kept after the solve, for
+  // LightSolver::LitAs().
   bool keep_matrix = false;
 };
 
@@ -44,8 +45,8 @@ struct DenseOptions {
 // parallelogram, and the basis is linear or quadratic, the leaf is cut into two triangular elements.
 struct DenseElement {
   ElementId leaf = kNoElement;
-  Polygon3 polygon;  // [m]
-  double area = 0;   // [m^2]
+  Polygon3 polygon;  // vertices of the element [m]
+  double area = 0;   // area of the element [m^2]
   ElementBasis basis;
   std::size_t first = 0;  // the element's first unknown; the element has basis.size() unknowns
 };
@@ -53,8 +54,9 @@ struct DenseElement {
 struct DenseSystem {
   ElementForest forest;
   BasisDegree degree = BasisDegree::kConstant;
-  std::vector<DenseElement> elements;  // ordered by patch, then by depth-first order of the leaves
-  // index of each patch's first element, and one past the last element
+  // All elements, ordered by patch, then by depth-first order of the leaves.
+  std::vector<DenseElement> elements;
+  // index of each patch's first element; the last entry is the number of elements
   std::vector<std::size_t> first_of_patch;
   std::vector<std::size_t> element_of_unknown;  // index in `elements` of the element of each unknown
   // transport(i, j) is the irradiance of unknown i for unit radiosity of unknown j [1]. The irradiance of an
@@ -75,8 +77,9 @@ struct DenseSystem {
 // in closed rooms, and weight * transport is symmetric.
 struct DenseClosure {
   double least_row_sum = 1, largest_row_sum = 0;
-  double reciprocity =
-      0;  // |W T - (W T)'| / |W T| in the Frobenius norm; 0 for constant elements by construction
+  // The value |W T - (W T)'| / |W T| in the Frobenius norm, where W T is weight * transport; 0 for constant
+  // elements by construction.
+  double reciprocity = 0;
 };
 DenseClosure MeasureClosure(const DenseSystem& system);
 

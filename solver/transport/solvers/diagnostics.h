@@ -22,14 +22,14 @@ struct LinkDiagnostics {
   // closure_min, closure_max and closure_mean.
   std::vector<double> closure;
   double closure_min = 0, closure_max = 0;
-  double closure_mean = 0;  // weighted by free area
+  double closure_mean = 0;  // mean closure of the patches, weighted by their free areas
   double covered_area = 0;  // area of all patches that other objects cover [m^2]
 
   // The reciprocity error is |A1 F12 - A2 F21| / min(A1, A2) [1]. The member link_reciprocity measures the
   // reciprocity error of pairs of opposite links between the same two elements. The member patch_reciprocity
   // measures the reciprocity error |A1 F12 - A2 F21| / min(A1, A2) of pairs of patches, where each A F is a
-  // sum over all links between elements of the two patches. Few links have a counterpart in the other
-  // direction, because links are split in one direction at a time.
+  // sum over all links between elements of the two patches. Few links have an opposite link between the same
+  // two elements, because links are split in one direction at a time.
   std::size_t link_pairs = 0, patch_pairs = 0;
   double link_reciprocity = 0, patch_reciprocity = 0;  // the largest reciprocity errors
 };
@@ -41,9 +41,8 @@ LinkDiagnostics DiagnoseLinks(const RadiositySolution& solution,
 struct ViewDiagnostics {
   std::size_t rays = 0;
   // The fraction of diffuse rays from a patch that hit fronts of other patches; rays that start on covered
-  // parts of the patch do not count. The solver `sampled` transports light along the same kind of rays. In
-  // the solver `sampled`, the sum of a patch's form factors is therefore the fraction of rays that hit
-  // fronts.
+  // parts of the patch do not count. In the solver `sampled`, which transports light along rays, the sum of a
+  // patch's form factors is the fraction of its rays that hit fronts.
   double fronts_min = 0, fronts_max = 0, fronts_mean = 0;  // fronts_mean is weighted by free (uncovered) area
   double covered_area = 0;  // area of the covered parts of patches, estimated from the rays [m^2]
   double escaping = 0;  // fraction of the light that leaves the scene if all fronts have the same radiosity

@@ -10,7 +10,7 @@
 namespace penumbra {
 
 struct DiffuseRay {
-  Vec3 origin, direction;  // origin [m]; direction: a unit vector
+  Vec3 origin, direction;  // origin of the ray [m] and its direction, a unit vector
 };
 
 // Ray i of a low-discrepancy sequence of rays that start uniformly distributed over a convex polygon and have

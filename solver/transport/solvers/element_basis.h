@@ -24,13 +24,13 @@ enum class BasisDegree { kConstant = 0, kLinear = 1, kQuadratic = 2 };
 // 1973; Dunavant 1985).
 class ElementBasis {
  public:
-  static constexpr std::size_t kMost = 9;  // largest number of functions
+  static constexpr std::size_t kMost = 9;  // largest number of basis functions of an element
 
   // REQUIRES: the polygon is a triangle, a parallelogram, or, for kConstant, any quadrilateral.
   ElementBasis(std::span<const Vec3> polygon, BasisDegree degree);
 
   std::size_t size() const { return node_.size(); }
-  const Vec3& Node(std::size_t i) const { return node_[i]; }  // [m]
+  const Vec3& Node(std::size_t i) const { return node_[i]; }  // position of node i [m]
   // weight of node i in the quadrature rule for the mean; all weights add up to 1
   double Weight(std::size_t i) const { return weight_[i]; }
 

@@ -31,7 +31,7 @@ class FullMatrixSolver final : public UniformSolver {
   bool Advance(IterationReport* report, const ExecutionContext& context) override;
   Rgb Gather(std::size_t leaf, std::span<const Rgb> radiosity) const;
 
-  // index of the first matrix entry of each leaf, and one past the last entry
+  // index of the first matrix entry of each leaf; the last element is the number of entries
   std::vector<std::size_t> first_;
   std::vector<Entry> entries_;
   std::vector<Rgb> irradiance_, radiosity_;  // irradiance and radiosity of each leaf [W/m^2]

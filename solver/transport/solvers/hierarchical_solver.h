@@ -64,10 +64,11 @@ class HierarchicalSolver final : public LightSolver {
   // The light of each bounce is computed over the links, without deferred corrections.
   std::vector<Rgb> MeanIrradianceByBounce(int bounces) const override;
 
-  // One iteration gathers light with push-pull until the cut-off is met, splits links, and gathers over the
-  // new links. A link is split if the refinement oracle rejects the link; new links that the oracle rejects
-  // are split in the same iteration. The solution has converged when an iteration splits no link and the
-  // residual is below the cut-off. If cancelled, Iterate() returns nullopt and leaves the solution unchanged.
+  // One iteration gathers light with push-pull until the residual is below a cut-off, splits links, and
+  // gathers over the new links. A link is split if the refinement oracle rejects the link; new links that the
+  // oracle rejects are split in the same iteration. The solution has converged when an iteration splits no
+  // link and the residual is below the cut-off. If cancelled, Iterate() returns nullopt and leaves the
+  // solution unchanged.
   std::optional<IterationReport> Iterate(const ExecutionContext& context);
   // Makes one pass of deferred correction. Correct() returns (root mean square change of the leaves'
   // irradiance) / (mean irradiance), or nullopt if cancelled. If an iteration after Correct() refines links,
@@ -100,7 +101,7 @@ class HierarchicalSolver final : public LightSolver {
   void FindCorrections();
   std::optional<double> AddExact(LeafSampling sampling, const ExecutionContext& context);
   // Like Correct(), but first cuts the leaves into parts so small that treating the radiosity of a part as
-  // constant causes a relative error of at most about `error`.
+  // constant causes a relative error of irradiance of at most about `error`.
   std::optional<double> CorrectByCells(double error, const ExecutionContext& context);
 
   const Scene& scene_;
@@ -108,7 +109,8 @@ class HierarchicalSolver final : public LightSolver {
   SolverOptions options_;
   LinkSolver links_;
   DeferredCorrection correction_;
-  bool corrected_ = false;  // CorrectAll() has finished, and its corrections are still in place
+  // True if CorrectAll() has finished and its corrections are still part of the light.
+  bool corrected_ = false;
   SolverReport report_;
   std::size_t relit_at_ = 0;  // index in report_.iterations of the first iteration after the last Relight()
   LeafVisibilityCache seen_from_leaves_;

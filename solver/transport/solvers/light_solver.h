@@ -45,7 +45,7 @@ struct InteractionCounts {
 // Statistics about the work that a solver has done so far.
 struct SolverReport {
   std::vector<IterationReport> iterations;
-  int most_iterations = 0;  // the largest number of iterations that Next() requests; 0: unknown
+  int most_iterations = 0;  // the largest number of iterations that Next() requests; 0 if unknown
   // true if links were not split because the number of links would have exceeded SolverOptions::max_links
   bool full = false;
   InteractionCounts interactions;  // the interactions that are not links of the solution
@@ -54,7 +54,7 @@ struct SolverReport {
     DenseClosure closure;
     double form_factor_error = 0;  // the value of DenseSystem::form_factor_error
   };
-  std::optional<Dense> dense;  // set only by solvers that assemble a dense system of equations
+  std::optional<Dense> dense;  // data of the dense system; set only by solvers that assemble one
 };
 
 // The constructor of a class derived from LightSolver makes links or assembles a system of equations; the
@@ -88,19 +88,18 @@ class LightSolver {
   // True if the solver supports SetLight(), by which the meshing stage replaces the light.
   virtual bool TakesLight() const = 0;
   // Replaces the irradiance of the leaves by exact values: `irradiance` is indexed by ElementId [W/m^2], and
-  // `fragments`, the parts of cut leaves, replace the solution's fragments. SetLight() then adds the light
-  // that arises from the change of irradiance by further reflections. If cancelled, SetLight() returns false
-  // and leaves the light unchanged. REQUIRES: TakesLight() is true; the fragments (parts of cut leaves) are
-  // sorted by leaf and tile their leaf; the irradiance of a leaf is the area-weighted mean over its
-  // fragments.
+  // `fragments`, the parts of cut leaves, replace the solution's fragments. SetLight() then adds the further
+  // reflections of the change of irradiance. If cancelled, SetLight() returns false and leaves the light
+  // unchanged. REQUIRES: TakesLight() is true; the fragments (parts of cut leaves) are sorted by leaf and
+  // tile their leaf; the irradiance of a leaf is the area-weighted mean over its fragments.
   virtual bool SetLight(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
                         const ExecutionContext& context) = 0;
 
   // A solver with the same elements and form factors for the scene `other`, which has the same patches but
   // other emittances or reflectances. The solver that LitAs() returns is lit by the scene `other`, as after
   // Relight(). Deferred corrections are included unless the meshing stage makes them (TakesLight). LitAs()
-  // returns null if cancelled, or if the method does not support other emittances. `other`, and all arguments
-  // of this solver's constructor, must outlive the solver that LitAs() returns.
+  // returns null if cancelled, or if the method does not support other emittances. The scene `other`, and all
+  // arguments of this solver's constructor, must outlive the solver that LitAs() returns.
   virtual std::unique_ptr<LightSolver> LitAs(const Scene& /*other*/, const ExecutionContext&) const {
     return nullptr;
   }

@@ -21,8 +21,8 @@
 
 namespace penumbra {
 
-// Solves for the light on elements over the links between elements. A LinkSolver holds the elements, the
-// links, the light, and the state of refinement.
+// A LinkSolver solves for the light that links transport between elements. A LinkSolver holds the elements,
+// the links, the light, and the state of refinement.
 class LinkSolver {
  public:
   // The state to which a cancelled step returns the LinkSolver.
@@ -75,8 +75,8 @@ class LinkSolver {
   bool Full() const { return full_; }
   // The largest allowed link error, eps, in the next iteration [W/m^2].
   double eps() const { return eps_; }
-  // The residual at which sweeps end before the refinement oracle judges links; the cut-off increases with
-  // eps.
+  // The residual at which sweeps end before the refinement oracle judges links; this residual increases with
+  // the largest allowed link error eps.
   double Cutoff() const;
   // The result of LightToCome() in the last call of Settle() [1], in the channel where it is largest.
   double to_come() const { return to_come_; }
@@ -97,15 +97,16 @@ class LinkSolver {
   bool linked_ = true;
   std::optional<bool> nearly_white_;  // true in nearly white rooms; empty until computed
   double to_come_ = 0;
-  // closure (sum of form factors) of each leaf, indexed by ElementId; negative: not computed
+  // closure (sum of form factors) of each leaf, indexed by ElementId; negative if not computed
   std::vector<double> closure_;
   bool converged_ = false, full_ = false;
   std::size_t root_links_ = 0;
 };
 
 // A room counts as nearly white if LightToCome() exceeds kNearlyWhite, which corresponds to reflectances
-// above 0.95. In rooms that are not nearly white, reflections amplify errors of links, which are a few
-// thousandths, by a factor of at most about twenty, and deferred corrections remove these errors.
+// above 0.95. In rooms that are not nearly white, reflections amplify the relative errors of links, which are
+// a few thousandths, by a factor of at most about twenty, and deferred corrections remove the amplified
+// errors.
 inline constexpr double kNearlyWhite = 20;
 
 }  // namespace penumbra

@@ -28,12 +28,11 @@ class RayradSolver final : public ShootingSolver {
   };
   std::vector<double> FormFactorsOf(PatchId shooter, const ExecutionContext& context) const override;
 
-  std::vector<Vertex> vertices_;  // patch by patch; no two patches share a vertex
-  // index of the first vertex of each patch, and one past the last vertex
+  std::vector<Vertex> vertices_;  // vertices of the elements, patch by patch; no two patches share a vertex
+  // index of the first vertex of each patch; the last entry is the number of vertices
   std::vector<std::size_t> first_vertex_;
-  std::vector<std::array<std::int32_t, 4>>
-      // for each leaf, the indices of its corners in vertices_; the fourth index of a triangle is -1
-      corner_;
+  // For each leaf, the indices of its corners in vertices_; the fourth index of a triangle is -1.
+  std::vector<std::array<std::int32_t, 4>> corner_;
 };
 
 LightSolverRegistry::Method RayradSolverMethod();

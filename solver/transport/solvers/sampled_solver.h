@@ -5,7 +5,7 @@
 // of one element hit; each hit adds 1 / (number of rays) to the form factor. The sampled solver makes no
 // links and no pairs of patches, so that time and memory grow in proportion to the number of elements. In
 // closed rooms, each row of the sampled matrix adds up to 1. Direct light is computed by shadow rays. The
-// matrix is kept, so that light for other emittances needs no new matrix rays.
+// matrix is kept, so that light for other emittances needs no new rays for the matrix.
 
 #pragma once
 
@@ -51,7 +51,7 @@ class SampledSolver final : public LightSolver {
  private:
   // The direct light of an element, from points in the element's four quarters [W/m^2].
   struct Direct {
-    // spread: root mean square deviation of direct light from its mean
+    // the mean of the direct light, and its root mean square deviation from the mean
     Rgb mean = Rgb::Zero(), spread = Rgb::Zero();
   };
   // The limits of one pass of the sampled solver.
@@ -81,7 +81,7 @@ class SampledSolver final : public LightSolver {
   std::unique_ptr<const ShadowRays> shadows_;  // shadow rays to the emitters, for the present emittances
   RadiositySolution solution_;
   PushPull push_pull_;
-  std::vector<Direct> direct_;  // direct light by element
+  std::vector<Direct> direct_;  // direct light of each element
   // For each leaf, rays_ entries, one for each ray from the leaf: the index in push_pull_.leaves() of the
   // leaf that the ray hits, or -1 if the ray hits no front.
   std::shared_ptr<const std::vector<std::int32_t>> rows_;

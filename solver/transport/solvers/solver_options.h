@@ -16,12 +16,14 @@ namespace penumbra {
 
 // Options of the hierarchical solver.
 struct SolverOptions {
-  double eps = 0.1;  // largest transport error of a link between elements [W/m^2] (thesis, Appendix A, 1)
-  double min_area = 1e-5;  // smallest area of an element [m^2] (thesis, Appendix A, 2)
+  // The largest transport error of a link between elements [W/m^2] (parameter 1 of the thesis, Appendix A).
+  double eps = 0.1;
+  double min_area = 1e-5;  // The smallest area of an element [m^2] (parameter 2 of the thesis, Appendix A).
   // The light has converged if |radiosity - limit| / (largest reflected radiosity) is at most relative_cutoff
-  // for every element (thesis, Appendix A, 7).
+  // for every element (parameter 7 of the thesis, Appendix A).
   double relative_cutoff = 1e-4;
-  int max_iterations = 100;  // each iteration gathers until the light converges, then refines links
+  // Largest number of iterations; each gathers until the light converges, then refines links.
+  int max_iterations = 100;
   // Refinement stops before (number of links) - (number of links between root elements) exceeds max_links.
   // The default of max_links limits the memory of links to about 800 MB.
   std::size_t max_links = 8'000'000;
@@ -31,9 +33,10 @@ struct SolverOptions {
   // If true, the first iteration allows a larger link error eps, and each iteration lowers eps
   // (multigridding; Hanrahan, Salzman and Aupperle 1991).
   bool multigrid = false;
-  std::string form_factors = "cubature";  // a name in LinkFormFactorMethods()
+  std::string form_factors = "cubature";  // name of a method in LinkFormFactorMethods()
   LinkFormFactorOptions form_factor_options;
-  // number of passes that correct the leaves by exact irradiance; 0: light by links only, as in the thesis
+  // The number of passes of deferred correction by exact irradiance; with 0, links alone transport light, as
+  // in the thesis.
   int max_corrections = 2;
   // If true, the meshing stage makes the last pass of deferred correction, by LightSolver::SetLight().
   bool last_correction_elsewhere = false;
@@ -57,13 +60,13 @@ struct SampledOptions {
   std::size_t element_rays = 64;  // number of rays from each element in the last pass of the sampled solver
   std::size_t point_rays = 192;   // the value of RadiositySolution::rays_per_point
   int passes = 2;  // number of passes; each pass has smaller elements and more rays than the previous pass
-  double relative_cutoff = 1e-4;  // the same meaning as SolverOptions::relative_cutoff
+  double relative_cutoff = 1e-4;  // limit of the residual, as for SolverOptions::relative_cutoff
 };
 
 // Options of the classic solvers on uniform meshes (UniformSolver).
 struct UniformOptions {
   int divisions = 4;                      // number of elements along each side of a patch (UniformForest)
-  std::string form_factors = "cubature";  // a name in LinkFormFactorMethods()
+  std::string form_factors = "cubature";  // name of a method in LinkFormFactorMethods()
   // The options of the form-factor method that `form_factors` names. The members `rays` and `seed` also apply
   // to solvers that cast rays themselves.
   LinkFormFactorOptions form_factor_options;
@@ -71,16 +74,16 @@ struct UniformOptions {
   // The light has converged if the residual of the solver, which each solver defines in its own way, is at
   // most relative_cutoff.
   double relative_cutoff = 1e-4;
-  std::size_t shots = 0;  // the largest number of steps; 0: the default of the solver
-  // if true, shots include light that the shooter will reflect later (Shao and Badler 1993)
+  std::size_t shots = 0;  // the largest number of steps; 0 selects the default of the solver
+  // If true, shots include light that the shooting patch will reflect later (Shao and Badler 1993).
   bool overshoot = false;
   // If true, solution() includes the ambient term, an estimate of the light that is not yet sent. The shots
   // do not use the ambient term.
   bool ambient = false;
 };
 
-// The options of all solvers. Each solver uses only the member with its own name; all solvers on uniform
-// meshes use `uniform`.
+// The options of all solvers. Each solver uses only the member of LightSolverOptions with its own name; all
+// solvers on uniform meshes use `uniform`.
 struct LightSolverOptions {
   SolverOptions hierarchical;
   DenseOptions dense;

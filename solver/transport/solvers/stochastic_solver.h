@@ -12,12 +12,12 @@
 namespace penumbra {
 
 // Monte Carlo radiosity (Neumann et al. 1995; Ashdown 1994, 8.3): stochastic Jacobi iterations. In each
-// bounce, the unsent flux of all elements leaves along rays, each with the same sum of flux over the three
-// channels. The element that a ray hits reflects the flux of the ray in the next bounce. A step of the solver
-// follows a bundle of rays, bounce after bounce, until the remaining flux is below the cut-off. The solution
-// is the mean over all bundles of rays. Origins and directions of rays are points of low-discrepancy
-// sequences; each element has its own sequence, which continues from bundle to bundle. Stochastic Jacobi
-// iterations compute no form factors and store only the light.
+// bounce, the unsent flux of all elements leaves along rays of equal flux, summed over the three channels.
+// The element that a ray hits reflects the flux of the ray in the next bounce. A step of the solver follows a
+// bundle of rays, bounce after bounce, until the remaining flux is below a cut-off. The solution is the mean
+// over all bundles of rays. Origins and directions of rays are points of low-discrepancy sequences; each
+// element has its own sequence, which continues from bundle to bundle. Stochastic Jacobi iterations compute
+// no form factors and store only the light.
 class StochasticSolver final : public UniformSolver {
  public:
   StochasticSolver(const Scene& scene, const PatchVisibility& visibility, const UniformOptions& options,

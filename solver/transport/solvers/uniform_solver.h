@@ -1,8 +1,8 @@
 // solver/transport/solvers/uniform_solver.h
 //
-// The common base of the classic solvers: a uniform mesh of elements with constant radiosity, and steps until
-// the missing light is small. Meshing and probes gather light from the elements in the same way as for the
-// other solvers.
+// The common base class of the classic solvers, which use a uniform mesh of elements with constant radiosity
+// and make steps until the missing light is small. Meshing and probes gather light from the elements in the
+// same way as for the other solvers.
 
 #pragma once
 
@@ -25,8 +25,8 @@ class UniformSolver : public LightSolver {
   bool Converged() const override { return ready_ && residual_ <= options_.relative_cutoff; }
   const RadiositySolution& solution() const final { return solution_; }
   const SolverReport& report() const final { return report_; }
-  // Always returns false: new emittances need a new solver, because form factors or rays were chosen
-  // according to the old light.
+  // Relight() always returns false: new emittances need a new solver, because form factors or rays were
+  // chosen according to the old light.
   bool Relight(const ExecutionContext&) final { return false; }
   bool TakesLight() const final { return false; }
   bool SetLight(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,

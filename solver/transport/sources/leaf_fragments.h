@@ -2,9 +2,9 @@
 //
 // Cuts leaves (undivided quadtree elements) along contacts, the lines where other patches touch them. A
 // quadtree cannot follow the foot of a box that stands at an angle on the floor: without cuts, the leaf below
-// the box has the same radiosity in its lit part and in its covered part. Without cuts, the leaf's wrong
-// radiosity illuminates the sides of the box from close by. Fragments, the parts of a cut leaf, have separate
-// radiosities on the two sides of a contact.
+// the box has the same radiosity in its lit part and in its covered part. Without cuts along contacts, the
+// wrong radiosity of the leaf below a box illuminates the sides of the box from close by. Fragments, the
+// parts of a cut leaf, have separate radiosities on the two sides of a contact.
 
 #pragma once
 

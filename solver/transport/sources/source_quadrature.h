@@ -43,7 +43,7 @@ void AddSourceNodes(const ReceiverPoint& at, const Patch& source, std::span<cons
 
 // Appends quadrature nodes for the visible region of a convex part of a source: the part is clipped to the
 // receiver's horizon, and blockers among the candidates are cut out exactly. `own` is the patch of the
-// receiver point. REQUIRES: the last view.FaceSource() was for this source and returned true.
+// receiver point. REQUIRES: the last call of view.FaceSource() was for this source and returned true.
 void AddVisibleSourceNodes(PointView& view, std::span<const Vec3> part, std::span<const PatchId> candidates,
                            PatchId own, std::vector<SourceNode>& nodes);
 

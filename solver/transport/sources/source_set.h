@@ -25,7 +25,7 @@ struct RadiositySolution;
 // A part of a leaf of a SourceSet, with a radiosity of its own.
 struct SourcePart {
   SourcePolygon polygon;
-  Rgb radiosity = Rgb::Zero();  // [W/m^2]
+  Rgb radiosity = Rgb::Zero();  // radiosity of the part [W/m^2]
 };
 
 class SourceSet {
@@ -39,9 +39,9 @@ class SourceSet {
     std::int32_t skip = 1;  // number of nodes in the subtree of this node, including this node; 1 for a leaf
     std::int32_t first_leaf = 0, leaf_count = 1;  // range of the subtree's leaves in the SourceSet
     std::array<std::int32_t, 4> corner = {};      // indices of the vertices in Corners()
-    // index of the solution's fragment (part of a cut leaf) that contains the node; -1: none
+    // index of the solution's fragment (part of a cut leaf) that contains the node; -1 if none
     std::int32_t fragment = -1;
-    std::int32_t element = -1;  // id of the quadtree element that equals or contains the node; -1: none
+    std::int32_t element = -1;  // id of the quadtree element that equals or contains the node; -1 if none
     // For a subtree: the root mean square deviation of the leaves' radiosities B from their mean, divided by
     // max(mean, 1 % of the scene's mean reflected radiosity), for the channel with the largest quotient [1].
     double spread = 0;
@@ -50,29 +50,30 @@ class SourceSet {
     double residual = 0;
     Vec3 centre = Vec3::Zero();   // centre of the node's polygon [m]
     double radius = 0;            // largest distance of a vertex from `centre` [m]
-    double area = 0;              // [m^2]
+    double area = 0;              // area of the node's polygon [m^2]
     Rgb radiosity = Rgb::Zero();  // radiosity [W/m^2]; of a subtree, the area-weighted mean
 
-    std::array<Vec3, 4> vertex;  // [m]
-    // Row c is the sum over the subtree's leaves of (B - mean B) * area * centre, for channel c of the leaf's
-    // radiosity B [W m].
+    std::array<Vec3, 4> vertex;  // vertices of the node's polygon [m]
+    // Row c of `moment` is the sum over the subtree's leaves of (B - mean B) * area * centre, for channel c
+    // of the leaf's radiosity B [W m].
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
-    // Row c is the gradient, in the polygon's plane, of the best linear fit of the leaves' radiosities, for
-    // channel c [W/m^3].
+    // Row c of `slope` is the gradient, in the polygon's plane, of the best linear fit of the leaves'
+    // radiosities, for channel c [W/m^3].
     Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();
-    // The integral of d d^T over the polygon [m^4], where d is the position relative to the centroid.
+    // The integral of d d^T over the node's polygon [m^4], where d is the position relative to the centroid.
     Eigen::Matrix3d second_moment = Eigen::Matrix3d::Zero();
   };
 
-  // The leaves of the solution with their radiosities.
+  // Makes a SourceSet of the leaves of the solution, with their radiosities.
   static SourceSet FromSolution(const RadiositySolution& solution);
-  // The leaves of the solution; cut leaves are divided into `fragments` instead of the solution's own
-  // fragments. REQUIRES: `fragments` is sorted by leaf.
+  // Makes a SourceSet of the leaves of the solution, in which cut leaves are divided into `fragments`, not
+  // into the solution's own fragments. REQUIRES: `fragments` is sorted by leaf.
   static SourceSet FromSolution(const RadiositySolution& solution, std::span<const Fragment> fragments);
-  // The leaves of the solution as nodes that can carry the light of any emitter (WithLight). Subtrees of
-  // uniform radiosity are not joined into one leaf, unless their patch reflects nothing.
+  // Makes a SourceSet from the leaves of the solution that is valid for any radiosities that WithLight() or
+  // TakeLight() set later. Subtrees of uniform radiosity are not joined into one leaf, unless their patch
+  // reflects nothing.
   static SourceSet ForAnyLight(const RadiositySolution& solution);
-  // The emitters with their emittances, for direct light.
+  // Makes a SourceSet of the emitters with their emittances, for direct light.
   static SourceSet Emitters(const Scene& scene);
 
   // A function that returns the parts that tile a leaf; an empty list leaves the leaf undivided.
@@ -95,11 +96,11 @@ class SourceSet {
   // spread and residual hold for the light of both sets. REQUIRES: `other` is the result of WithLight().
   void TakeSpreads(const SourceSet& other);
 
-  // The light of a node in a compact form, for sums over many nodes. Each member has the same meaning as the
-  // member of Node with the same name.
+  // The light of a node in a compact form, for sums over many nodes. Each member of NodeLight has the same
+  // meaning as the member of Node with the same name.
   struct NodeLight {
-    std::array<double, 3> radiosity = {0, 0, 0};  // [W/m^2]
-    std::array<float, 9> slope = {};              // Node::slope, row by row [W/m^3]
+    std::array<double, 3> radiosity = {0, 0, 0};  // the value of Node::radiosity [W/m^2]
+    std::array<float, 9> slope = {};              // the value of Node::slope, row by row [W/m^3]
     float spread = 0, residual = 0;
   };
   const NodeLight& LightOf(std::int32_t node) const { return light_[static_cast<std::size_t>(node)]; }
@@ -129,7 +130,7 @@ class SourceSet {
   std::size_t NodeCount() const { return nodes_.size(); }
   std::size_t PatchCount() const { return emittance_.size(); }
 
-  // The index of the solution's fragment (part of a cut leaf) that contains a leaf of the SourceSet; -1:
+  // The index of the solution's fragment (part of a cut leaf) that contains a leaf of the SourceSet; -1 if
   // none.
   std::int32_t FragmentOf(std::int32_t leaf) const {
     return nodes_[static_cast<std::size_t>(leaf_node_[static_cast<std::size_t>(leaf)])].fragment;
@@ -152,8 +153,8 @@ class SourceSet {
   void CompactLight();
 
   std::vector<std::size_t> first_;  // index in nodes_ of the first node of each patch
-  std::vector<Eigen::Matrix3d>
-      inverse_moment_;  // pseudo-inverse of the second moment of each subtree [1/m^4]
+  // The pseudo-inverse of the second moment of each subtree's polygon [1/m^4].
+  std::vector<Eigen::Matrix3d> inverse_moment_;
   std::vector<Node> nodes_;
   std::vector<NodeLight> light_;
   std::vector<Vec3> corners_;
@@ -164,7 +165,7 @@ class SourceSet {
 };
 
 // For each node of `from`, the index of the node of `to` with the same polygon at the same place of the
-// quadtree; -1: none. REQUIRES: both SourceSets belong to the same scene.
+// quadtree; -1 if none. REQUIRES: both SourceSets belong to the same scene.
 std::vector<std::int32_t> MapNodes(const SourceSet& from, const SourceSet& to);
 
 }  // namespace penumbra

@@ -46,10 +46,10 @@ struct AreaFormFactorOptions {
   // is at most sufficient_error [m^2]. Functions that add up the results of several pairs of areas set
   // sufficient_error to the error that they allow for each pair.
   double sufficient_error = 0;
-  // Limits of the number of integration points for one pair of parts. Integration stops after `max_points`
-  // points, even if the error is too large. If the error of the form factor is at most `small_error` [1],
-  // integration already stops after `sufficient_points` points. Where many edges cast penumbras, each further
-  // decimal digit of the form factor takes three times as many points.
+  // Limits of the number of integration points for one pair of convex parts of the two areas. Integration
+  // stops after `max_points` points, even if the error is too large. If the error of the form factor is at
+  // most `small_error` [1], integration already stops after `sufficient_points` points. Where many edges cast
+  // penumbras, each further decimal digit of the form factor takes three times as many points.
   std::size_t max_points = 10'000'000;
   double small_error = 1e-7;
   std::size_t sufficient_points = 200'000;
@@ -75,9 +75,10 @@ struct AreaFormFactorOptions {
 // The integration points lie on the smaller area; reciprocity gives the form factor in the other direction.
 // The smaller area is cut along the intersection with the plane of the larger area. As long as the error is
 // too large, the smaller area is also cut along event lines, which are the traces of wedges through a vertex
-// and an edge (Heckbert, Discontinuity meshing for radiosity, 1992). Event lines of the largest weight are
-// used first. Integration cells that no event line crosses are halved where the integrand is least smooth: at
-// common edges and corners, and at curved events.
+// and an edge (Heckbert, Discontinuity meshing for radiosity, 1992). Event lines with the largest product of
+// length and weight are used first; the weight counts the events that coincide on the line. Integration cells
+// that no event line crosses are halved where the integrand is least smooth: at common edges and corners, and
+// at curved discontinuities.
 FormFactorEstimate AreaFormFactor(const Scene& scene, const PatchHierarchy& patches, const AreaPart& from,
                                   const AreaPart& to, const AreaFormFactorOptions& options = {});
 

@@ -2,9 +2,10 @@
 //
 // Lines in a receiver's plane at which the topology of the visible part of a source may change: the traces of
 // wedges through a vertex and an edge (Heckbert, Discontinuity meshing for radiosity, 1992) and the traces of
-// the blockers' planes. An integration over the receiver may cut its cells along the event lines. Event lines
-// are only candidates for discontinuities: an event may be hidden, and the size of the jump is unknown. The
-// discontinuities in the mesh, in contrast, are exact visible segments with known jumps.
+// the blockers' planes. A quadrature over the receiver may cut its integration cells along the event lines.
+// Event lines are only candidates for discontinuities: blockers may hide the vertex or the edge that causes
+// the line, and the size of the jump is unknown. The discontinuities in the mesh, in contrast, are exact
+// visible segments with known jumps of irradiance or of its derivatives.
 
 #pragma once
 
@@ -45,10 +46,12 @@ struct EventLine {
   Vec2 normal = Vec2::UnitX();  // unit normal of the line
   double offset = 0;            // the line consists of the points p with normal . p = offset [m]
   double low = 0, high = 0;     // ends of the interval, measured along Along() [m]
-  double weight = 1;            // number of coincident events; contacts count more than once
-  bool grade = false;  // true if a low edge of the source makes the integrand change fast near the line
-  double reach = 0;    // the integrand changes within about this distance of the line [m]
-  std::vector<Event> events;  // events of all coincident lines
+  double weight = 1;  // number of coincident events; contacts of a blocker with the receiver count more
+  // True if an edge of the source close to the receiver makes the form factor change fast near the line.
+  bool grade = false;
+  // Distance from the line within which the form factor of a point changes because of the events [m].
+  double reach = 0;
+  std::vector<Event> events;  // events of all lines that coincide with this line
 
   Vec2 Along() const { return {-normal.y(), normal.x()}; }
 };
@@ -60,9 +63,9 @@ struct Stretch {
 };
 Stretch Inside(const EventLine& line, std::span<const Vec2> polygon);
 
-// The smallest distance [m] between an event line and the vertices and edges that cause the line. Reach()
-// measures the distance along lines of sight from three points of the event line: those at `low` and `high`,
-// and their midpoint.
+// The smallest distance [m] from three points of an event line, at `low`, at `high` and midway, to the
+// vertices and edges that cause the line. Reach() measures the distance between a point of the event line and
+// a vertex or edge along the line of sight that passes through the point, the vertex and the edge.
 double Reach(const EventLine& line, double low, double high);
 
 // True if some event of the event line is caused only by patches in `blockers` and by the source: both
@@ -70,14 +73,16 @@ double Reach(const EventLine& line, double low, double high);
 bool IsCastByAny(const EventLine& line, std::span<const PatchId> blockers);
 
 struct EventLines {
-  std::vector<EventLine> lines;  // without coincident lines; sorted by weight x length, descending
-  bool all_known = true;         // false if there were too many lines and those of least weight are missing
+  std::vector<EventLine> lines;  // no two of these lines coincide; sorted by weight x length, descending
+  // False if there were too many event lines, so that those of least weight x length are missing.
+  bool all_known = true;
 };
 
-// Finds the event lines that cross the area of the receiver. Event lines are caused by events of the source
-// with each blocker and, if there are few blockers, by events between two blockers. FindEventLines() also
-// returns lines around the projections of edges that lie low above the area, where the integrand changes
-// fast. Curved events, which three edges cause (EEE), are not included.
+// Finds the event lines that cross the area of the receiver. The vertex and the edge that cause an event line
+// belong to the source and a blocker or, if there are few blockers, to two blockers. FindEventLines() also
+// returns lines around the projections of edges that lie close above the receiver's area, where the form
+// factor of a point changes fast. Curved discontinuities, which three edges cause (EEE events), are not
+// included.
 EventLines FindEventLines(const Scene& scene, const SightPair& pair, std::span<const PatchId> blockers);
 
 }  // namespace penumbra

@@ -26,8 +26,8 @@ struct FormFactorMatrix {
   std::size_t pairs = 0;       // number of pairs of convex parts whose form factor was computed
 
   std::size_t Rows() const { return area.size(); }
-  // The sum of the form factors of a row. The sum is 1 in a closed scene if only fronts are visible from the
-  // row.
+  // The sum of the form factors of a row. In a closed scene, the form factors of a row add up to 1 if only
+  // fronts are visible from the row's face or object.
   double RowSum(std::size_t row) const;
   // An upper estimate of the error of RowSum().
   double RowError(std::size_t row) const;
@@ -54,9 +54,9 @@ struct FormFactorMatrixOptions {
 // list of convex parts of patches, and a part belongs to one group only. The form factor of a group to itself
 // accounts for parts of the group that see each other. Each pair of parts that may see each other
 // (PatchVisibility) is integrated once, so that A_i F_ij = A_j F_ji up to the rounding error of one division.
-// First, the form factor of each pair of parts with blockers is estimated roughly; then the pairs that
-// contribute too much to the error of a row are computed again. The computation runs in parallel; the result
-// does not depend on the number of threads.
+// First, the form factor of each pair of parts with blockers is estimated roughly; then the form factors that
+// contribute too much to the error of a row are computed again, with smaller errors. The computation runs in
+// parallel; the result does not depend on the number of threads.
 FormFactorMatrix ComputeFormFactorMatrix(const Scene& scene, std::span<const std::vector<AreaPart>> groups,
                                          const FormFactorMatrixOptions& options = {});
 

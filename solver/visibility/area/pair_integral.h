@@ -1,7 +1,7 @@
 // solver/visibility/area/pair_integral.h
 //
 // The integral, over the points of a part of a patch, of the exact form factor of the point to the visible
-// part of a source. AreaFormFactor() computes this integral for each pair of parts that may see each other.
+// part of a source. AreaFormFactor() calls IntegratePair() for each pair of parts that may see each other.
 
 #pragma once
 
@@ -28,8 +28,8 @@ double AllowedError(double factor, double tolerance);
 // The integral, over the receiver's part, of the form factor of a point to the visible part of the source
 // [m^2]. The error of the integral is estimated in the same way as in AreaFormFactor(). The integration is
 // adaptive: an integration cell in which the Gauss and the Kronrod rule differ is first cut along the event
-// lines that cross it, in descending order of their weights, and then halved. REQUIRES: `blockers` is sorted
-// in ascending order.
+// lines that cross it, in descending order of (number of coincident events) * (length), and then halved.
+// REQUIRES: `blockers` is sorted in ascending order.
 FormFactorEstimate IntegratePair(const Scene& scene, const PartPair& pair, std::vector<PatchId> blockers,
                                  const AreaFormFactorOptions& options);
 

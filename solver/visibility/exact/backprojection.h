@@ -31,7 +31,7 @@ struct BackprojectedSource {
   // source.
   std::vector<Vec3> vertex;
   std::vector<Triangle> triangle;
-  std::vector<BlockerEdge> blocker_edge;  // sorted by (a, b, occluder), ascending
+  std::vector<BlockerEdge> blocker_edge;  // edges on outlines of occluders, sorted by (a, b, occluder)
 };
 
 class Backprojection final : public OcclusionMethod {

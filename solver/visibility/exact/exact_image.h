@@ -80,7 +80,7 @@ class EdgeOwner {
   static constexpr EdgeOwner Occluder(std::int32_t occluder) { return EdgeOwner(occluder); }
 
   constexpr bool IsOccluder() const { return code_ >= 0; }
-  // The index of the occluder. REQUIRES: the owner is an occluder.
+  // The index of the occluder that owns the edge. REQUIRES: the owner is an occluder.
   constexpr std::int32_t OccluderNumber() const { return code_; }
   constexpr bool operator==(const EdgeOwner&) const = default;
 
@@ -111,7 +111,7 @@ class ExactImage {
   struct Edge {
     Line line;  // line of the edge; the interior of the outline is on its positive side
     EdgeOwner owner = EdgeOwner::Source();
-    bool seen = false;             // true if a part of the edge lies in the source
+    bool seen = false;             // true if a part of the edge lies in the image of the source
     std::size_t from = 0, to = 0;  // point indices of the ends of the edge's part in the source
   };
 
@@ -149,8 +149,8 @@ class ExactImage {
 
   bool empty() const { return source_.last == 0; }
   const ImagePlane& plane() const { return plane_; }
-  // The edges of the source come first, then the edges of the occluders. Occluders that lie completely on the
-  // outer side of one edge of the source are omitted.
+  // The list edges() holds the edges of the source's outline first, then the edges of the occluders'
+  // outlines. Occluders that lie completely on the outer side of one edge of the source are omitted.
   const Outline& source() const { return source_; }
   const std::vector<Outline>& occluders() const { return occluders_; }
   const std::vector<Edge>& edges() const { return edges_; }
@@ -177,7 +177,7 @@ class ExactImage {
     return on_edge_[static_cast<std::size_t>(edge)];
   }
 
-  // A bound of the error of each coordinate of Place::offset.
+  // A bound of the error of each coordinate of Place::offset, the position of a place rounded to doubles.
   double offset_error() const { return kOffsetAccuracy * diameter_; }
 
   // The side of an edge's line on which a place (corner or crossing) lies: 1 inside the outline of the edge,
@@ -272,7 +272,7 @@ class ExactImage {
   void ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge, std::size_t& point_a,
                     std::size_t& point_b);
 
-  // States that the point with the index `point` lies on the edge with the index `edge`.
+  // An Incidence states that the point with the index `point` lies on the edge with the index `edge`.
   struct Incidence {
     std::size_t point;
     std::int32_t edge;
@@ -282,7 +282,7 @@ class ExactImage {
 
   ImagePlane plane_;
   double diameter_ = 0;
-  std::vector<Point> point_;  // end points and crossings of edges; several of them may coincide
+  std::vector<Point> point_;  // end points and crossings of edges; several of these points may coincide
   std::vector<Incidence> incidence_;
   Outline source_;
   std::vector<Outline> occluders_;
@@ -316,7 +316,7 @@ bool ExactImage<Kernel>::ImageSource(std::span<const std::array<Number, 3>> sour
                           std::abs(p.bbox().ymax()), std::abs(p.bbox().ymin())});
   if (points.size() < 3) return false;
 
-  // Computes the lower and then the upper convex hull.
+  // Computes the lower and then the upper half of the convex hull.
   std::vector<Point> hull;
   const auto extend = [&](const Point& p, std::size_t least) {
     while (hull.size() > least && !left_turn(hull[hull.size() - 2], hull.back(), p)) hull.pop_back();
@@ -444,14 +444,14 @@ void ExactImage<Kernel>::AddOccluder(std::span<const Homogeneous> outline, std::
   if (!before) region.box = source_.box;
 }
 
-// Finds the part of `edge`, the last of edges_, that lies in the source. The edge runs from `a` to `b`.
-// Neighbouring edges share the point of their common corner.
+// Finds the part of `edge`, the last edge in the list edges_, that lies in the image of the source. The edge
+// runs from `a` to `b`. Neighbouring edges share the point of their common corner.
 template <class Kernel>
 void ExactImage<Kernel>::ClipToSource(const Homogeneous& a, const Homogeneous& b, Edge& edge,
                                       std::size_t& point_a, std::size_t& point_b) {
   struct End {
     Homogeneous at;
-    std::int32_t cut = -1;         // the edge of the source that cuts off this end; -1 if none
+    std::int32_t cut = -1;  // index of the edge of the source's outline that cuts off the end; -1 if none
     std::vector<std::int32_t> on;  // the edges of the source on which the point lies
   };
   End from, to;
@@ -635,9 +635,9 @@ void ExactImage<Kernel>::ForEachPart(const DirectionPolygon& source, std::span<c
     return;
   }
 
-  // Two planes through the normal cut the source into four parts. All directions of a part of the source lie
-  // within 55 degrees of the axis normal + st * t + su * u, where t and u are unit vectors perpendicular to
-  // `normal`.
+  // Two planes through the normal cut the source into four parts, one for each pair of the signs st and su.
+  // All directions of a part of the source lie within 55 degrees of the axis normal + st * t + su * u, where
+  // t and u are unit vectors perpendicular to `normal`.
   int across = 0;
   normal.cwiseAbs().minCoeff(&across);
   const Vec3 t = normal.cross(Vec3::Unit(across)).normalized(), u = normal.cross(t);

@@ -19,8 +19,8 @@ struct TracedFormFactor {
   // borders of all spans.
   std::int64_t vertices = 0, borders = 0;
   // The number of borders of angular spans whose contribution to the form factor is computed by the formula
-  // of Stark and Riesenfeld. The contributions of all other borders to the form factor are computed edge by
-  // edge.
+  // of Stark and Riesenfeld. For all other borders of angular spans, the contribution to the form factor is
+  // computed edge by edge.
   std::int64_t formula_borders = 0;
 };
 

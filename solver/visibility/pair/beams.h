@@ -23,7 +23,7 @@ struct Beam {
 };
 
 struct Beams {
-  std::vector<Beam> beams;          // beams that contain every segment that no wall cuts
+  std::vector<Beam> beams;  // together, the beams contain every segment between the ends that no wall blocks
   std::vector<PatchId> wall_parts;  // the blockers that form the walls, ascending
   bool hidden() const { return beams.empty(); }
 };
@@ -41,8 +41,8 @@ bool HiddenByWalls(const Scene& scene, std::span<const Vec3> a, std::span<const 
                    std::span<const PatchId> blockers);
 
 // Removes the blockers that neither belong to a wall of `beams` nor reach into a beam. For every blocked
-// segment between the tube's ends, at least one blocker remains in the list. The remaining blockers keep
-// their order in the list.
+// segment between the tube's ends, at least one blocker remains in the list. Blockers that are not removed
+// keep their order in the list.
 void KeepBlockersOfBeams(const Scene& scene, const Beams& beams, std::vector<PatchId>& blockers);
 
 }  // namespace penumbra

@@ -42,17 +42,18 @@ class PatchVisibility {
   };
 
   PatchVisibility() = default;
-  // Finds all pairs of patches of the scene that may see each other. If the context is cancelled, the object
-  // has no pairs.
+  // Finds all pairs of patches of the scene that may see each other. If the context is cancelled, the
+  // PatchVisibility has no pairs of patches.
   explicit PatchVisibility(const Scene& scene, const ExecutionContext& context = ExecutionContext());
-  // An object without pairs, for methods that do not need pairs.
+  // A PatchVisibility without pairs of patches, for solvers that do not need pairs.
   static PatchVisibility WithoutPairs(const Scene& scene) {
     return PatchVisibility({std::vector<std::size_t>(scene.patches.size() + 1, 0), {}, {}});
   }
   // Finds only the pairs of one of the given sources and a receiver with at most `most_blockers` blockers
-  // between them. OfSources() serves methods that need the sharp shadows of the strongest sources. The pairs
+  // between them. OfSources() serves callers that need sharp shadows only of the strongest sources. The pairs
   // that OfSources() finds are not symmetric: s may be a source of r although r is not a source of s. If the
-  // context is cancelled, the result has no pairs. REQUIRES: `sources` is ascending.
+  // context is cancelled, the returned PatchVisibility has no pairs of patches. REQUIRES: `sources` is
+  // ascending.
   static PatchVisibility OfSources(const Scene& scene, std::span<const PatchId> sources,
                                    std::size_t most_blockers, const ExecutionContext& context);
   // Restores a PatchVisibility from the result of rows() of another object.

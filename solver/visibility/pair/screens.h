@@ -17,7 +17,7 @@ namespace penumbra {
 // A half-space: the points p with dot(normal, p) >= offset, where `normal` is a unit vector.
 struct HalfSpace {
   Vec3 normal = Vec3::Zero();
-  double offset = 0;  // [m]
+  double offset = 0;  // distance of the border plane from the origin, along `normal` [m]
 };
 
 // A convex region, given as the intersection of half-spaces.
@@ -41,16 +41,16 @@ class ScreenFinder {
   explicit ScreenFinder(const Scene& scene);
 
   // Sets `screens` to at most `count` screens, in descending order of their estimated solid angles as seen
-  // from the points `from`. Each estimated solid angle is at least `least` [sr]. No screen is completely
-  // hidden behind an earlier screen of the list.
+  // from the points `from`. The estimated solid angle of each screen is at least `least` [sr]. No screen is
+  // completely hidden behind an earlier screen of the list.
   void Find(std::span<const ReceiverPoint> from, double least, std::size_t count,
             std::vector<Screen>& screens) const;
 
  private:
   const Scene* scene_ = nullptr;
   std::vector<PatchId> patch_;
-  std::array<std::vector<double>, 3> centre_;  // [m]
-  std::vector<double> area_;                   // [m^2]
+  std::array<std::vector<double>, 3> centre_;  // x, y and z of the centres of the patches [m]
+  std::vector<double> area_;                   // areas of the patches [m^2]
 };
 
 }  // namespace penumbra

@@ -42,15 +42,16 @@ class Clipper {
 
   // Tests whether the candidate occluders cover the polygon. Returns kAll if a single candidate covers the
   // whole polygon. If Narrow() returns kPart, the candidates that may cover a part of the polygon have been
-  // pushed on the stack, and `own` is their range. REQUIRES: the candidates are on top of the stack.
+  // pushed on the stack, and `own` is their range. REQUIRES: the candidates are on top of the Clipper's stack
+  // of occluders.
   Overlap Narrow(const ImagePolygon& polygon, const Candidates& candidates, Candidates* own);
   // Removes the entries of the occluder stack above the given candidates.
   void Restore(const Candidates& candidates);
 
-  // Cuts the shadows of the candidate occluders out of the polygon. The remaining pieces are added to
-  // Visible(), with the owner `owner` and with labels of their edges. `label` holds the labels of the
-  // polygon's edges; by default, the polygon's edges are labelled as edges of the source. REQUIRES: Narrow()
-  // has returned the candidates for this polygon.
+  // Cuts the shadows of the candidate occluders out of the polygon. The visible pieces of the polygon that
+  // remain are added to the list Visible(), with the owner `owner` and with a label for each edge of a piece.
+  // `label` holds the labels of the polygon's edges; by default, the polygon's edges are labelled as edges of
+  // the source. REQUIRES: Narrow() has returned the candidates for this polygon.
   void CutOut(const ImagePolygon& polygon, const Candidates& candidates, PieceOwner owner,
               std::span<const EdgeLabel> label = {});
 

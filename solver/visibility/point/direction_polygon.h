@@ -5,8 +5,8 @@
 // polygon are arcs of great circles, shorter than pi.
 //
 // Notation: x is the viewpoint, a -> b an edge of a polygon as seen from x, m = a x b the normal of the edge.
-// The vertices are in such an order that m . d > 0 for all edges and for every direction d inside the
-// polygon.
+// The order of the vertices is such that (a x b) . d > 0 for every edge a -> b and for every direction d
+// inside the polygon.
 
 #pragma once
 
@@ -56,7 +56,7 @@ enum class Side {
   // The plane contains the viewpoint, whose approach direction lies in the plane or is zero: the polygon has
   // no effect.
   kInPlane,
-  kFrontInLimit,  // the plane contains the viewpoint, approached from the front
+  kFrontInLimit,  // the plane contains the viewpoint, which is approached from the front of the polygon
   kBackInLimit,
 };
 
@@ -64,7 +64,7 @@ enum class Side {
 // absolute value up to `extent` [m].
 double HeightRounding(double extent);
 
-// The side on which the point `at` lies, of the plane through `on` with unit normal `normal`. `extent` is the
+// The side of the plane through `on` with unit normal `normal` on which the point `at` lies. `extent` is the
 // largest absolute coordinate of the polygon that defines the plane [m].
 Side SideOf(const ReceiverPoint& at, const Vec3& normal, const Vec3& on, double extent);
 
@@ -90,17 +90,17 @@ DirectionPolygon ClipToHorizon(const ReceiverPoint& at, const DirectionPolygon& 
 struct Cone {
   int size = 0;
   std::array<Vec3, 12> normal;  // unit normals of the cone's planes
-  // directions to the blocker's vertices; direction[k] is the start of plane k
+  // Directions to the blocker's vertices; plane k of the cone contains direction[k] and end[k].
   std::array<Vec3, 12> direction;
-  std::array<Vec3, 12> end;  // end[k] is the direction to the end of plane k
+  std::array<Vec3, 12> end;  // end[k] is the direction to the vertex after vertex k of the blocker
   // A vertex whose distance from a plane of the cone is at most `rounding` [m] counts as lying in the plane.
   // Without a tolerance for rounding errors, coincident planes of cones would cut off slivers whose edges
   // have arbitrary directions.
   double rounding = 0;
 };
 
-// The normal a x b of the edge from a to b. EdgeNormal(b, a) is exactly -EdgeNormal(a, b): both calls start
-// at the nearer of the points a and b and use the same operations.
+// The normal a x b of the edge from a to b. EdgeNormal(b, a) is exactly -EdgeNormal(a, b), because exchanging
+// the arguments changes only the sign of the rounded result.
 Vec3 EdgeNormal(const Vec3& a, const Vec3& b);
 
 // The cone of directions that the polygon `blocker` fills. `extent` is the largest absolute coordinate of the
@@ -110,7 +110,7 @@ Cone MakeCone(const ReceiverPoint& at, const DirectionPolygon& blocker, double e
 
 enum class Overlap { kNone, kPart, kAll };
 
-// An occluder: the cone of a blocker that may hide a part of a source. The Occluder holds only a pointer to
+// An occluder: the cone of a blocker that may hide a part of a source. An Occluder holds only a pointer to
 // the cone.
 struct Occluder {
   const Cone* cone = nullptr;

@@ -46,7 +46,7 @@ double FormFactorByQuadrature(const Vec3& base, std::span<const Vec3> offset, co
 // point. If the receiver point moves by d, the image of the edge moves sideways by d . m / (distance of the
 // line), where m is the unit normal of the plane through the point and the line. EdgeGradient() uses the
 // boundary form of Arvo (The irradiance Jacobian for partially occluded polyhedral sources, 1994). The
-// contribution is zero if the line passes through the receiver point, where no gradient exists.
+// contribution of an edge is zero if its line passes through the receiver point, where no gradient exists.
 Vec3 EdgeGradient(const Vec3& a, const Vec3& b, const Vec3& from, const Vec3& to, const Vec3& normal);
 
 // The gradient of the form factor to an unoccluded polygon with respect to the position of the point [1/m].

@@ -98,13 +98,13 @@ class ImageFrame {
 
  private:
   // Image() computes with the difference direction - first_ if |direction - first_|^2 / |direction|^2 is at
-  // most kNearFirstSquared. If this ratio is larger, image coordinates that are computed from the direction
-  // itself lose less than one decimal digit.
+  // most kNearFirstSquared. If |direction - first_|^2 / |direction|^2 is larger than kNearFirstSquared, image
+  // coordinates that are computed from the direction itself lose less than one decimal digit.
   static constexpr double kNearFirstSquared = 0.01;
 
   Vec3 axis_, e1_, e2_;
   Vec3 first_;   // direction to the polygon's first vertex
-  Vec3 origin_;  // first_ scaled so that axis . origin_ = 1
+  Vec3 origin_;  // the direction first_, scaled so that axis . origin_ = 1
   Vec2 shift_;   // coordinates of origin_ along e1 and e2
 };
 
@@ -152,8 +152,9 @@ struct ImagePart {
 Vec3 ImageAxis(const DirectionPolygon& polygon);
 
 // Divides the polygon into parts that each fit into one image, and appends them to `parts`. A polygon that
-// fits as a whole gives one part; otherwise two planes through `normal` cut the polygon. A polygon that
-// contains the whole horizon gives four parts. REQUIRES: the polygon lies above the horizon of `normal`.
+// fits into one image as a whole gives one part; otherwise two planes through `normal` cut the polygon. A
+// polygon that contains the whole horizon gives four parts. REQUIRES: the polygon lies above the horizon of
+// `normal`.
 void SplitForImages(const DirectionPolygon& polygon, const Vec3& normal, std::vector<ImagePart>& parts);
 
 }  // namespace penumbra

@@ -14,9 +14,9 @@ namespace penumbra {
 
 // A bound of (error of an exact occlusion method) / (form factor of the unoccluded source), if the given
 // directions and normal are taken as exact. Three errors contribute to the bound kOcclusionError. Each of
-// about ten clippings moves an edge by 8 rounding errors of the image coordinates. The error of adding up
-// form factors is kFormFactorError. If the source is seen at a grazing angle of 1e-5, one decimal digit of
-// its form factor is lost.
+// about ten clippings of a polygon moves an edge by up to 8 rounding errors of the image coordinates. The
+// relative error of computing and adding form factors is kFormFactorError. If the source is seen at a grazing
+// angle of 1e-5, one decimal digit of its form factor is lost.
 inline constexpr double kOcclusionError = 1e-12;
 
 class OcclusionMethod {

@@ -52,11 +52,11 @@ class PointView {
   // one-sided limit.
   bool SourceInContact() const { return source_in_contact_; }
 
-  // Appends to `occluders` the candidates that may hide parts of `seen`, clipped to the front side of the
-  // current source's plane. `own`, the receiver's patch, does not block light. If the outline of a convex
-  // solid bounds exactly the region that the solid hides, a single occluder represents all sides of the
-  // solid. Returns false and appends nothing if one occluder hides all of `seen`. The cones of the occluders
-  // are valid until the next call of FaceSource().
+  // Appends to `occluders` the candidates that may hide parts of `seen`, the view of a part of the current
+  // source. Each candidate is clipped to the front side of the current source's plane. `own`, the receiver's
+  // patch, does not block light. If the outline of a convex solid bounds exactly the region that the solid
+  // hides, a single occluder represents all sides of the solid. Returns false and appends nothing if one
+  // occluder hides all of `seen`. The cones of the occluders are valid until the next call of FaceSource().
   bool FindBlockers(std::span<const PatchId> candidates, PatchId own, const DirectionPolygon& seen,
                     std::vector<Occluder>& occluders);
 
@@ -74,8 +74,9 @@ class PointView {
  private:
   struct BlockerView {
     bool in_limit = false;
-    bool entered = false;  // for a solid, the value of SolidOutline::entered
-    Cone cone;             // the cone has the size 0 if the blocker hides nothing
+    // For a solid: true if light can enter it through a missing side (SolidOutline::entered).
+    bool entered = false;
+    Cone cone;  // the cone has the size 0 if the blocker hides nothing
   };
   struct Buffers;
 

@@ -9,7 +9,7 @@ namespace penumbra {
 // A receiver point: a point on a surface at which irradiance is computed, at the point itself or as a
 // one-sided limit.
 struct ReceiverPoint {
-  Vec3 position = Vec3::Zero();  // [m]
+  Vec3 position = Vec3::Zero();  // position of the point [m]
   Vec3 normal = Vec3::UnitZ();   // unit normal of the surface
   // For a one-sided limit, `approach` is a vector of any length from the point towards the region for which
   // the limit is taken. If `approach` is zero, no limit is taken: a polygon whose plane contains the point
