@@ -14,7 +14,7 @@ namespace penumbra::viewer {
 // triangle is taken over the channels and over kErrorPoints interior points that are not nodes of the
 // interpolant.
 struct ErrorMap {
-  std::vector<float> error;  // representation error of each triangle [1]
+  std::vector<float> error;  // relative error of the interpolant of each triangle
   double p99 = 0;            // representation error that 99 % of the mesh's area does not exceed
 };
 ErrorMap MapRepresentationError(const LightState& light, const IrradianceMesh& mesh,

@@ -111,7 +111,7 @@ class SolverSession {
   // Only the solver's thread uses the following members.
   std::shared_ptr<const PatchVisibility> visibility_;
   std::unique_ptr<Pipeline> pipeline_;
-  // the solution whose links transport the light; null: the scene has its own links
+  // The earlier solution whose links this session keeps; null if the session makes links of its own.
   std::shared_ptr<const PipelineState> restart_;
   bool settled_ = false;  // true if the iterations have ended
   // True if pipeline_ holds a solution from a file. The next step of the solver then starts from the

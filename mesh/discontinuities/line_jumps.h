@@ -28,9 +28,9 @@ struct LineJump {
 // discontinuity line crosses without an edge along the line. `size` [m] is the extent of the piece of the
 // mesh across the line. `margin` [m] is the smallest distance of the line from the borders of the piece. The
 // error estimate is that of Weight() with kIrradiance, except that largest_value (bound of the change of the
-// irradiance) is multiplied by sqrt(2 margin / size). The reason for the factor sqrt(2 margin / size) is that
-// an edge along the line reduces the error of a bounded change only on the smaller of the two parts into
-// which the line cuts the piece.
+// irradiance) is multiplied by sqrt(2 margin / size). The line cuts the piece into two parts, and an edge
+// along the line improves the interpolant mainly on the smaller part, whose area is (margin / size) * (area
+// of the piece). The factor is 1 for a line through the middle of the piece.
 double ErrorWithout(const LineJump& jump, double size, double margin);
 
 class LineJumps {

@@ -40,7 +40,8 @@ void ScaleLights(std::span<const Rgb> factor, std::span<EmitterLight> lights, Ra
 // The data of a light that a SourceSet needs: radiosities of elements and fragments, and emittances of
 // patches.
 struct SourceLight {
-  std::vector<Rgb> element, fragment, emittance;  // radiosities, and emittances of patches [W/m^2]
+  std::vector<Rgb> element, fragment;  // radiosity of each element, and of each fragment [W/m^2]
+  std::vector<Rgb> emittance;          // emittance of each patch [W/m^2]
 
   SourceLight() = default;
   // Takes the light of a radiosity solution.

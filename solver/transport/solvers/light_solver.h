@@ -71,8 +71,8 @@ class LightSolver {
   // allow no more steps.
   virtual std::optional<SolverStep> Next() const = 0;
   // Makes one step of the given kind, whether or not Next() returns this kind. Step() returns false if the
-  // step was cancelled or the solver has no steps of this kind. A cancelled iteration leaves the light
-  // unchanged; a cancelled correction keeps its completed passes.
+  // step was cancelled or the solver makes no steps of the kind `step`. A cancelled iteration leaves the
+  // light unchanged; a cancelled correction keeps its completed passes.
   virtual bool Step(SolverStep step, const ExecutionContext& context) = 0;
   // True if no further iteration would change the light by more than the options allow.
   virtual bool Converged() const = 0;
