@@ -21,6 +21,7 @@
 #include "apps/photometric_option.h"
 #include "apps/probe.h"
 #include "apps/restart.h"
+#include "apps/room_page.h"
 #include "apps/scene_arguments.h"
 #include "apps/solve_options.h"
 #include "apps/solve_run.h"
@@ -36,7 +37,7 @@ namespace {
 constexpr NumberRule kHeight{[](double x) { return x >= -1e36 && x <= 1e36; }, "a number from -1e36 to 1e36"};
 constexpr NumberRule kSpacing{[](double x) { return x >= 1e-6 && x <= 1e36; }, "a number from 1e-6 to 1e36"};
 
-constexpr const char *kPointsEnding = "csv", *kPictureEnding = "svg";
+constexpr const char *kPointsEnding = "csv", *kPictureEnding = "svg", *kPageEnding = "html";
 
 struct GridArguments {
   SceneArguments scene;
@@ -47,6 +48,7 @@ struct GridArguments {
   LightUnit unit = LightUnit::kWatts;
 
   bool DrawsPicture() const { return output && EndingOf(*output) == kPictureEnding; }
+  bool WritesPage() const { return output && EndingOf(*output) == kPageEnding; }
 };
 
 void CheckGrid(const GridArguments& arguments) {
@@ -57,8 +59,8 @@ void CheckGrid(const GridArguments& arguments) {
     if (IsGiven(arguments.scene, name))
       throw UsageError(
           fmt::format("{} is of the light, and without --solve there are only points; give both", name));
-  if (arguments.DrawsPicture())
-    throw UsageError(fmt::format("-o '{}' is a picture of the light; give --solve, too", *arguments.output));
+  if (arguments.DrawsPicture() || arguments.WritesPage())
+    throw UsageError(fmt::format("-o '{}' shows the light; give --solve, too", *arguments.output));
 }
 
 // The points of the grid that light can reach, and how many it cannot.
@@ -130,6 +132,14 @@ std::string GridCsv(const std::vector<GridPoint>& points, const std::vector<Rgb>
   return fmt::to_string(csv);
 }
 
+std::string GridTitle(const GridArguments& arguments) {
+  return fmt::format("{} of {}, {}",
+                     arguments.unit == LightUnit::kLux ? "Illuminance" : "Mean irradiance of the channels",
+                     arguments.scene.scene,
+                     arguments.object ? fmt::format("{:g} m over {}", arguments.height, *arguments.object)
+                                      : fmt::format("z = {:g} m", *arguments.plane + arguments.height));
+}
+
 // The light in lux, or the mean of its channels in W/m^2.
 std::string GridPicture(const GridArguments& arguments, const WorkGrid& grid, const std::vector<Rgb>& light) {
   const bool in_lux = arguments.unit == LightUnit::kLux;
@@ -145,15 +155,22 @@ std::string GridPicture(const GridArguments& arguments, const WorkGrid& grid, co
   }
   map.first = grid.first;
   map.spacing = grid.spacing;
-  map.title = fmt::format(
-      "{} of {}, {}", in_lux ? "Illuminance" : "Mean irradiance of the channels", arguments.scene.scene,
-      arguments.object ? fmt::format("{:g} m over {}", arguments.height, *arguments.object)
-                       : fmt::format("z = {:g} m", *arguments.plane + arguments.height));
+  map.title = GridTitle(arguments);
   map.unit = in_lux ? "lux" : "W/m\u00b2";
   return ValueMapSvg(map);
 }
 
-void WriteLight(const GridArguments& arguments, const ReachedGrid& found, const std::vector<Rgb>& light) {
+// The contents of the output file.
+std::string GridFile(const GridArguments& arguments, const ReachedGrid& found, const std::vector<Rgb>& light,
+                     const Pipeline& pipeline) {
+  if (arguments.DrawsPicture()) return GridPicture(arguments, found.grid, light);
+  if (!arguments.WritesPage()) return GridCsv(found.grid.points, light, arguments.unit);
+  return RoomPageHtml({pipeline.scene(), pipeline.report(), light, found.left_out, arguments.unit,
+                       GridTitle(arguments), GridPicture(arguments, found.grid, light)});
+}
+
+void WriteLight(const GridArguments& arguments, const ReachedGrid& found, const std::vector<Rgb>& light,
+                const Pipeline& pipeline) {
   const std::string statistics = arguments.as_json
                                      ? StatisticsJson(light, arguments.unit, found.left_out).dump(2) + "\n"
                                      : StatisticsText(light, arguments.unit, found.left_out);
@@ -161,8 +178,7 @@ void WriteLight(const GridArguments& arguments, const ReachedGrid& found, const 
     WriteResult(std::nullopt, GridCsv(found.grid.points, light, arguments.unit));
     return PrintText(statistics);
   }
-  WriteResult(arguments.output, arguments.DrawsPicture() ? GridPicture(arguments, found.grid, light)
-                                                         : GridCsv(found.grid.points, light, arguments.unit));
+  WriteResult(arguments.output, GridFile(arguments, found, light, pipeline));
   WriteResult(std::nullopt, statistics);
 }
 
@@ -202,10 +218,10 @@ void Grid(GridArguments arguments) {
   const PointIrradianceOptions how =
       loaded.stored ? loaded.stored->solving.point : arguments.scene.solving.point;
   SolveRun run(arguments.scene, loaded, GridOptions(arguments));
-  run.Run(MeshKind::kInterpolant, WantsReport(arguments.scene));
+  run.Run(MeshKind::kInterpolant, WantsReport(arguments.scene) || arguments.WritesPage());
   const std::vector<Rgb> light = LightAt(found.grid.points, loaded.scene, run.pipeline(), how);
   run.Tell();
-  WriteLight(arguments, found, light);
+  WriteLight(arguments, found, light, run.pipeline());
 }
 
 // The option --plane z=Z.
@@ -228,12 +244,15 @@ void AddOutput(CLI::App& app, GridArguments* arguments) {
          "-o,--output",
          [arguments](const std::string& path) {
            const std::string ending = EndingOf(path);
-           if (ending != kPointsEnding && ending != kPictureEnding)
-             throw CLI::ValidationError("-o", EndingError(path, {kPointsEnding, kPictureEnding}));
+           if (ending != kPointsEnding && ending != kPictureEnding && ending != kPageEnding)
+             throw CLI::ValidationError("-o",
+                                        EndingError(path, {kPointsEnding, kPictureEnding, kPageEnding}));
            arguments->output = path;
          },
          "The points, with --solve and their light, as .csv (default: standard output), or a picture of the "
-         "light with contour lines and a scale, as .svg")
+         "light with contour lines and a scale, as .svg, or a page with the picture, the error, luminaires "
+         "and "
+         "materials, as .html")
       ->type_name("FILE");
 }
 

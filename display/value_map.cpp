@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "display/false_colour.h"
+#include "display/markup.h"
 #include "display/round_ticks.h"
 
 namespace penumbra {
@@ -16,21 +17,6 @@ constexpr double kLongSide = 640;                                   // of the ma
 constexpr double kLeft = 64, kTop = 44, kBelow = 56, kRight = 130;  // margins [px]
 constexpr double kBarGap = 24, kBarWidth = 22;                      // of the scale [px]
 constexpr int kMostTicks = 9, kMostContours = 10, kBarSteps = 128;
-
-std::string Escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&')
-      escaped += "&amp;";
-    else if (c == '<')
-      escaped += "&lt;";
-    else if (c == '>')
-      escaped += "&gt;";
-    else if (static_cast<unsigned char>(c) >= 0x20)
-      escaped += c;
-  }
-  return escaped;
-}
 
 std::string ColourText(double x) {
   const ScreenColour colour = FalseColour(x);
@@ -55,7 +41,7 @@ class MapDrawing {
         "font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"100%\" height=\"100%\" "
         "fill=\"white\"/>\n",
         kLeft + width_ + kRight, kTop + height_ + kBelow);
-    Add("<text x=\"{:.1f}\" y=\"26\" font-size=\"15\">{}</text>\n", kLeft, Escaped(map_.title));
+    Add("<text x=\"{:.1f}\" y=\"26\" font-size=\"15\">{}</text>\n", kLeft, EscapeMarkup(map_.title));
     AddCells();
     AddContours();
     AddAxes();
@@ -157,7 +143,7 @@ class MapDrawing {
       Add("<path d=\"M{:.1f} {:.1f}h5\" stroke=\"black\"/><text x=\"{:.1f}\" y=\"{:.1f}\">{:g}</text>\n",
           x + kBarWidth, y, x + kBarWidth + 8, y + 4.5, value);
     }
-    Add("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x, kTop - 10, Escaped(map_.unit));
+    Add("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x, kTop - 10, EscapeMarkup(map_.unit));
   }
 
   const ValueMap& map_;

@@ -87,6 +87,32 @@ TEST(Grid, HoldsTheFluxOfALamp) {
   EXPECT_NEAR(arrives / (lumens * std::stod(factor.out)), 1, 1e-3);
 }
 
+// The page tells the flux of the lamp, E A = 20 W of green light, and 179 * (0.265 * 10 + 0.67 * 20 +
+// 0.065 * 30) = 3222 lm, and needs no other file.
+TEST(Grid, WritesAPageOfTheRoom) {
+  const Sandbox sandbox;
+  WriteLampRoom(sandbox);
+  const auto page = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"grid",      "lamp.obj", "--object", "floor", "--height", "0.5",
+                                          "--spacing", "1",        "--solve",  "-o",    name};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = sandbox.Run(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return ReadBytes(sandbox.Path(name));
+  };
+  const std::string watts = page("watts.html", {});
+  EXPECT_THAT(watts, HasSubstr("<tr><td>lamp</td><td>1</td><td>10, 20, 30</td></tr>"));
+  EXPECT_THAT(watts, HasSubstr("<tr><td>black</td><td>36</td><td>0, 0, 0</td></tr>"));
+  EXPECT_THAT(watts, HasSubstr("<svg"));
+  EXPECT_THAT(watts, testing::Not(HasSubstr("src=")));
+  const std::string lux = page("lux.html", {"--photometric"});
+  EXPECT_THAT(lux, HasSubstr("<tr><td>lamp</td><td>1</td><td>3222</td></tr>"));
+  EXPECT_THAT(lux, HasSubstr("illuminance [lux]"));
+  const Outcome unsolved = sandbox.Run({"grid", "lamp.obj", "--object", "floor", "-o", "a.html"});
+  EXPECT_EQ(unsolved.status, 2);
+  EXPECT_THAT(unsolved.err, HasSubstr("give --solve"));
+}
+
 // Points without light feed `probe`, which finds what the grid found.
 TEST(Grid, FeedsProbe) {
   const Sandbox sandbox;
