@@ -15,6 +15,10 @@ constexpr double kNoHeight = -std::numeric_limits<double>::infinity();
 // A face looks up if the upward part of its unit normal exceeds this; less is the rounding of a wall.
 constexpr double kLeastUpwards = 1e-9;
 
+// Faces look one way if |sum of their vector areas| exceeds this fraction of the sum of their areas. A floor
+// has 1, the walls of a room have 0.
+constexpr double kMostlyOneWay = 0.9;
+
 // An extent that is short of a whole number of spacings by this fraction of a spacing counts as whole:
 // coordinates in files are rounded.
 constexpr double kRoundedSpacings = 1e-6;
@@ -76,6 +80,25 @@ void RaiseTo(const Polygon3& face, const Vec3& normal, const WorkGrid& grid, std
     }
 }
 
+// The error if no face looks up. A floor that looks along a horizontal axis comes from a file whose vertical
+// axis was taken for another.
+InputError NothingLooksUp(const Scene& scene, std::span<const std::int32_t> faces) {
+  Vec3 sum = Vec3::Zero();
+  double area = 0;
+  for (const std::int32_t face : faces) {
+    const Vec3 vector_area = VectorArea(scene.faces[static_cast<std::size_t>(face)].vertices);
+    sum += vector_area;
+    area += vector_area.norm();
+  }
+  int axis = 0;
+  sum.cwiseAbs().maxCoeff(&axis);
+  std::string why = "nothing of it looks up";
+  if (axis < 2 && std::abs(sum[axis]) > kMostlyOneWay * area)
+    why += std::string("; it looks along ") + (sum[axis] < 0 ? "-" : "+") + "xy"[axis] +
+           ": if that should be up, read the file with another --up x, y or z";
+  return InputError(why + "; give another --object, or --plane z=Z");
+}
+
 }  // namespace
 
 WorkGrid GridOverFaces(const Scene& scene, std::span<const std::int32_t> faces, double height,
@@ -92,7 +115,7 @@ WorkGrid GridOverFaces(const Scene& scene, std::span<const std::int32_t> faces, 
       high = high.cwiseMax(v.head<2>());
     }
   }
-  if (upward.empty()) throw InputError("nothing of it looks up; give another --object, or --plane z=Z");
+  if (upward.empty()) throw NothingLooksUp(scene, faces);
   WorkGrid grid = GridOver(low, high, spacing);
   std::vector<double> heights(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows),
                               kNoHeight);

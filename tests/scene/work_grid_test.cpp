@@ -58,6 +58,23 @@ TEST(WorkGrid, LiesOverFacesThatLookUp) {
   EXPECT_THROW(GridOverFaces(scene, std::vector<std::int32_t>{0}, 0, 1e-6), InputError);
 }
 
+// A floor that lies on its side tells which way it looks, since its file has another axis upwards; a ceiling
+// does not.
+TEST(WorkGrid, TellsOfAFloorOnItsSide) {
+  const Scene scene = FloorScene(
+      {{{0, 0, 0}, {0, 0, 3}, {3, 0, 3}, {3, 0, 0}}, {{0, 0, 5}, {0, 1, 5}, {1, 1, 5}, {1, 0, 5}}});
+  const auto why = [&](std::int32_t face) -> std::string {
+    try {
+      GridOverFaces(scene, std::vector<std::int32_t>{face}, 0, 1);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(why(0).find("it looks along +y: if that should be up"), std::string::npos) << why(0);
+  EXPECT_EQ(why(1), "nothing of it looks up; give another --object, or --plane z=Z");
+}
+
 // A plane has points over the whole extent; a spacing larger than the extent leaves one in the middle.
 TEST(WorkGrid, LiesInAPlane) {
   const Scene scene = FloorScene({{{0, 0, 0}, {3, 0, 0}, {3, 2, 0}, {0, 2, 0}}});
