@@ -9,13 +9,14 @@
 #include "solver/scene/obj_reader.h"
 #include "solver/scene/ply_reader.h"
 #include "solver/scene/rad_reader.h"
+#include "solver/scene/view3d_reader.h"
 
 namespace penumbra {
 
 SceneReaderRegistry& SceneReaders() {
   static SceneReaderRegistry registry(
       "scene reader", {ObjReaderMethod(), AssimpReaderMethod(), PlyReaderMethod(), MgfReaderMethod(),
-                       RadReaderMethod(), BuiltinSceneReaderMethod()});
+                       RadReaderMethod(), View3dReaderMethod(), BuiltinSceneReaderMethod()});
   return registry;
 }
 
