@@ -2,12 +2,15 @@
 
 sizes    no function, lambda or constructor has more than 60 lines or 6 parameters;
 names    no name is defined in the anonymous namespaces of two files of a target, which are compiled as one;
-threads  nothing is kept a thread but by solver/base/scratch.h.
+threads  nothing is kept a thread but by solver/base/scratch.h;
+lists    every pattern of tests/dev_only_tests.txt is that of a test.
 
-Usage: sources_test.py ROOT sizes|names|threads
+Usage: sources_test.py ROOT sizes|names|threads|lists
 """
 
+import fnmatch
 import os
+import re
 import sys
 
 from cpp_outline import Outline, tokens_of
@@ -22,6 +25,7 @@ ALONE = "tests/fuzz/"
 MACROS = ("TEST", "INSTANTIATE")  # of GoogleTest, which look like functions
 
 THREADS_HOME = "solver/base/scratch.h"
+DEV_ONLY = "tests/dev_only_tests.txt"
 
 
 def sources_below(root):
@@ -80,6 +84,21 @@ def find_kept(files):
     return [f"{path}:{token.line}: thread_local; only {THREADS_HOME} may keep anything a thread"
             for path, text in files.items() if path != THREADS_HOME
             for token in tokens_of(text) if token.text == "thread_local"]
+
+
+def find_stale(files, patterns, field_cases):
+    """Patterns of GoogleTest that name no test. A case of tests/field is named after its file."""
+    tests = ["Field." + name.replace("-", "_") for name in field_cases]
+    for text in files.values():
+        tests += [".".join(names) for names in re.findall(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", text, re.MULTILINE)]
+    return [f"{DEV_ONLY}: {pattern} is no test" for pattern in patterns if not fnmatch.filter(tests, pattern)]
+
+
+def read_dev_only(root):
+    with open(os.path.join(root, DEV_ONLY), encoding="utf-8") as file:
+        patterns = [line.strip() for line in file if line.strip() and not line.startswith("#")]
+    cases = [name.removesuffix(".json") for name in os.listdir(os.path.join(root, "tests/field")) if name.endswith(".json")]
+    return patterns, cases
 
 
 def expect(what, found, wanted, planted):
@@ -142,6 +161,12 @@ def plant_threads():
     expect("threads", find_kept({THREADS_HOME: kept, "mesh/a.cpp": "// thread_local\n"}), 0, kept)
 
 
+def plant_lists():
+    files = {"a.cpp": "TEST(A, BCd) {}\nTEST_F(E,\n       F) {}\n", "b.cpp": "TEST_P(G,\n       H) {}\n"}
+    for pattern, wanted in [("A.BCd", 0), ("A.B*", 0), ("A.B", 1), ("E.F", 0), ("G.H", 0), ("Field.1_a", 0), ("Field.1-a", 1)]:
+        expect("lists", find_stale(files, [pattern], ["1-a"]), wanted, pattern)
+
+
 def main():
     root, rule = sys.argv[1:]
     files = sources_below(root)
@@ -156,6 +181,9 @@ def main():
     elif rule == "threads":
         plant_threads()
         faults = find_kept(files)
+    elif rule == "lists":
+        plant_lists()
+        faults = find_stale(files, *read_dev_only(root))
     else:
         raise SystemExit(__doc__)
     print("\n".join(faults))

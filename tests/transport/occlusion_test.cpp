@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "solver/scene/surface_points.h"
+#include "tests/cases.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra::scene_test {
@@ -203,16 +204,11 @@ void ExpectSameAnywhere(const Scene& scene, const ReceiverPoint& at, Random& ran
   worst = std::max({worst, std::abs(got_moved - plain), std::abs(got_scaled - plain)});
 }
 
-#if !defined(NDEBUG) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kScenes = 400;
-#else
-constexpr int kScenes = 12000;  // ten variants of each: some 10^5 configurations
-#endif
-
+// Ten variants of each scene.
 TEST(Occlusion, InvariantsOfRandomScenes) {
   Random random(303);
   double worst = 0, worst_moved = 0;
-  for (int i = 0; i < kScenes; ++i) {
+  for (int i = 0; i < CaseCount(4000); ++i) {
     SCOPED_TRACE("scene " + std::to_string(i));
     const Scene scene = RandomScene(random, 1 + static_cast<int>(random.Index(10)));
     const ReceiverPoint at = Receiver({random.Uniform(-1, 1), random.Uniform(-1, 1), 0}, Vec3::UnitZ());

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "solver/transport/points/gathering.h"
+#include "tests/cases.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra::scene_test {
@@ -134,23 +135,18 @@ void ExpectGradient(const Scene& scene, const Motion& motion, Random& random, do
   }
 }
 
-#if !defined(NDEBUG) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kRooms = 150;
-#else
-constexpr int kRooms = 4000;
-#endif
-
 TEST(PointIrradiance, GradientMatchesDifferences) {
   Random random(804);
   double worst = 0;
   int kinks = 0;
-  for (int i = 0; i < kRooms; ++i) {
+  const int rooms = CaseCount(1500);
+  for (int i = 0; i < rooms; ++i) {
     const Motion motion = RandomMotion(random, i % 2 == 0 ? 0 : 3);
     ExpectGradient(Mapped(BrightRoom(random, 1 + static_cast<int>(random.Index(6))), motion), motion, random,
                    worst, kinks);
   }
-  std::printf("seed 804, largest difference %.2g W/m^3, %d of %d at a kink\n", worst, kinks, kRooms * 9);
-  EXPECT_LE(kinks, kRooms / 3);
+  std::printf("seed 804, largest difference %.2g W/m^3, %d of %d at a kink\n", worst, kinks, rooms * 9);
+  EXPECT_LE(kinks, rooms / 3);
 }
 
 // Over a square light the gradient has a closed form: none along the light on its axis, and as steep above as

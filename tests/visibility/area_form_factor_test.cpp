@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -15,6 +14,7 @@
 #include "solver/base/parallel.h"
 #include "solver/scene/patch_builder.h"
 #include "solver/scene/surface_points.h"
+#include "tests/cases.h"
 #include "tests/visibility/test_scenes.h"
 
 namespace penumbra::scene_test {
@@ -118,21 +118,12 @@ Scene RandomPair(Random& random, int kind) {
   return Mapped(scene, RandomMotion(random, random.Index(2) == 0 ? 0.0 : 5.0));
 }
 
-// PENUMBRA_TEST_FACTOR=N looks at N times as many; sanitizers, twenty times as slow, look at a fifth.
-int Count(int usual) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  usual = (usual + 4) / 5;
-#endif
-  const char* factor = std::getenv("PENUMBRA_TEST_FACTOR");
-  return factor ? usual * std::atoi(factor) : usual;
-}
-
 // A1 F12 = A2 F21, though the one is an integral over the first area and the other over the second: they
 // share nothing but the two polygons. The stated errors must cover the difference.
 TEST(AreaFormFactor, IsReciprocal) {
   Random random(4100);
   double worst = 0, largest = 0;
-  for (int i = 0; i < Count(25); ++i) {
+  for (int i = 0; i < CaseCount(25); ++i) {
     const int kind = i % 5;
     const Scene scene = RandomPair(random, kind);
     const AreaPart one = Whole(scene, 0), two = Whole(scene, 1);
@@ -156,7 +147,7 @@ TEST(AreaFormFactor, IsReciprocal) {
 TEST(AreaFormFactor, AllArrivesInAClosedScene) {
   Random random(4200);
   double worst = 0;
-  for (int i = 0; i < Count(3); ++i) {
+  for (int i = 0; i < CaseCount(3); ++i) {
     Scene scene;
     AddMaterial(scene, 0.5, 0);
     AddBox(scene, Vec3::Zero(), Vec3(random.Uniform(1, 3), 2, 1), true, 0);
@@ -184,7 +175,7 @@ TEST(AreaFormFactor, AllArrivesInAClosedScene) {
 // A further blocker never adds, and cutting either area changes nothing, beyond the stated errors.
 TEST(AreaFormFactor, BlockersTakeAwayAndCutsChangeNothing) {
   Random random(4300);
-  for (int i = 0; i < Count(10); ++i) {
+  for (int i = 0; i < CaseCount(10); ++i) {
     Scene scene = RandomPair(random, i % 5);
     const AreaPart one = Whole(scene, 0), two = Whole(scene, 1);
     const FormFactorEstimate whole = Between(scene, one, two);
@@ -207,7 +198,7 @@ TEST(AreaFormFactor, BlockersTakeAwayAndCutsChangeNothing) {
 // Random segments from area to area, those that a patch cuts left out: brute force, within 5 standard errors.
 TEST(AreaFormFactor, AgainstBruteForce) {
   Random random(4400);
-  for (int i = 0; i < Count(20); ++i) {
+  for (int i = 0; i < CaseCount(20); ++i) {
     const Scene scene = RandomPair(random, i % 3 == 0 ? 0 : 2);
     const AreaPart one = Whole(scene, 0), two = Whole(scene, 1);
     const Patch &p = scene.patches[0], &q = scene.patches[1];
@@ -250,7 +241,7 @@ TEST(AreaFormFactor, OfAThinStripTurnedAnyhow) {
   Add(still, {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}, 0);
   Random random(4600);
   double worst = 0, stated = 0;
-  for (int i = 0; i < Count(40); ++i) {
+  for (int i = 0; i < CaseCount(40); ++i) {
     const Scene scene = Mapped(still, RandomMotion(random, 2));
     const FormFactorEstimate got = Between(scene, Whole(scene, 0), Whole(scene, 1), {});
     EXPECT_NEAR(got.factor, kFactor, kRounded * kFactor + got.error) << i;
@@ -346,7 +337,7 @@ TEST(AreaFormFactor, ALooserToleranceCostsLess) {
 
   Random random(4121);
   std::size_t loose_points = 0, tight_points = 0;
-  for (int i = 0; i < Count(20); ++i) {
+  for (int i = 0; i < CaseCount(20); ++i) {
     const Scene scene = RandomPair(random, i % 5);
     AreaFormFactorOptions loose = Asked(1e-2), tight = Asked(1e-6);
     loose.clear_tolerance = loose.tolerance;
@@ -362,7 +353,7 @@ TEST(AreaFormFactor, ALooserToleranceCostsLess) {
   std::printf("seed 4121: %zu points to 1e-2, %zu to 1e-6\n", loose_points, tight_points);
   // Single pairs cost from 1 to 50 times less: a handful of them says nothing of the mean.
   constexpr int kPairsOfAMean = 20;
-  if (Count(20) >= kPairsOfAMean) {
+  if (CaseCount(20) >= kPairsOfAMean) {
     EXPECT_LE(2 * loose_points, tight_points);
   }
 }
@@ -370,7 +361,7 @@ TEST(AreaFormFactor, ALooserToleranceCostsLess) {
 // What is small beside 1 already is not followed to any end.
 TEST(AreaFormFactor, WhatIsSmallBesideOneEnds) {
   Random random(4122);
-  for (int i = 0; i < Count(10); ++i) {
+  for (int i = 0; i < CaseCount(10); ++i) {
     const Scene scene = RandomPair(random, i % 5);
     AreaFormFactorOptions options;
     options.tolerance = options.clear_tolerance = 1e-15;

@@ -10,16 +10,11 @@
 #include <vector>
 
 #include "solver/visibility/point/form_factor_batch.h"
+#include "tests/cases.h"
 #include "tests/visibility/test_scenes.h"
 
 namespace penumbra::scene_test {
 namespace {
-
-#if !defined(NDEBUG) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kPolygons = 5000, kHalved = 100;
-#else
-constexpr int kPolygons = 200000, kHalved = 1000;
-#endif
 
 double OfParts(const Vec3& base, const std::array<Vec3, 3>& offset, const Vec3& normal, int halvings) {
   if (halvings == 0) return FormFactorByQuadrature(base, offset, normal);
@@ -34,7 +29,7 @@ double OfParts(const Vec3& base, const std::array<Vec3, 3>& offset, const Vec3& 
 TEST(FormFactor, QuadratureOfPartsAddsUp) {
   Random random(511);
   double worst = 0;
-  for (int i = 0; i < kHalved; ++i) {
+  for (int i = 0; i < CaseCount(1000); ++i) {
     const double size = random.LogUniform(0.005, 1);
     const Vec3 base = RandomDirection(random), normal = (base + RandomDirection(random)).normalized();
     std::array<Vec3, 3> offset = {Vec3::Zero(), size * RandomDirection(random),
@@ -60,7 +55,8 @@ TEST(FormFactor, SumQuadratureAndBatchAgree) {
   std::vector<Vec3> normals;
   double by_sum = 0, by_batch = 0;
   int cancelled = 0;
-  for (int i = 0; i < kPolygons; ++i) {
+  const int polygons = CaseCount(50000);
+  for (int i = 0; i < polygons; ++i) {
     const Vec3 towards = random.LogUniform(1e-3, 1e3) * RandomDirection(random);
     const double size = random.LogUniform(1e-3, 1e3);
     const Vec3 u = size * RandomDirection(random),
@@ -101,7 +97,7 @@ TEST(FormFactor, SumQuadratureAndBatchAgree) {
   }
   std::printf("seed 512, %zu polygons, %d below 1e-3: sum off by %.2g, batch by %.2g (bound %.2g each)\n",
               wanted.size(), cancelled, by_sum, by_batch, kFormFactorError);
-  EXPECT_GT(wanted.size(), static_cast<std::size_t>(kPolygons) / 20);
+  EXPECT_GT(wanted.size(), static_cast<std::size_t>(polygons) / 20);
   EXPECT_LE(by_sum, 2 * kFormFactorError);
   EXPECT_LE(by_batch, 2 * kFormFactorError);
 }
