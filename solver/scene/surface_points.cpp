@@ -1,17 +1,25 @@
 #include "solver/scene/surface_points.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "solver/base/check.h"
 #include "solver/base/random.h"
+#include "solver/geometry/polygon.h"
 
 namespace penumbra {
 
 Vec3 PointOn(std::span<const Vec3> polygon, double s, double t) {
-  PENUMBRA_CHECK(polygon.size() == 3 || polygon.size() == 4);
+  PENUMBRA_CHECK(polygon.size() >= 3);
   const Vec3 &a = polygon[0], &last = polygon.back();
+  if (polygon.size() > 4) {  // the last triangle of the fan, or the rest
+    const std::array<Vec3, 3> triangle = {a, polygon[polygon.size() - 2], last};
+    const double rest = 1 - VectorArea(triangle).norm() / VectorArea(polygon).norm();
+    if (s < rest) return PointOn(polygon.first(polygon.size() - 1), s / rest, t);
+    return PointOn(triangle, (s - rest) / (1 - rest), t);
+  }
   const double first = (polygon[1] - a).cross(polygon[2] - a).norm();
   const double second = (polygon[2] - a).cross(last - a).norm();
   const double share = first / (first + second);

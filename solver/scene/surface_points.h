@@ -12,9 +12,9 @@
 
 namespace penumbra {
 
-// Maps (s, t) in the unit square to a point of a convex triangle or quadrilateral. If (s, t) is uniformly
-// distributed, the points are uniformly distributed over the area of the polygon. A triangle may be given
-// with four vertices, the last vertex repeated.
+// Maps (s, t) in the unit square to a point of a convex polygon. If (s, t) is uniformly distributed, the
+// points are uniformly distributed over the area of the polygon. A triangle may be given with four vertices,
+// the last vertex repeated.
 Vec3 PointOn(std::span<const Vec3> polygon, double s, double t);
 
 struct SurfacePoint {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,9 +15,11 @@
 
 #include "solver/base/parallel.h"
 #include "solver/base/random.h"
+#include "solver/geometry/polygon.h"
 #include "solver/scene/builtin_scenes.h"
 #include "solver/scene/surface_points.h"
 #include "solver/transport/links/element_locator.h"
+#include "solver/transport/links/solution.h"
 #include "solver/transport/points/final_gather.h"
 #include "solver/transport/points/neighbour_groups.h"
 #include "solver/transport/points/ray_ends.h"
@@ -308,6 +312,53 @@ TEST(FinalGather, KeepsLightBehindAWall) {
   }
   std::printf("largest relative difference behind the wall: %.2g\n", worst);
   EXPECT_LT(worst, 0.15);
+}
+
+// A box about `centre`, turned, with its fronts outwards.
+void AddTurnedBox(Scene& scene, const Vec3& centre, const Vec3& half, const Eigen::AngleAxisd& turn,
+                  std::int32_t material) {
+  const std::size_t first = scene.patches.size();
+  scene_test::AddBox(scene, -half, half, false, material);
+  for (std::size_t p = first; p < scene.patches.size(); ++p) {
+    for (Vec3& v : scene.patches[p].vertex) v = centre + turn * v;
+    scene.patches[p].normal = turn * scene.patches[p].normal;
+  }
+}
+
+// No light enters a sealed box that crosses the floor, though elements of the floor lie on both sides of its
+// walls: what stands inside stays dark.
+TEST(SampledSolver, LeavesSealedBoxesDark) {
+  Scene scene;
+  scene_test::AddMaterial(scene, 0.8, 0);
+  scene_test::AddMaterial(scene, 0, 10);
+  scene_test::AddBox(scene, Vec3::Zero(), {4, 3, 2.5}, true, 0);
+  scene_test::Add(scene, {{1, 1, 2.4}, {1, 2, 2.4}, {3, 2, 2.4}, {3, 1, 2.4}}, 1);
+  const Vec3 centre(2.03, 1.41, 0.1), half(0.5, 0.4, 0.6);
+  const Eigen::AngleAxisd turn(0.7, Vec3(0.2, -0.3, 1).normalized());
+  AddTurnedBox(scene, centre, half, turn, 0);
+  const auto first_inside = static_cast<PatchId>(scene.patches.size());
+  AddTurnedBox(scene, {2.0, 1.4, 0.05}, {0.1, 0.15, 0.2}, turn, 0);
+  const RadiositySolution solution = Sampled(scene);
+  double mean = 0, area = 0, worst = 0;
+  for (const ElementId leaf : solution.forest.AllLeaves()) {
+    mean += solution.forest[leaf].area * solution.irradiance[leaf].mean();
+    area += solution.forest[leaf].area;
+  }
+  mean /= area;
+  std::size_t fragments = 0;
+  for (const Fragment& fragment : solution.fragments) {
+    Vec3 inside = turn.inverse() * (Centroid(fragment.polygon) - centre);
+    if (solution.forest[fragment.leaf].patch != 0 || (inside.cwiseAbs() - half).maxCoeff() > 0) continue;
+    worst = std::max(worst, fragment.irradiance.maxCoeff());
+    ++fragments;
+  }
+  EXPECT_GT(fragments, 10U);
+  const FinalGather gather(solution, {});
+  for (const SurfacePoint& point : SpreadPoints(scene, 3000, 3))
+    if (point.patch >= first_inside) worst = std::max(worst, gather.At(At(scene, point)).maxCoeff());
+  std::printf("largest light of %zu fragments and at points inside: %.2g of the mean\n", fragments,
+              worst / mean);
+  EXPECT_LT(worst, 1e-3 * mean);
 }
 
 // The bytes of the light do not depend on the number of threads, nor on whether the light was computed

@@ -13,6 +13,7 @@
 #include "solver/base/random.h"
 #include "solver/geometry/polygon.h"
 #include "solver/transport/links/element_locator.h"
+#include "solver/transport/links/fragment_locator.h"
 #include "solver/transport/points/ray_ends.h"
 #include "solver/visibility/point/ray_caster.h"
 
@@ -34,37 +35,75 @@ constexpr double kSharpEdge = 2;
 // The largest number of leaves that are luminaires; points look at all of them.
 constexpr std::size_t kMostReflectors = 2000;
 
-std::vector<Rgb> ReflectedOf(const RadiositySolution& solution) {
-  std::vector<Rgb> reflected;
-  reflected.reserve(solution.forest.size());
+// Radiosity without emittance [W/m^2].
+struct Reflected {
+  std::vector<Rgb> element, fragment;
+};
+
+Reflected ReflectedOf(const RadiositySolution& solution) {
+  Reflected reflected;
+  reflected.element.reserve(solution.forest.size());
+  const auto reflectance = [&](ElementId element) {
+    return solution.forest.scene().MaterialOf(solution.forest[element].patch).reflectance;
+  };
   for (std::size_t e = 0; e < solution.forest.size(); ++e)
-    reflected.push_back(solution.forest.scene().MaterialOf(solution.forest.elements()[e].patch).reflectance *
-                        solution.irradiance[e]);
+    reflected.element.push_back(reflectance(static_cast<ElementId>(e)) * solution.irradiance[e]);
+  for (const Fragment& fragment : solution.fragments)
+    reflected.fragment.push_back(reflectance(fragment.leaf) * fragment.irradiance);
   return reflected;
 }
 
-// Moves the leaves that reflect most from `reflected`, where they leave zeros, to a list.
-std::vector<BrightReflector> TakeBrightest(const ElementForest& forest, std::vector<Rgb>& reflected) {
-  double flux = 0, area = 0;
-  std::vector<ElementId> bright;
-  const std::vector<ElementId> leaves = forest.AllLeaves();
-  const auto power = [&](ElementId leaf) {
-    return forest[leaf].area * reflected[static_cast<std::size_t>(leaf)].maxCoeff();
-  };
-  for (const ElementId leaf : leaves) {
-    flux += power(leaf);
-    area += forest[leaf].area;
+// A leaf that is whole, or a fragment, with the light that it reflects.
+struct LitCell {
+  ElementId leaf = kNoElement;
+  std::span<const Vec3> polygon;
+  double area = 0;           // [m^2]
+  Rgb* reflected = nullptr;  // [W/m^2]
+
+  double Power() const { return area * reflected->maxCoeff(); }
+};
+
+std::vector<LitCell> LitCellsOf(const RadiositySolution& solution, Reflected& reflected) {
+  std::vector<LitCell> cells;
+  const FragmentLocator fragments(solution);
+  for (const ElementId leaf : solution.forest.AllLeaves()) {
+    const Element& element = solution.forest[leaf];
+    if (fragments.IsWhole(leaf))
+      cells.push_back(
+          {leaf, element.Vertices(), element.area, &reflected.element[static_cast<std::size_t>(leaf)]});
+    for (std::int32_t f = fragments.FirstOf(leaf); f < fragments.FirstOf(leaf + 1); ++f) {
+      const Fragment& fragment = solution.fragments[static_cast<std::size_t>(f)];
+      cells.push_back(
+          {leaf, fragment.polygon, fragment.area, &reflected.fragment[static_cast<std::size_t>(f)]});
+    }
   }
-  for (const ElementId leaf : leaves)
-    if (power(leaf) * area > kBright * flux * forest[leaf].area) bright.push_back(leaf);
+  return cells;
+}
+
+// Moves the cells that reflect most from `reflected`, where they leave zeros, to a list.
+std::vector<BrightReflector> TakeBrightest(const RadiositySolution& solution, Reflected& reflected) {
+  double flux = 0, area = 0;
+  const std::vector<LitCell> cells = LitCellsOf(solution, reflected);
+  for (const LitCell& cell : cells) {
+    flux += cell.Power();
+    area += cell.area;
+  }
+  std::vector<LitCell> bright;
+  for (const LitCell& cell : cells)
+    if (cell.Power() * area > kBright * flux * cell.area) bright.push_back(cell);
   std::stable_sort(bright.begin(), bright.end(),
-                   [&](ElementId a, ElementId b) { return power(a) > power(b); });
+                   [](const LitCell& a, const LitCell& b) { return a.Power() > b.Power(); });
   if (bright.size() > kMostReflectors) bright.resize(kMostReflectors);
   std::vector<BrightReflector> taken;
-  for (const ElementId leaf : bright) {
-    const std::span<const Vec3> polygon = forest[leaf].Vertices();
-    taken.push_back({forest[leaf].patch, Polygon3(polygon.begin(), polygon.end()),
-                     std::exchange(reflected[static_cast<std::size_t>(leaf)], Rgb::Zero())});
+  for (const LitCell& cell : bright) {
+    const PatchId patch = solution.forest[cell.leaf].patch;
+    const Rgb radiosity = std::exchange(*cell.reflected, Rgb::Zero());
+    // Quadrilaterals of a fan, and a triangle if the number of vertices is odd.
+    for (std::size_t k = 1; k + 1 < cell.polygon.size(); k += 2) {
+      Polygon3 piece = {cell.polygon[0], cell.polygon[k], cell.polygon[k + 1]};
+      if (k + 2 < cell.polygon.size()) piece.push_back(cell.polygon[k + 2]);
+      taken.push_back({patch, std::move(piece), radiosity});
+    }
   }
   return taken;
 }
@@ -75,34 +114,56 @@ struct CornerLight {
   bool is_triangle = false;
 };
 
-// The light at the corners of all leaves: the area-weighted mean over the leaves of the patch that meet
-// there, except those whose light differs so much that a shadow's edge or a wall must lie between, or that
-// are dark because they have become luminaires.
-std::vector<CornerLight> LightAtCorners(const ElementForest& forest, std::span<const Rgb> light) {
+// A leaf or a fragment at a corner of the lattice.
+struct AtCorner {
+  Rgb light = Rgb::Zero();  // [W/m^2]
+  double area = 0;          // [m^2]
+};
+using MeetingAtCorners = std::unordered_map<LatticePoint, std::vector<AtCorner>, LatticePointHash>;
+
+// What meets at the corners of a patch's leaves, without what is dark.
+MeetingAtCorners FindMeeting(const RadiositySolution& solution, std::span<const ElementId> leaves,
+                             const FragmentLocator& fragments, const Reflected& light) {
+  MeetingAtCorners meeting;
+  for (const ElementId leaf : leaves) {
+    const Element& element = solution.forest[leaf];
+    for (std::size_t k = 0; k < element.Corners().size(); ++k) {
+      AtCorner at{light.element[static_cast<std::size_t>(leaf)], element.area};
+      if (const std::int32_t f = fragments.At(leaf, element.vertex[k]); f >= 0)
+        at = {light.fragment[static_cast<std::size_t>(f)],
+              solution.fragments[static_cast<std::size_t>(f)].area};
+      if ((at.light > 0).any()) meeting[element.corner[k]].push_back(at);
+    }
+  }
+  return meeting;
+}
+
+// The light at the corners of all whole leaves: the area-weighted mean over the leaves and fragments of the
+// patch that meet there, except those whose light differs so much that a shadow's edge or a wall must lie
+// between, or that are dark because they have become luminaires.
+std::vector<CornerLight> LightAtCorners(const RadiositySolution& solution, const FragmentLocator& fragments,
+                                        const Reflected& light) {
+  const ElementForest& forest = solution.forest;
   std::vector<CornerLight> corners(forest.size());
   const std::size_t patches = forest.scene().patches.size();
   ParallelFor(patches, 16, [&](std::size_t p) {
-    std::unordered_map<LatticePoint, std::vector<ElementId>, LatticePointHash> meeting;
     const std::vector<ElementId> leaves = forest.Leaves(static_cast<PatchId>(p));
-    for (const ElementId leaf : leaves) {
-      if ((light[static_cast<std::size_t>(leaf)] <= 0).all()) continue;
-      for (const LatticePoint& corner : forest[leaf].Corners()) meeting[corner].push_back(leaf);
-    }
+    MeetingAtCorners meeting = FindMeeting(solution, leaves, fragments, light);
     for (const ElementId leaf : leaves) {
       CornerLight& own = corners[static_cast<std::size_t>(leaf)];
-      const Rgb& of_leaf = light[static_cast<std::size_t>(leaf)];
+      const Rgb& of_leaf = light.element[static_cast<std::size_t>(leaf)];
       own.is_triangle = forest[leaf].size == 3;
       own.light.fill(of_leaf);
-      if ((of_leaf <= 0).all()) continue;
+      if ((of_leaf <= 0).all() || !fragments.IsWhole(leaf)) continue;
       for (std::size_t k = 0; k < forest[leaf].Corners().size(); ++k) {
         Rgb sum = Rgb::Zero();
         double area = 0;
-        for (const ElementId other : meeting[forest[leaf].Corners()[k]]) {
-          const Rgb& of_other = light[static_cast<std::size_t>(other)];
-          if (of_other.sum() > kSharpEdge * of_leaf.sum() || of_leaf.sum() > kSharpEdge * of_other.sum())
+        for (const AtCorner& other : meeting[forest[leaf].corner[k]]) {
+          if (other.light.sum() > kSharpEdge * of_leaf.sum() ||
+              of_leaf.sum() > kSharpEdge * other.light.sum())
             continue;
-          sum += forest[other].area * of_other;
-          area += forest[other].area;
+          sum += other.area * other.light;
+          area += other.area;
         }
         own.light[k] = sum / area;
       }
@@ -117,15 +178,22 @@ struct FinalGather::Shared {
   explicit Shared(const RadiositySolution& solution)
       : scene(solution.forest.scene()),
         elements(solution.forest),
+        fragments(solution),
         caster(scene),
         lift(RayLift(scene)),
         reflected(ReflectedOf(solution)),
         dim(reflected),
-        luminaires(scene, caster, TakeBrightest(solution.forest, dim)),
+        luminaires(scene, caster, TakeBrightest(solution, dim)),
         emitters(scene, caster),
-        at_corners(LightAtCorners(solution.forest, dim)) {}
+        at_corners(LightAtCorners(solution, fragments, dim)) {}
 
-  // The dim reflected radiosity at a place: linear or bilinear between the corners of its leaf.
+  // The light of the fragment, or of the whole element if `fragment` is negative.
+  static const Rgb& Of(const Reflected& light, ElementId element, std::int32_t fragment) {
+    return fragment >= 0 ? light.fragment[static_cast<std::size_t>(fragment)]
+                         : light.element[static_cast<std::size_t>(element)];
+  }
+
+  // The dim reflected radiosity at a place of a whole leaf: linear or bilinear between its corners.
   Rgb DimAt(const ElementLocator::Place& place) const {
     const CornerLight& corner = at_corners[static_cast<std::size_t>(place.element)];
     const double s = std::clamp(place.s, 0.0, 1.0), t = std::clamp(place.t, 0.0, 1.0);
@@ -136,10 +204,11 @@ struct FinalGather::Shared {
 
   const Scene& scene;
   ElementLocator elements;
+  FragmentLocator fragments;
   RayCaster caster;
-  double lift;                 // RayLift()
-  std::vector<Rgb> reflected;  // radiosity without emittance, by element [W/m^2]
-  std::vector<Rgb> dim;        // the same, but zero for leaves that are luminaires
+  double lift;  // RayLift()
+  Reflected reflected;
+  Reflected dim;  // the same, but zero for leaves and fragments that are luminaires
   ShadowRays luminaires, emitters;
   std::vector<CornerLight> at_corners;  // of leaves, by element
 };
@@ -169,8 +238,9 @@ void FinalGather::MakeDirections() {
 Rgb FinalGather::RadiosityAt(PatchId patch, const Vec3& point, std::size_t ray) const {
   const Shared& in = *shared_;
   const ElementLocator::Place place = in.elements.Find(patch, point);
-  if (!options_.regather || (in.dim[static_cast<std::size_t>(place.element)] <= 0).all())
-    return in.DimAt(place);
+  const std::int32_t fragment = in.fragments.At(place.element, point);
+  const Rgb& dim = Shared::Of(in.dim, place.element, fragment);
+  if (!options_.regather || (dim <= 0).all()) return fragment >= 0 ? dim : in.DimAt(place);
   const Patch& hit = in.scene.patches[static_cast<std::size_t>(patch)];
   const Rgb& reflectance = in.scene.MaterialOf(patch).reflectance;
   if ((reflectance <= 0).all()) return Rgb::Zero();
@@ -184,9 +254,11 @@ Rgb FinalGather::RadiosityAt(PatchId patch, const Vec3& point, std::size_t ray) 
   const Vec3 direction = local.x() * frame.u + local.y() * frame.v + local.z() * frame.n;
   const Vec3 start = RayStart(at, in.lift);
   const RayCaster::Hit next = in.caster.Cast(start, direction);
-  if (next.patch != kNoPatch && next.front)
-    irradiance += in.reflected[static_cast<std::size_t>(
-        in.elements.LeafAt(next.patch, start + next.distance * direction))];
+  if (next.patch != kNoPatch && next.front) {
+    const Vec3 end = start + next.distance * direction;
+    const ElementId leaf = in.elements.LeafAt(next.patch, end);
+    irradiance += Shared::Of(in.reflected, leaf, in.fragments.At(leaf, end));
+  }
   return reflectance * irradiance;
 }
 

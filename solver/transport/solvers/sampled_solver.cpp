@@ -9,9 +9,11 @@
 #include "solver/base/stopwatch.h"
 #include "solver/scene/surface_points.h"
 #include "solver/transport/links/element_locator.h"
+#include "solver/transport/links/fragment_locator.h"
 #include "solver/transport/points/ray_ends.h"
 #include "solver/transport/solvers/anderson.h"
 #include "solver/transport/solvers/diffuse_rays.h"
+#include "solver/transport/sources/leaf_fragments.h"
 
 namespace penumbra {
 namespace {
@@ -56,6 +58,7 @@ SampledSolver::SampledSolver(const SampledSolver& from, const Scene& other)
       caster_(from.caster_),
       solution_(from.solution_),
       push_pull_(solution_),
+      cells_(from.cells_),
       rows_(from.rows_),
       rays_(from.rays_),
       pass_(from.pass_),
@@ -63,6 +66,7 @@ SampledSolver::SampledSolver(const SampledSolver& from, const Scene& other)
       no_pairs_(PatchVisibility::WithoutPairs(other)),
       seen_from_leaves_(from.seen_from_leaves_) {
   solution_.forest = solution_.forest.Of(other);
+  for (Fragment& fragment : solution_.fragments) fragment.irradiance = Rgb::Zero();
   std::fill(solution_.irradiance.begin(), solution_.irradiance.end(), Rgb::Zero());
 }
 
@@ -79,18 +83,37 @@ SampledSolver::Limits SampledSolver::LimitsOf(int pass) const {
           std::max<std::size_t>(8, options_.element_rays >> static_cast<unsigned>(2 * to_come))};
 }
 
-SampledSolver::Direct SampledSolver::DirectOn(ElementId id) const {
-  const Element& element = solution_.forest[id];
-  const Vec3& normal = scene_.patches[static_cast<std::size_t>(element.patch)].normal;
+std::span<const Vec3> SampledSolver::PolygonOf(const Cell& cell) const {
+  if (cell.fragment >= 0) return solution_.fragments[static_cast<std::size_t>(cell.fragment)].polygon;
+  return solution_.forest[cell.leaf].Vertices();
+}
+
+double SampledSolver::AreaOf(const Cell& cell) const {
+  return cell.fragment >= 0 ? solution_.fragments[static_cast<std::size_t>(cell.fragment)].area
+                            : solution_.forest[cell.leaf].area;
+}
+
+const Rgb& SampledSolver::ReflectanceOf(const Cell& cell) const {
+  return scene_.MaterialOf(solution_.forest[cell.leaf].patch).reflectance;
+}
+
+const SampledSolver::Direct& SampledSolver::DirectOf(const Cell& cell) const {
+  return cell.fragment >= 0 ? direct_of_fragment_[static_cast<std::size_t>(cell.fragment)]
+                            : direct_[static_cast<std::size_t>(cell.leaf)];
+}
+
+SampledSolver::Direct SampledSolver::DirectOn(PatchId patch, std::span<const Vec3> polygon,
+                                              std::uint64_t seed) const {
+  const Vec3& normal = scene_.patches[static_cast<std::size_t>(patch)].normal;
   std::array<ReceiverPoint, 4> at;
   for (std::size_t k = 0; k < at.size(); ++k)
-    at[k] = {.position = PointOn(element.Vertices(), k % 2 == 0 ? 0.25 : 0.75, k < 2 ? 0.25 : 0.75),
+    at[k] = {.position = PointOn(polygon, k % 2 == 0 ? 0.25 : 0.75, k < 2 ? 0.25 : 0.75),
              .normal = normal,
              .approach = normal,
              .uncertainty = 0};
   std::array<Rgb, 4> light;
   ShadowRayEffort effort = kRough;
-  effort.seed = static_cast<std::uint64_t>(id);
+  effort.seed = seed;
   shadows_->AtAll(at, effort, light);
   Direct direct;
   for (const Rgb& l : light) direct.mean += l / 4;
@@ -114,8 +137,33 @@ void SampledSolver::LightNewElements(const ExecutionContext& context) {
   const std::size_t first = direct_.size();
   direct_.resize(solution_.forest.size());
   ParallelFor(direct_.size() - first, kGrain, [&](std::size_t i) {
-    if (!context.Cancelled()) direct_[first + i] = DirectOn(static_cast<ElementId>(first + i));
+    if (context.Cancelled()) return;
+    const Element& element = solution_.forest.elements()[first + i];
+    direct_[first + i] = DirectOn(element.patch, element.Vertices(), first + i);
   });
+}
+
+void SampledSolver::LightFragments(const ExecutionContext& context) {
+  direct_of_fragment_.resize(solution_.fragments.size());
+  ParallelFor(direct_of_fragment_.size(), kGrain, [&](std::size_t i) {
+    if (context.Cancelled()) return;
+    const Fragment& fragment = solution_.fragments[i];
+    direct_of_fragment_[i] = DirectOn(solution_.forest[fragment.leaf].patch, fragment.polygon, i);
+  });
+}
+
+// Cuts the leaves at contacts, and lists the cells.
+void SampledSolver::FindCells(const ExecutionContext& context) {
+  solution_.fragments = CutLeavesAtContacts(solution_.forest, context);
+  cells_.clear();
+  if (context.Cancelled()) return;
+  const FragmentLocator fragments(solution_);
+  for (const ElementId leaf : push_pull_.leaves()) {
+    if (fragments.IsWhole(leaf)) cells_.push_back({leaf, -1});
+    for (std::int32_t f = fragments.FirstOf(leaf); f < fragments.FirstOf(leaf + 1); ++f)
+      cells_.push_back({leaf, f});
+  }
+  LightFragments(context);
 }
 
 void SampledSolver::Divide(const Limits& limits, const ExecutionContext& context) {
@@ -145,38 +193,40 @@ void SampledSolver::Divide(const Limits& limits, const ExecutionContext& context
 }
 
 void SampledSolver::SampleMatrix(std::size_t rays, const ExecutionContext& context) {
-  const std::span<const ElementId> leaves = push_pull_.leaves();
-  std::vector<std::int32_t> place(solution_.forest.size(), -1);
-  for (std::size_t i = 0; i < leaves.size(); ++i)
-    place[static_cast<std::size_t>(leaves[i])] = static_cast<std::int32_t>(i);
-  std::vector<std::int32_t> rows(leaves.size() * rays, -1);
+  std::vector<std::int32_t> place(solution_.forest.size(), -1);  // of the first cell of a leaf
+  for (std::size_t i = cells_.size(); i-- > 0;)
+    place[static_cast<std::size_t>(cells_[i].leaf)] = static_cast<std::int32_t>(i);
+  std::vector<std::int32_t> rows(cells_.size() * rays, -1);
   rays_ = rays;
   const double lift = RayLift(scene_);
   const ElementLocator elements(solution_.forest);
-  ParallelFor(leaves.size(), kGrain, [&](std::size_t i) {
+  const FragmentLocator fragments(solution_);
+  ParallelFor(cells_.size(), kGrain, [&](std::size_t i) {
     if (context.Cancelled()) return;
-    const Element& element = solution_.forest[leaves[i]];
-    const Vec3& normal = scene_.patches[static_cast<std::size_t>(element.patch)].normal;
+    const std::span<const Vec3> polygon = PolygonOf(cells_[i]);
+    const PatchId patch = solution_.forest[cells_[i].leaf].patch;
+    const Vec3& normal = scene_.patches[static_cast<std::size_t>(patch)].normal;
     for (std::size_t k = 0; k < rays; ++k) {
-      const DiffuseRay ray = MakeDiffuseRay(element.Vertices(), normal, lift, k, i);
+      const DiffuseRay ray = MakeDiffuseRay(polygon, normal, lift, k, i);
       const RayCaster::Hit hit = caster_->Cast(ray.origin, ray.direction);
       if (hit.patch == kNoPatch || !hit.front) continue;
-      const ElementId leaf = elements.LeafAt(hit.patch, ray.origin + hit.distance * ray.direction);
-      rows[i * rays + k] = place[static_cast<std::size_t>(leaf)];
+      const Vec3 end = ray.origin + hit.distance * ray.direction;
+      const ElementId leaf = elements.LeafAt(hit.patch, end);
+      const std::int32_t fragment = fragments.At(leaf, end);
+      rows[i * rays + k] =
+          place[static_cast<std::size_t>(leaf)] + (fragment >= 0 ? fragment - fragments.FirstOf(leaf) : 0);
     }
   });
   report_.interactions.sampled = rows.size();
   rows_ = std::make_shared<const std::vector<std::int32_t>>(std::move(rows));
 }
 
-// The irradiance by the reflected part of the given irradiance; both are in the order of the leaves.
+// The irradiance by the reflected part of the given irradiance; both are in the order of the cells.
 std::vector<Rgb> SampledSolver::Gather(std::span<const Rgb> irradiance) const {
-  const std::span<const ElementId> leaves = push_pull_.leaves();
-  std::vector<Rgb> reflected(leaves.size());
-  for (std::size_t i = 0; i < leaves.size(); ++i)
-    reflected[i] = scene_.MaterialOf(solution_.forest[leaves[i]].patch).reflectance * irradiance[i];
-  std::vector<Rgb> gathered(leaves.size());
-  ParallelFor(leaves.size(), kGrain, [&](std::size_t i) {
+  std::vector<Rgb> reflected(cells_.size());
+  for (std::size_t i = 0; i < cells_.size(); ++i) reflected[i] = ReflectanceOf(cells_[i]) * irradiance[i];
+  std::vector<Rgb> gathered(cells_.size());
+  ParallelFor(cells_.size(), kGrain, [&](std::size_t i) {
     Rgb sum = Rgb::Zero();
     for (std::size_t k = i * rays_; k < (i + 1) * rays_; ++k)
       if ((*rows_)[k] >= 0) sum += reflected[static_cast<std::size_t>((*rows_)[k])];
@@ -185,16 +235,39 @@ std::vector<Rgb> SampledSolver::Gather(std::span<const Rgb> irradiance) const {
   return gathered;
 }
 
-// Sweeps from the present light until it changes by no more than the cut-off. Returns the number of sweeps.
-std::size_t SampledSolver::Settle(const ExecutionContext& context) {
-  const std::span<const ElementId> leaves = push_pull_.leaves();
-  std::vector<double> weight;
-  std::vector<Rgb> light, direct;
-  for (const ElementId leaf : leaves) {
-    weight.push_back(solution_.forest[leaf].area);
-    direct.push_back(direct_[static_cast<std::size_t>(leaf)].mean);
-    light.push_back(solution_.irradiance[static_cast<std::size_t>(leaf)].max(direct.back()));
+// Sets the light of all cells [W/m^2], given in their order, and of the elements above them.
+void SampledSolver::SetLightOf(std::span<const Rgb> irradiance) {
+  for (std::size_t i = 0; i < cells_.size();) {
+    const ElementId leaf = cells_[i].leaf;
+    const Rgb emittance = scene_.MaterialOf(solution_.forest[leaf].patch).emittance;
+    Rgb flux = Rgb::Zero();
+    double area = 0;
+    for (; i < cells_.size() && cells_[i].leaf == leaf; ++i) {
+      const Rgb light = irradiance[i].max(0.0);
+      flux += AreaOf(cells_[i]) * light;
+      area += AreaOf(cells_[i]);
+      if (cells_[i].fragment < 0) continue;
+      Fragment& fragment = solution_.fragments[static_cast<std::size_t>(cells_[i].fragment)];
+      fragment.irradiance = light;
+      fragment.radiosity = emittance + ReflectanceOf(cells_[i]) * light;
+    }
+    const bool is_whole = cells_[i - 1].fragment < 0;
+    push_pull_.Light(leaf, is_whole ? irradiance[i - 1] : Rgb(flux / area));
   }
+  push_pull_.Pull();
+  push_pull_.UpdateSpreads();
+}
+
+// Sweeps from direct light until the light changes by no more than the cut-off: what no light reaches stays
+// dark. Returns the number of sweeps.
+std::size_t SampledSolver::Settle(const ExecutionContext& context) {
+  std::vector<double> weight;
+  std::vector<Rgb> direct;
+  for (const Cell& cell : cells_) {
+    weight.push_back(AreaOf(cell));
+    direct.push_back(DirectOf(cell).mean);
+  }
+  std::vector<Rgb> light = direct;
   AndersonAcceleration faster(std::move(weight));
   std::size_t sweeps = 0;
   residual_ = 1;
@@ -211,27 +284,35 @@ std::size_t SampledSolver::Settle(const ExecutionContext& context) {
     if (residual_ > options_.relative_cutoff) faster.Improve(light, next);
     light.swap(next);
   }
-  if (context.Cancelled()) return sweeps;
-  for (std::size_t i = 0; i < leaves.size(); ++i) push_pull_.Light(leaves[i], light[i].max(0.0));
-  push_pull_.Pull();
-  push_pull_.UpdateSpreads();
+  if (!context.Cancelled()) SetLightOf(light);
   return sweeps;
+}
+
+// Undoes a pass: `elements` is the number of elements before it.
+void SampledSolver::GoBackTo(std::size_t elements, Transport before) {
+  solution_.forest.Truncate(elements);
+  for (auto* values : {&solution_.irradiance, &solution_.radiosity}) values->resize(elements);
+  solution_.fragments = std::move(before.fragments);
+  cells_ = std::move(before.cells);
+  rows_ = std::move(before.rows);
+  rays_ = before.rays;
+  direct_.clear();
+  push_pull_.Update();
 }
 
 bool SampledSolver::Step(SolverStep step, const ExecutionContext& context) {
   if (step != SolverStep::kIterate) return false;
   const Stopwatch stopwatch;
   const Limits limits = LimitsOf(pass_);
-  const std::size_t before = solution_.forest.size();
+  const std::size_t elements = solution_.forest.size();
+  Transport before = {std::exchange(solution_.fragments, {}), std::exchange(cells_, {}), rows_, rays_};
   Divide(limits, context);
+  FindCells(context);
   SampleMatrix(limits.rays, context);
   const std::size_t sweeps = Settle(context);
   seen_from_leaves_.Reset();
   if (context.Cancelled()) {
-    solution_.forest.Truncate(before);
-    for (auto* values : {&solution_.irradiance, &solution_.radiosity}) values->resize(before);
-    direct_.clear();
-    push_pull_.Update();
+    GoBackTo(elements, std::move(before));
     return false;
   }
   ++pass_;
@@ -254,6 +335,7 @@ bool SampledSolver::Relight(const ExecutionContext& context) {
   shadows_ = std::make_unique<const ShadowRays>(scene_, *caster_);
   direct_.clear();
   LightNewElements(context);
+  LightFragments(context);
   const std::size_t sweeps = context.Cancelled() ? 0 : Settle(context);
   if (context.Cancelled()) return false;
   Report(sweeps, stopwatch.Seconds());
@@ -283,15 +365,14 @@ std::shared_ptr<const LeafVisibility> SampledSolver::SeenFromLeaves(const Execut
 std::vector<Rgb> SampledSolver::MeanIrradianceByBounce(int bounces) const {
   std::vector<Rgb> means;
   if (rays_ == 0) return means;
-  const std::span<const ElementId> leaves = push_pull_.leaves();
   std::vector<Rgb> light;
-  for (const ElementId leaf : leaves) light.push_back(direct_[static_cast<std::size_t>(leaf)].mean);
+  for (const Cell& cell : cells_) light.push_back(DirectOf(cell).mean);
   for (int bounce = 0; bounce < bounces; ++bounce) {
     Rgb flux = Rgb::Zero();
     double area = 0;
-    for (std::size_t i = 0; i < leaves.size(); ++i) {
-      flux += solution_.forest[leaves[i]].area * light[i];
-      area += solution_.forest[leaves[i]].area;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      flux += AreaOf(cells_[i]) * light[i];
+      area += AreaOf(cells_[i]);
     }
     means.push_back(flux / area);
     light = Gather(light);

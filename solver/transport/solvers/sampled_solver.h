@@ -1,11 +1,13 @@
 // solver/transport/solvers/sampled_solver.h
 //
 // A solver for scenes of many polygons. The light transport operator is a sparse matrix of form factors that
-// rays sample by Malley's method (Ashdown 1994, 4.12). A row of the matrix lists the elements that the rays
-// of one element hit; each hit adds 1 / (number of rays) to the form factor. The sampled solver makes no
-// links and no pairs of patches, so that time and memory grow in proportion to the number of elements. In
-// closed rooms, each row of the sampled matrix adds up to 1. Direct light is computed by shadow rays. The
-// matrix is kept, so that light for other emittances needs no new rays for the matrix.
+// rays sample by Malley's method (Ashdown 1994, 4.12). A row of the matrix lists the cells that the rays of
+// one cell hit; each hit adds 1 / (number of rays) to the form factor. A cell is an element that is whole, or
+// a fragment of an element that other surfaces stand on or cross (CutLeavesAtContacts): the light on one side
+// of a wall says nothing about the light on the other side. The sampled solver makes no links and no pairs of
+// patches, so that time and memory grow in proportion to the number of elements. In closed rooms, each row of
+// the sampled matrix adds up to 1. Direct light is computed by shadow rays. The matrix is kept, so that light
+// for other emittances needs no new rays for the matrix.
 
 #pragma once
 
@@ -49,7 +51,7 @@ class SampledSolver final : public LightSolver {
   std::vector<Rgb> MeanIrradianceByBounce(int bounces) const override;
 
  private:
-  // The direct light of an element, from points in the element's four quarters [W/m^2].
+  // The direct light of an element or a fragment, from points in its four quarters [W/m^2].
   struct Direct {
     // the mean of the direct light, and its root mean square deviation from the mean
     Rgb mean = Rgb::Zero(), spread = Rgb::Zero();
@@ -61,11 +63,32 @@ class SampledSolver final : public LightSolver {
     std::size_t rays;        // number of rays from an element
   };
 
+  // The whole leaf, or one of its fragments.
+  struct Cell {
+    ElementId leaf = kNoElement;
+    std::int32_t fragment = -1;  // in RadiositySolution::fragments; -1: the leaf is whole
+  };
+  // What a pass replaces, but for the elements.
+  struct Transport {
+    std::vector<Fragment> fragments;
+    std::vector<Cell> cells;
+    std::shared_ptr<const std::vector<std::int32_t>> rows;
+    std::size_t rays = 0;
+  };
+
   Limits LimitsOf(int pass) const;
-  Direct DirectOn(ElementId element) const;
+  std::span<const Vec3> PolygonOf(const Cell& cell) const;
+  double AreaOf(const Cell& cell) const;
+  const Rgb& ReflectanceOf(const Cell& cell) const;
+  const Direct& DirectOf(const Cell& cell) const;
+  Direct DirectOn(PatchId patch, std::span<const Vec3> polygon, std::uint64_t seed) const;
   bool MustDivide(ElementId element, const Limits& limits, double least_flux) const;
   void Divide(const Limits& limits, const ExecutionContext& context);
   void LightNewElements(const ExecutionContext& context);
+  void LightFragments(const ExecutionContext& context);
+  void FindCells(const ExecutionContext& context);
+  void SetLightOf(std::span<const Rgb> irradiance);
+  void GoBackTo(std::size_t elements, Transport before);
   void SampleMatrix(std::size_t rays, const ExecutionContext& context);
   std::vector<Rgb> Gather(std::span<const Rgb> irradiance) const;
   std::size_t Settle(const ExecutionContext& context);
@@ -81,9 +104,11 @@ class SampledSolver final : public LightSolver {
   std::unique_ptr<const ShadowRays> shadows_;  // shadow rays to the emitters, for the present emittances
   RadiositySolution solution_;
   PushPull push_pull_;
-  std::vector<Direct> direct_;  // direct light of each element
-  // For each leaf, rays_ entries, one for each ray from the leaf: the index in push_pull_.leaves() of the
-  // leaf that the ray hits, or -1 if the ray hits no front.
+  std::vector<Direct> direct_;              // direct light of each element
+  std::vector<Direct> direct_of_fragment_;  // direct light of each fragment
+  std::vector<Cell> cells_;                 // in the order of push_pull_.leaves()
+  // For each cell, rays_ entries, one for each ray from the cell: the index in cells_ of the cell that the
+  // ray hits, or -1 if the ray hits no front.
   std::shared_ptr<const std::vector<std::int32_t>> rows_;
   std::size_t rays_ = 0;
   int pass_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 
 #include "solver/base/parallel.h"
 #include "solver/geometry/segment_clip.h"
@@ -31,26 +32,44 @@ void CutAll(const Contact& contact, const Vec3& normal, double snap, double leas
   }
 }
 
+// Cuts a leaf along the contacts, and appends its pieces unless it stays whole.
+void CutLeafAt(const ElementForest& forest, ElementId leaf, std::span<const Contact> contacts, double snap,
+               std::vector<Fragment>& fragments) {
+  const Element& element = forest[leaf];
+  const Vec3& normal = forest.scene().patches[element.patch].normal;
+  std::vector<Polygon3> pieces = {Polygon3(element.Vertices().begin(), element.Vertices().end())};
+  for (const Contact& contact : contacts) CutAll(contact, normal, snap, kLeastShare * element.area, pieces);
+  if (pieces.size() == 1) return;
+  for (Polygon3& piece : pieces) {
+    Fragment fragment;
+    fragment.leaf = leaf;
+    fragment.area = VectorArea(piece).norm();
+    fragment.polygon = std::move(piece);
+    fragments.push_back(std::move(fragment));
+  }
+}
+
+// Cuts the leaves below an element. Each element passes on only the contacts that reach it.
+void CutLeavesBelow(const ElementForest& forest, ElementId id, std::span<const Contact> contacts, double snap,
+                    std::vector<Fragment>& fragments) {
+  const Element& element = forest[id];
+  const Vec3& normal = forest.scene().patches[element.patch].normal;
+  std::vector<Contact> reaching;
+  for (const Contact& contact : contacts)
+    if (ClipToPolygon(contact.a, contact.b, element.Vertices(), normal, snap)) reaching.push_back(contact);
+  if (reaching.empty()) return;
+  if (element.IsLeaf()) {
+    CutLeafAt(forest, id, reaching, snap, fragments);
+    return;
+  }
+  for (ElementId child = element.first_child; child < element.first_child + 4; ++child)
+    CutLeavesBelow(forest, child, reaching, snap, fragments);
+}
+
 std::vector<Fragment> CutLeavesOf(const ElementForest& forest, const ContactSearch& search, PatchId id) {
   std::vector<Fragment> fragments;
-  const Patch& patch = forest.scene().patches[id];
-  const std::vector<Contact> contacts = search.Find(id);
-  if (contacts.empty()) return fragments;
-  const double snap = SnapDistance(patch);
-  for (const ElementId leaf : forest.Leaves(id)) {
-    const Element& element = forest[leaf];
-    std::vector<Polygon3> pieces = {Polygon3(element.Vertices().begin(), element.Vertices().end())};
-    for (const Contact& contact : contacts)
-      CutAll(contact, patch.normal, snap, kLeastShare * element.area, pieces);
-    if (pieces.size() == 1) continue;
-    for (Polygon3& piece : pieces) {
-      Fragment fragment;
-      fragment.leaf = leaf;
-      fragment.area = VectorArea(piece).norm();
-      fragment.polygon = std::move(piece);
-      fragments.push_back(std::move(fragment));
-    }
-  }
+  CutLeavesBelow(forest, ElementForest::Root(id), search.Find(id), SnapDistance(forest.scene().patches[id]),
+                 fragments);
   return fragments;
 }
 
