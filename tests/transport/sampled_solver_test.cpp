@@ -218,6 +218,39 @@ TEST(ShadowRays, LeaveOutPointsInThePlaneOfAReflector) {
   EXPECT_GT(light[1].minCoeff(), light[2].maxCoeff());
 }
 
+// In a building, most lamps are behind walls. Points that have learnt so send these lamps few rays, but lose
+// no light, not even through doorways.
+TEST(ShadowRays, KeepTheLightOfLampsThatSeemHidden) {
+  const Scene scene = *LoadBuiltinScene("building-4x4", {});
+  const RayCaster caster(scene);
+  const ShadowRays all(scene, caster);
+  ShadowRays learnt(scene, caster);
+  std::vector<ReceiverPoint> lookers;
+  for (const SurfacePoint& point : SpreadPoints(scene, 20'000, 4)) lookers.push_back(At(scene, point));
+  learnt.Learn(lookers, 1.5);
+  Rgb sum = Rgb::Zero(), sum_learnt = Rgb::Zero();
+  double squares = 0, squares_learnt = 0;
+  std::uint64_t seed = 0;
+  for (const SurfacePoint& point : SpreadPoints(scene, 3000, 8)) {
+    ShadowRayEffort effort{.divisions = 4, .rays_if_hidden = 64, .seed = ++seed};
+    const ReceiverPoint at = At(scene, point);
+    const Rgb light = all.At(at, effort), light_learnt = learnt.At(at, effort);
+    effort.divisions = 12;
+    effort.seed += 10'000;
+    const Rgb truth = all.At(at, effort);
+    sum += light;
+    sum_learnt += light_learnt;
+    squares += (light - truth).square().sum();
+    squares_learnt += (light_learnt - truth).square().sum();
+  }
+  const double difference = ((sum_learnt - sum) / sum).abs().maxCoeff();
+  std::printf("difference of the mean %.2g; deviation of a point %.3g of the mean, %.3g with learning\n",
+              difference, std::sqrt(squares / 9000) / (sum.mean() / 3000),
+              std::sqrt(squares_learnt / 9000) / (sum.mean() / 3000));
+  EXPECT_LT(difference, 0.002);
+  EXPECT_LT(squares_learnt, 2 * squares);
+}
+
 // A bright reflector counts as a luminaire: the same light as that of an emitter in its place.
 TEST(ShadowRays, TakeReflectorsForEmitters) {
   Scene scene;

@@ -32,6 +32,8 @@ constexpr int kLooksAround = 8;
 constexpr double kAside = 4;
 // Light that differs by more than this factor between leaves that touch is not smooth.
 constexpr double kSharpEdge = 2;
+// Points look for luminaires together with their neighbours in a cube of this times the side of a mean leaf.
+constexpr double kRegion = 8;
 // The largest number of leaves that are luminaires; points look at all of them.
 constexpr std::size_t kMostReflectors = 2000;
 
@@ -185,7 +187,25 @@ struct FinalGather::Shared {
         dim(reflected),
         luminaires(scene, caster, TakeBrightest(solution, dim)),
         emitters(scene, caster),
-        at_corners(LightAtCorners(solution, fragments, dim)) {}
+        at_corners(LightAtCorners(solution, fragments, dim)) {
+    LearnWhatIsHidden(solution.forest);
+  }
+
+  // Lets the centres of leaves look for luminaires.
+  void LearnWhatIsHidden(const ElementForest& forest) {
+    std::vector<ReceiverPoint> points;
+    double area = 0;
+    for (const ElementId leaf : forest.AllLeaves()) {
+      const Element& element = forest[leaf];
+      const Vec3& normal = scene.patches[static_cast<std::size_t>(element.patch)].normal;
+      points.push_back({.position = Centroid(element.Vertices()), .normal = normal, .approach = normal});
+      area += element.area;
+    }
+    if (points.empty()) return;
+    const double side = kRegion * std::sqrt(area / static_cast<double>(points.size()));
+    luminaires.Learn(points, side);
+    emitters.Learn(points, side);
+  }
 
   // The light of the fragment, or of the whole element if `fragment` is negative.
   static const Rgb& Of(const Reflected& light, ElementId element, std::int32_t fragment) {

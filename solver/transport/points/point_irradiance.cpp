@@ -81,7 +81,9 @@ PointIrradiance::PointIrradiance(const RadiositySolution& solution, const PatchV
     : scene_(solution.forest.scene()),
       visibility_(visibility),
       forest_(&solution.forest),
-      sources_(SourceSet::FromSolution(solution)),
+      // Where rays bring the light, the leaves are not needed as sources, and would take most of the memory.
+      sources_(solution.rays_per_point > 0 ? SourceSet::Emitters(solution.forest.scene())
+                                           : SourceSet::FromSolution(solution)),
       leaves_(leaves ? std::move(leaves) : std::make_shared<LeafVisibility>(solution.forest, visibility)),
       options_(options) {
   ChooseMethod();

@@ -21,6 +21,13 @@ namespace {
 constexpr double kStrong = 0.05;
 // Farther than this times its radius, the sum over rays tells the light of a reflector to a per cent.
 constexpr double kFarFromReflector = 4;
+// A luminaire that a region seems not to see counts as much as one with this times its light: rays that find
+// a part of it after all must not weigh so much that they show as noise.
+constexpr double kIfHidden = 1.0 / 8;
+// A region does not look for a luminaire that sends none of its points this times the light of all.
+constexpr double kNotLookedFor = 1e-3;
+// With fewer luminaires, looking for them does not pay.
+constexpr std::size_t kFewLuminaires = 16;
 // A luminaire a b c d is a parallelogram if |a - b + c - d| is less than this times its radius.
 constexpr double kMostSkew = 1e-6;
 
@@ -28,6 +35,13 @@ std::vector<PatchId> EveryPatch(const Scene& scene) {
   std::vector<PatchId> all(scene.patches.size());
   std::iota(all.begin(), all.end(), 0);
   return all;
+}
+
+// The light that a small piece of surface at `to` sends, without blockers and constant factors.
+double Kernel(const ReceiverPoint& at, const Vec3& normal, const Vec3& to) {
+  const Vec3 d = to - at.position;
+  const double r2 = d.squaredNorm(), cosines = at.normal.dot(d) * -normal.dot(d);
+  return at.normal.dot(d) > 0 && cosines > 0 ? cosines / (r2 * r2) : 0;
 }
 
 }  // namespace
@@ -111,12 +125,52 @@ double ShadowRays::Estimate(const ReceiverPoint& at, const Luminaire& luminaire)
          std::min(1.0, luminaire.area * cosines / (std::numbers::pi * distance * distance));
 }
 
+void ShadowRays::Learn(std::span<const ReceiverPoint> points, double side) {
+  if (luminaires_.size() < kFewLuminaires || !(side > 0)) return;
+  hidden_ = HiddenLuminaires(points, side, luminaires_.size(),
+                             [this](std::span<const ReceiverPoint> of_region,
+                                    std::span<std::uint64_t> hidden) { FindHidden(of_region, hidden); });
+}
+
+// Whether a ray from the point reaches a place of the luminaire, another place for each number of the ray.
+bool ShadowRays::Sees(const ReceiverPoint& at, const Luminaire& luminaire, std::size_t ray) const {
+  const Vec3 to = luminaire.Place(AdditiveRecurrence(ray, kR2Alpha[0]), AdditiveRecurrence(ray, kR2Alpha[1]));
+  return Kernel(at, luminaire.normal, to) > 0 &&
+         !caster_.Blocked(RayStart(at, lift_), to + lift_ * luminaire.normal);
+}
+
+// Sets the bits of the luminaires that matter, but that no ray of the points reaches.
+void ShadowRays::FindHidden(std::span<const ReceiverPoint> points, std::span<std::uint64_t> hidden) const {
+  std::vector<double> all(points.size(), 0.0), light(points.size());
+  for (const Luminaire& luminaire : luminaires_)
+    for (std::size_t k = 0; k < points.size(); ++k) all[k] += Estimate(points[k], luminaire);
+  for (std::size_t i = 0; i < luminaires_.size(); ++i) {
+    bool matters = false, is_seen = false;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      light[k] = Estimate(points[k], luminaires_[i]);
+      matters = matters || (light[k] > 0 && light[k] >= kNotLookedFor * all[k]);
+    }
+    if (!matters) continue;
+    for (std::size_t k = 0; k < points.size() && !is_seen; ++k)
+      is_seen = light[k] > 0 && Sees(points[k], luminaires_[i], k);
+    if (!is_seen) hidden[i / 64] |= std::uint64_t{1} << (i % 64);
+  }
+}
+
 // Lists the luminaires that may light a point of the group, in descending order of light.
 void ShadowRays::FindSeen(Group& group, std::vector<Seen>& seen) const {
+  std::array<HiddenLuminaires::Bits, kTogether> hidden;
+  for (std::size_t p = 0; p < group.size(); ++p) hidden[p] = hidden_.At(group.at[p]);
+  const auto is_hidden = [&](std::size_t luminaire) {
+    for (std::size_t p = 0; p < group.size(); ++p)
+      if (!HiddenLuminaires::Has(hidden[p], luminaire)) return false;
+    return true;
+  };
   for (std::size_t i = 0; i < luminaires_.size(); ++i) {
     Seen luminaire{.light = {}, .total = 0, .luminaire = i};
+    const double part = is_hidden(i) ? kIfHidden : 1;
     for (std::size_t p = 0; p < group.size(); ++p) {
-      luminaire.light[p] = Estimate(group.at[p], luminaires_[i]);
+      luminaire.light[p] = part * Estimate(group.at[p], luminaires_[i]);
       luminaire.total += luminaire.light[p];
       group.unoccluded[p] += luminaire.light[p];
     }
@@ -124,17 +178,6 @@ void ShadowRays::FindSeen(Group& group, std::vector<Seen>& seen) const {
   }
   std::stable_sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.total > b.total; });
 }
-
-namespace {
-
-// The light that a small piece of surface at `to` sends, without blockers and constant factors.
-double Kernel(const ReceiverPoint& at, const Vec3& normal, const Vec3& to) {
-  const Vec3 d = to - at.position;
-  const double r2 = d.squaredNorm(), cosines = at.normal.dot(d) * -normal.dot(d);
-  return at.normal.dot(d) > 0 && cosines > 0 ? cosines / (r2 * r2) : 0;
-}
-
-}  // namespace
 
 // Adds the Kernel() of a place of the luminaire to the sums of the points in `which`.
 void ShadowRays::AddPlace(const Group& group, std::uint32_t which, const Luminaire& luminaire, const Vec3& to,

@@ -16,6 +16,7 @@
 
 #include "solver/scene/scene.h"
 #include "solver/transport/points/gathering.h"
+#include "solver/transport/points/hidden_luminaires.h"
 #include "solver/transport/sources/source_set.h"
 #include "solver/visibility/pair/patch_hierarchy.h"
 #include "solver/visibility/point/ray_caster.h"
@@ -55,6 +56,12 @@ class ShadowRays {
   // `caster` must outlive the ShadowRays.
   ShadowRays(const Scene& scene, const RayCaster& caster, std::span<const BrightReflector> reflectors = {});
 
+  // Finds out which luminaires the surfaces around the given points do not see. A point in a region (cube of
+  // the given side [m]) then sends fewer rays to the luminaires that no given point in this region sees. The
+  // expected value of the light is the same with and without Learn(). The given points are spread over all
+  // surfaces, many in each region. Learn() does nothing if the scene has few luminaires.
+  void Learn(std::span<const ReceiverPoint> points, double side);
+
   // The largest number of points in one call of AtAll().
   static constexpr std::size_t kTogether = RayCaster::kPacket;
   // Sets irradiance[i] to the light of the luminaires at points[i] [W/m^2]. Rays of neighbouring points are
@@ -72,7 +79,8 @@ class ShadowRays {
   using Values = std::array<double, kTogether>;  // one value for each point of a group
   // The unoccluded light of one luminaire at a group of points.
   struct Seen {
-    Values light;  // estimate of the unoccluded light in the brightest channel [W/m^2]
+    // Estimate of the unoccluded light in the brightest channel [W/m^2], smaller if it is known to be hidden.
+    Values light;
     double total;
     std::size_t luminaire;
   };
@@ -102,6 +110,8 @@ class ShadowRays {
   void AddLuminaire(PatchId patch, std::span<const Vec3> polygon, const Rgb& radiosity, bool emits);
   static std::uint32_t PointsLitBy(const Seen& seen);
   double Estimate(const ReceiverPoint& at, const Luminaire& luminaire) const;
+  bool Sees(const ReceiverPoint& at, const Luminaire& luminaire, std::size_t ray) const;
+  void FindHidden(std::span<const ReceiverPoint> points, std::span<std::uint64_t> hidden) const;
   void FindSeen(Group& group, std::vector<Seen>& seen) const;
   void AddPlace(const Group& group, std::uint32_t which, const Luminaire& luminaire, const Vec3& to,
                 RaySums& sums) const;
@@ -120,6 +130,7 @@ class ShadowRays {
   SourceSet sources_;
   PatchHierarchy patches_;
   std::vector<Luminaire> luminaires_;
+  HiddenLuminaires hidden_;
 };
 
 }  // namespace penumbra

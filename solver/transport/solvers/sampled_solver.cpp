@@ -32,6 +32,26 @@ constexpr std::size_t kMostSweeps = 100'000;
 constexpr ShadowRayEffort kRough = {
     .divisions = 2, .closer_above = std::numeric_limits<double>::infinity(), .seed = 0};
 
+// The luminaires of the scene. Points look for them together with their neighbours, in a cube of this times
+// the side of one of the largest elements.
+constexpr double kLookTogether = 8;
+constexpr std::uint64_t kLookSeed = 3;
+
+std::unique_ptr<const ShadowRays> LuminairesOf(const Scene& scene, const RayCaster& caster,
+                                               const SampledOptions& options) {
+  auto shadows = std::make_unique<ShadowRays>(scene, caster);
+  if (scene.patches.empty()) return shadows;
+  std::vector<ReceiverPoint> points;
+  for (const SurfacePoint& at : SpreadPoints(scene, options.elements, kLookSeed)) {
+    const Vec3& normal = scene.patches[static_cast<std::size_t>(at.patch)].normal;
+    points.push_back({.position = at.position, .normal = normal, .approach = normal, .uncertainty = 0});
+  }
+  double area = 0;
+  for (const Patch& patch : scene.patches) area += patch.area;
+  shadows->Learn(points, kLookTogether * std::sqrt(area / static_cast<double>(options.elements)));
+  return shadows;
+}
+
 RadiositySolution Unlit(const Scene& scene, const SampledOptions& options) {
   RadiositySolution solution;
   solution.forest = ElementForest(scene);
@@ -45,7 +65,7 @@ SampledSolver::SampledSolver(const Scene& scene, const SampledOptions& options)
     : scene_(scene),
       options_(options),
       caster_(std::make_shared<const RayCaster>(scene)),
-      shadows_(std::make_unique<const ShadowRays>(scene, *caster_)),
+      shadows_(LuminairesOf(scene, *caster_, options)),
       solution_(Unlit(scene, options)),
       push_pull_(solution_),
       no_pairs_(PatchVisibility::WithoutPairs(scene)) {
@@ -332,7 +352,7 @@ void SampledSolver::Report(std::size_t sweeps, double seconds) {
 bool SampledSolver::Relight(const ExecutionContext& context) {
   if (rays_ == 0) return Step(SolverStep::kIterate, context);
   const Stopwatch stopwatch;
-  shadows_ = std::make_unique<const ShadowRays>(scene_, *caster_);
+  shadows_ = LuminairesOf(scene_, *caster_, options_);
   direct_.clear();
   LightNewElements(context);
   LightFragments(context);
