@@ -208,6 +208,7 @@ struct Pipeline::Impl {
   void TakeReport() {
     report.iterations = solver->report().iterations;
     report.dense = solver->report().dense;
+    report.begun = solver->report().begun;
   }
 
   // Adds the seconds to the phase of this name.
@@ -515,6 +516,30 @@ std::optional<SolverStep> Pipeline::NextStep() const {
   return impl_->solver ? impl_->solver->Next() : std::nullopt;
 }
 
+std::optional<SolverStep> Pipeline::NextSmallStep() const {
+  return impl_->solver ? impl_->solver->NextSmall() : std::nullopt;
+}
+
+std::unique_ptr<Pipeline> Pipeline::Branch() const {
+  if (!impl_->solver || impl_->stored) return nullptr;
+  auto branch = std::make_unique<Pipeline>(impl_->scene, impl_->options);
+  branch->impl_->visibility = impl_->visibility;
+  branch->impl_->solver = impl_->solver->Copy(branch->impl_->visibility);
+  if (!branch->impl_->solver) return nullptr;
+  const auto of_solver = [](const std::string& name) {
+    return name == "load" || name == "link" || name == "iterate";
+  };
+  PipelineReport& report = branch->impl_->report;
+  for (const Phase& phase : impl_->report.phases)
+    if (of_solver(phase.name)) report.phases.push_back(phase);
+  for (const std::string& line : impl_->report.unmet)
+    if (of_solver(line.substr(0, line.find(':')))) report.unmet.push_back(line);
+  branch->impl_->begun = impl_->begun;
+  branch->impl_->TakeReport();
+  branch->impl_->Count();
+  return branch;
+}
+
 std::optional<IterationReport> Pipeline::Relight(const ExecutionContext& context) {
   if (impl_->stored) {
     // Continuing takes no form factors, and is not cancelled: corrections would be those of other links.
@@ -610,11 +635,15 @@ std::optional<PipelineState> Pipeline::LitBy(const Scene& other) const {
   return state;
 }
 
+void Pipeline::ObserveMesh(MeshObserver observer) { impl_->shown.Observe(std::move(observer)); }
+
 void Pipeline::CountLimits() { impl_->begun = RunLimits::Clock::now(); }
 
 bool Pipeline::RefinesLight() const {
   return impl_->resolved.refine_light && impl_->solver && impl_->solver->TakesLight();
 }
+
+bool Pipeline::LightIsRefined() const { return impl_->light_refined; }
 
 void Pipeline::RefineLight(const ExecutionContext& context) {
   if (!RefinesLight()) return;

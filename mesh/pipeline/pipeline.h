@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -188,8 +189,12 @@ struct PipelineReport {
   // The requirements that the run did not meet, such as the requested error, each with its reason in one
   // line.
   std::vector<std::string> unmet;
-  std::vector<std::string> warnings;  // warnings about probable errors in the scene; one line each
+  std::vector<std::string> warnings;          // warnings about probable errors in the scene; one line each
+  std::optional<IterationReport> begun = {};  // the iteration that is not complete: SolverReport::begun
 };
+
+// Receives each mesh while it is refined: the mesh of each round, in the order of the rounds.
+using MeshObserver = std::function<void(const IrradianceMesh&)>;
 
 // The results of the stages of a pipeline, except results that are quick to recompute.
 struct PipelineState {
@@ -240,6 +245,12 @@ class Pipeline {
   bool Converged() const;
   // Returns the next step of the solver, or nullopt before Link() has been called and after the last step.
   std::optional<SolverStep> NextStep() const;
+  // The kind of the next of the solver's smallest steps (LightSolver::NextSmall).
+  std::optional<SolverStep> NextSmallStep() const;
+  // Returns a pipeline that continues from the present state of the solver, without a mesh, and leads to the
+  // same results as this pipeline. Branch() returns null if there is no solver, or if the solver's method has
+  // no copies (LightSolver::Copy).
+  std::unique_ptr<Pipeline> Branch() const;
   // Makes all passes of deferred correction (of the light by exact irradiance) that the options request. If
   // the correction is cancelled, the function returns false and keeps the corrections of the complete passes.
   bool Correct(const ExecutionContext& context) { return Step(SolverStep::kCorrect, context); }
@@ -255,6 +266,8 @@ class Pipeline {
   // True if RefineLight() has an effect: ResolvedOptions::refine_light and LightSolver::TakesLight() are
   // true.
   bool RefinesLight() const;
+  // True if RefineLight() has been completed for the present light.
+  bool LightIsRefined() const;
   // The stage "refine light" repeats two steps until the light of the solution has converged. The first step
   // of "refine light" computes the interpolants of a mesh. Where interpolants vary on a quadtree leaf, the
   // second step of "refine light" divides the leaf into smaller light sources, and sets the irradiance of
@@ -271,6 +284,10 @@ class Pipeline {
   // that the result of a single step can be inspected. BuildMesh() has no effect if a mesh of this kind
   // exists already. REQUIRES: Link(), or a step that calls Link(), has been called.
   void BuildMesh(MeshKind kind, const ExecutionContext& context, bool as_it_is = false);
+  // Sets the observer, which is called with each mesh that RefineLight() and
+  // BuildMesh(MeshKind::kInterpolant) make before the final mesh. The light of these meshes is not yet
+  // refined to the requested error.
+  void ObserveMesh(MeshObserver observer);
   // KeepOperator() stores the light transport of the present solution and mesh as a matrix, for LitBy().
   // KeepOperator() recomputes the form factors of all mesh nodes (vertices and edge midpoints). Returns false
   // if the computation is cancelled, or if irradiance is computed without form factors, as with the sampled

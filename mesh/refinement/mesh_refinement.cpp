@@ -226,6 +226,7 @@ RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options
     evaluations +=
         Interpolate(scene, mesh_options, options, {light.sampler, context, *samples, memory.known}, &refined);
     if (context.Cancelled()) return {};
+    if (memory.observer) memory.observer(refined.mesh);
     seconds.interpolate += interpolating.Seconds();
 
     const std::vector<RefinementStep> chosen = ChooseSteps(scene, populations, omitted, options, &refined);

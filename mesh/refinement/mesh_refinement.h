@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -79,6 +80,7 @@ struct RefinementMemory {
   const MeshPlan* start = nullptr;         // leaves of the first mesh; null: the result of BeginPlan()
   SampleCache* samples = nullptr;          // samples of LightToShow::sampler
   std::span<const KnownLight> known = {};  // points with known irradiance, at which each mesh is tested
+  std::function<void(const IrradianceMesh&)> observer = {};  // called with the mesh of each round
 };
 
 // Refines the mesh until the error exceeds its limit on at most the fraction share_above of the area, until

@@ -210,6 +210,7 @@ bool ShownMesh::FirstLook(const RadiositySolution& solution, const MeshOptions& 
   triangulations_ = std::move(result.triangulations);
   plan_ = std::move(result.plan);
   triangle_errors_.clear();
+  if (observer_) observer_(mesh_);
   return true;
 }
 
@@ -261,6 +262,7 @@ bool ShownMesh::ShowAnew(const MeshOptions& options, const ExecutionContext& con
   if (context.Cancelled()) return false;
   mesh_ = std::move(built.mesh);
   triangle_errors_.clear();
+  if (observer_) observer_(mesh_);
   report_.counts.point_evaluations += built.point_evaluations;
   report_.seconds.interpolate += stopwatch.Seconds();
   return true;
@@ -347,7 +349,7 @@ std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, 
   seconds_of_sources_ += stopwatch.Seconds();
   const IrradianceSampler sampler = Sampler(rows, context);
   RefinedMesh refined = RefineMesh({visibility_, solution, sampler}, options, refinement, context,
-                                   {&LocalPass(), &plan_, &samples_, known_});
+                                   {&LocalPass(), &plan_, &samples_, known_, observer_});
   if (context.Cancelled()) {
     samples_.Clear();
     return std::nullopt;

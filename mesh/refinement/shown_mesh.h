@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -105,6 +106,8 @@ class ShownMesh {
   void SetInterpolants(std::vector<QuadraticInterpolant> irradiance);
   // The tolerance of the irradiance samples for interpolants that represent the light of single emitters.
   double EmitterTolerance() const;
+  // Calls the observer with each mesh that RefineLight() and MakeRefined() make on their way.
+  void Observe(std::function<void(const IrradianceMesh&)> observer) { observer_ = std::move(observer); }
   // Replaces the mesh by a mesh that another object has made.
   void Take(IrradianceMesh mesh);
   // ForgetVisibility() must be called after the PatchVisibility passed to the constructor has been replaced.
@@ -192,6 +195,7 @@ class ShownMesh {
   std::optional<MeshPlan> light_plan_;
   std::optional<std::string> unmet_;
   std::vector<KnownLight> known_;  // exact irradiance at the points where meshes were tested
+  std::function<void(const IrradianceMesh&)> observer_;
 };
 
 }  // namespace penumbra

@@ -16,6 +16,9 @@
 namespace penumbra {
 namespace {
 
+// The residual of light that no sweep has measured.
+constexpr double kNotSettled = 1;
+
 constexpr std::size_t kExactGrain = 8;  // leaves in one task of correction
 // Error of the first pass that prepares the parts of leaves, and the factor between passes: about the gain of
 // a pass.
@@ -40,6 +43,21 @@ HierarchicalSolver::HierarchicalSolver(const Scene& scene, const PatchVisibility
       links_(scene, visibility, options, std::move(solution), context) {
   report_.most_iterations = options.max_iterations;
   FindCorrections();
+}
+
+HierarchicalSolver::HierarchicalSolver(const HierarchicalSolver& other, const PatchVisibility& visibility)
+    : scene_(other.scene_),
+      visibility_(visibility),
+      options_(other.options_),
+      links_(other.links_, visibility),
+      correction_(other.correction_),
+      corrected_(other.corrected_),
+      report_(other.report_),
+      relit_at_(other.relit_at_),
+      seen_from_leaves_(other.seen_from_leaves_) {}
+
+std::unique_ptr<LightSolver> HierarchicalSolver::Copy(const PatchVisibility& visibility) const {
+  return std::unique_ptr<LightSolver>(new HierarchicalSolver(*this, visibility));
 }
 
 // Finds the corrections that lead from the light of the links to the present light.
@@ -91,13 +109,87 @@ std::optional<SolverStep> HierarchicalSolver::Next() const {
   return corrected_ ? std::nullopt : std::optional(SolverStep::kCorrect);
 }
 
+std::optional<SolverStep> HierarchicalSolver::NextSmall() const {
+  const std::optional<SolverStep> next = Next();
+  if (next != SolverStep::kIterate) return next;
+  const bool settled = report_.begun && report_.begun->residual <= links_.Cutoff();
+  return settled ? SolverStep::kSplit : SolverStep::kSweep;
+}
+
 bool HierarchicalSolver::Step(SolverStep step, const ExecutionContext& context) {
-  return step == SolverStep::kIterate ? Iterate(context).has_value() : CorrectAll(context);
+  switch (step) {
+    case SolverStep::kIterate:
+      return Iterate(context).has_value();
+    case SolverStep::kCorrect:
+      return CorrectAll(context);
+    case SolverStep::kSweep:
+      return Sweep(context);
+    case SolverStep::kSplit:
+      return SplitOnce(context);
+  }
+  return false;
+}
+
+// The iteration that small steps are in.
+IterationReport& HierarchicalSolver::Begun() {
+  if (report_.begun) return *report_.begun;
+  report_.begun.emplace();
+  report_.begun->residual = kNotSettled;
+  report_.begun->eps = links_.eps();
+  return *report_.begun;
+}
+
+// Ends it, if it is as complete as one that Iterate() makes.
+void HierarchicalSolver::EndBegun() {
+  links_.EndIteration(*report_.begun);
+  report_.iterations.push_back(*report_.begun);
+  report_.begun.reset();
+}
+
+bool HierarchicalSolver::Sweep(const ExecutionContext& context) {
+  const Stopwatch stopwatch;
+  Snapshot before = TakeSnapshot();
+  IterationReport& report = Begun();
+  if (!links_.Sweep(correction_.of_element, report, context)) {
+    Restore(std::move(before));
+    return false;
+  }
+  corrected_ = false;
+  report.elements = solution().forest.size();
+  report.links = solution().links.links.size();
+  report.seconds += stopwatch.Seconds();
+  return true;
+}
+
+bool HierarchicalSolver::SplitOnce(const ExecutionContext& context) {
+  const Stopwatch stopwatch;
+  Snapshot before = TakeSnapshot();
+  IterationReport& report = Begun();
+  const std::size_t split_before = report.links_split;
+  if (!links_.Split(before.links, report, context, 1)) {
+    report.links_split = split_before;
+    seen_from_leaves_.Reset();
+    Restore(std::move(before));
+    return false;
+  }
+  report_.full = links_.Full();
+  report.seconds += stopwatch.Seconds();
+  if (report.links_split == split_before) {  // nothing is left to split by this light
+    EndBegun();
+    return true;
+  }
+  seen_from_leaves_.Reset();
+  TakeCorrectionsBack();
+  report.residual = kNotSettled;
+  report.elements = solution().forest.size();
+  report.links = solution().links.links.size();
+  return true;
 }
 
 std::optional<IterationReport> HierarchicalSolver::Iterate(const ExecutionContext& context) {
   const Stopwatch stopwatch;
   Snapshot before = TakeSnapshot();
+  report_.begun.reset();
   IterationReport report;
   report.eps = links_.eps();
   const double cutoff = links_.Cutoff();
@@ -124,6 +216,7 @@ std::optional<IterationReport> HierarchicalSolver::Iterate(const ExecutionContex
 bool HierarchicalSolver::Relight(const ExecutionContext& context) {
   const Stopwatch stopwatch;
   Snapshot before = TakeSnapshot();
+  report_.begun.reset();
   TakeCorrectionsBack();
   links_.ReflectAnew();
   IterationReport report;

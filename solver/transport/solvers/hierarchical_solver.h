@@ -44,6 +44,10 @@ class HierarchicalSolver final : public LightSolver {
   bool Ready() const override { return links_.Linked(); }
   std::optional<SolverStep> Next() const override;
   bool Step(SolverStep step, const ExecutionContext& context) override;
+  // Sweeps until the light has settled, then one level of splitting, and so on, to convergence; then Next().
+  // The light is that of iterations within the relative cut-off, for splitting meets other light.
+  std::optional<SolverStep> NextSmall() const override;
+  std::unique_ptr<LightSolver> Copy(const PatchVisibility& visibility) const override;
   bool Converged() const override { return links_.Converged(); }
   const RadiositySolution& solution() const override { return links_.solution(); }
   const SolverReport& report() const override { return report_; }
@@ -88,6 +92,12 @@ class HierarchicalSolver final : public LightSolver {
   RadiositySolution TakeSolution() && { return std::move(links_.solution()); }
 
  private:
+  HierarchicalSolver(const HierarchicalSolver& other, const PatchVisibility& visibility);
+  bool Sweep(const ExecutionContext& context);
+  bool SplitOnce(const ExecutionContext& context);
+  IterationReport& Begun();
+  void EndBegun();
+
   // The state to which a cancelled step returns the solver.
   struct Snapshot {
     LinkSolver::Snapshot links;

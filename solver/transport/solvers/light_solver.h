@@ -30,8 +30,11 @@ namespace penumbra {
 enum class SolverStep : std::uint8_t {
   kIterate,  // one iteration, shot or sweep of the solver's method
   kCorrect,  // deferred correction by exact irradiance, after the last iteration
+  // The parts of one iteration of the hierarchical method:
+  kSweep,  // one gather over all links, with push-pull
+  kSplit,  // one level of link splitting: splits each link that the oracle rejects, once
 };
-// The name of a kind of step: "iterate" or "correct".
+// The name of a kind of step: "iterate", "correct", "sweep" or "split".
 std::string_view StepName(SolverStep step);
 
 // The numbers of interactions (receiver-source pairs) of the light transport operator. An interaction is a
@@ -55,6 +58,8 @@ struct SolverReport {
     double form_factor_error = 0;  // the value of DenseSystem::form_factor_error
   };
   std::optional<Dense> dense;  // data of the dense system; set only by solvers that assemble one
+  // The iteration that steps of the kinds kSweep and kSplit have begun and not completed.
+  std::optional<IterationReport> begun = {};
 };
 
 // The constructor of a class derived from LightSolver makes links or assembles a system of equations; the
@@ -74,6 +79,11 @@ class LightSolver {
   // step was cancelled or the solver makes no steps of the kind `step`. A cancelled iteration leaves the
   // light unchanged; a cancelled correction keeps its completed passes.
   virtual bool Step(SolverStep step, const ExecutionContext& context) = 0;
+  // The next of the smallest steps towards the solution: Next(), unless the method has parts of it.
+  virtual std::optional<SolverStep> NextSmall() const { return Next(); }
+  // A solver in the state of this one, which goes on by itself. `visibility` must equal the one that this
+  // solver was made from, and outlive the copy; so must the scene. Null if the method has no copies.
+  virtual std::unique_ptr<LightSolver> Copy(const PatchVisibility& /*visibility*/) const { return nullptr; }
   // True if no further iteration would change the light by more than the options allow.
   virtual bool Converged() const = 0;
 

@@ -32,6 +32,18 @@ bool SolveStepByStep(LightSolver& solver, const ExecutionContext& context, const
   return solver.Ready() && !solver.Next();
 }
 
-std::string_view StepName(SolverStep step) { return step == SolverStep::kIterate ? "iterate" : "correct"; }
+std::string_view StepName(SolverStep step) {
+  switch (step) {
+    case SolverStep::kIterate:
+      return "iterate";
+    case SolverStep::kCorrect:
+      return "correct";
+    case SolverStep::kSweep:
+      return "sweep";
+    case SolverStep::kSplit:
+      return "split";
+  }
+  return "";
+}
 
 }  // namespace penumbra

@@ -91,6 +91,23 @@ LinkSolver::LinkSolver(const Scene& scene, const PatchVisibility& visibility, co
   Balance(context);
 }
 
+LinkSolver::LinkSolver(const LinkSolver& other, const PatchVisibility& visibility)
+    : scene_(other.scene_),
+      visibility_(visibility),
+      options_(other.options_),
+      eps_(other.eps_),
+      solution_(other.solution_),
+      push_pull_(std::make_unique<PushPull>(solution_)),
+      linked_(other.linked_),
+      nearly_white_(other.nearly_white_),
+      to_come_(other.to_come_),
+      closure_(other.closure_),
+      converged_(other.converged_),
+      full_(other.full_),
+      root_links_(other.root_links_) {
+  if (other.push_pull_->IsBalanced()) Balance(ExecutionContext());  // all closures are known
+}
+
 LinkSolver::Snapshot LinkSolver::TakeSnapshot() const {
   const RadiositySolution& s = solution_;
   return {s.forest.size(), std::nullopt,       s.fragments,    s.irradiance,
@@ -141,9 +158,19 @@ bool LinkSolver::Balance(const ExecutionContext& context) {
 
 bool LinkSolver::Settle(std::span<const Rgb> correction, double cutoff, IterationReport& report,
                         const ExecutionContext& context) {
+  return SettleBy({options_.scheme, options_.acceleration, cutoff}, correction, report, context);
+}
+
+bool LinkSolver::Sweep(std::span<const Rgb> correction, IterationReport& report,
+                       const ExecutionContext& context) {
+  return SettleBy({options_.scheme, Acceleration::kNone, options_.relative_cutoff, 1}, correction, report,
+                  context);
+}
+
+bool LinkSolver::SettleBy(const SettlingOptions& how, std::span<const Rgb> correction,
+                          IterationReport& report, const ExecutionContext& context) {
   if (!Balance(context)) return false;
-  const Settled settled = penumbra::Settle(*push_pull_, solution_, correction,
-                                           {options_.scheme, options_.acceleration, cutoff}, context);
+  const Settled settled = penumbra::Settle(*push_pull_, solution_, correction, how, context);
   report.residual = settled.residual;
   report.sweeps += settled.sweeps;
   to_come_ = settled.to_come;
@@ -169,10 +196,11 @@ bool LinkSolver::Apply(const RefinementPlan& plan, Snapshot& before, const Execu
   return true;
 }
 
-bool LinkSolver::Split(Snapshot& before, IterationReport& report, const ExecutionContext& context) {
+bool LinkSolver::Split(Snapshot& before, IterationReport& report, const ExecutionContext& context,
+                       int most_levels) {
   const auto oracle =
       RefinementOracles().Make(options_.oracle, {eps_, options_.min_area, ReferenceArea(scene_)});
-  while (true) {
+  for (int level = 0; most_levels == 0 || level < most_levels; ++level) {
     const std::size_t elements = solution_.forest.size();
     const RefinementPlan plan = PlanRefinement(solution_, *push_pull_, *oracle);
     if (plan.links_split == 0) break;

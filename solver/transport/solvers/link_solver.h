@@ -16,6 +16,7 @@
 #include "solver/transport/links/refinement.h"
 #include "solver/transport/links/solution.h"
 #include "solver/transport/solvers/iteration_report.h"
+#include "solver/transport/solvers/settling.h"
 #include "solver/transport/solvers/solver_options.h"
 #include "solver/visibility/pair/patch_visibility.h"
 
@@ -43,6 +44,10 @@ class LinkSolver {
   // Continues with the links and the light of a solution of the same scene.
   LinkSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
              RadiositySolution solution, const ExecutionContext& context);
+  // A solver in the state of another. `visibility` must equal the other's, and outlive the solver.
+  LinkSolver(const LinkSolver& other, const PatchVisibility& visibility);
+  LinkSolver(const LinkSolver&) = delete;
+  LinkSolver& operator=(const LinkSolver&) = delete;
 
   Snapshot TakeSnapshot() const;
   // Restores the state of the snapshot. Restore() returns true if the set of elements has changed.
@@ -57,10 +62,12 @@ class LinkSolver {
   bool Settle(std::span<const Rgb> correction, IterationReport& report, const ExecutionContext& context) {
     return Settle(correction, options_.relative_cutoff, report, context);
   }
-  // Splits every link that the refinement oracle rejects, including new links that the oracle rejects. If any
-  // link is split, all fragments (parts into which leaves were cut) are deleted. Split() returns false if
-  // cancelled.
-  bool Split(Snapshot& before, IterationReport& report, const ExecutionContext& context);
+  // Makes one plain sweep (a gather over all links), without acceleration. Returns false if cancelled.
+  bool Sweep(std::span<const Rgb> correction, IterationReport& report, const ExecutionContext& context);
+  // Splits every link that the refinement oracle rejects, and then the new links that the oracle rejects, for
+  // at most `most_levels` levels of splitting; 0: until the oracle accepts all links. If any link is split,
+  // all fragments (parts into which leaves were cut) are deleted. Split() returns false if cancelled.
+  bool Split(Snapshot& before, IterationReport& report, const ExecutionContext& context, int most_levels = 0);
   // Completes the report of an iteration, tests for convergence, and lowers eps, the largest allowed link
   // error, for the next iteration (multigridding).
   void EndIteration(IterationReport& report);
@@ -86,6 +93,8 @@ class LinkSolver {
 
  private:
   bool Balance(const ExecutionContext& context);
+  bool SettleBy(const SettlingOptions& how, std::span<const Rgb> correction, IterationReport& report,
+                const ExecutionContext& context);
   bool Apply(const RefinementPlan& plan, Snapshot& before, const ExecutionContext& context);
 
   const Scene& scene_;

@@ -77,7 +77,8 @@ Settled Settle(PushPull& push_pull, RadiositySolution& solution, std::span<const
   double nearest = INFINITY;
   std::size_t stagnant = 0;
   settled.to_come = to_come.maxCoeff();
-  while (settled.sweeps < kMaxSweeps && !context.Cancelled()) {
+  const std::size_t most = options.most_sweeps > 0 ? options.most_sweeps : kMaxSweeps;
+  while (settled.sweeps < most && !context.Cancelled()) {
     const std::vector<Rgb> before = light_of_leaves();
     settled.residual = Residual(push_pull.Sweep(options.scheme, correction), to_come, push_pull);
     ++settled.sweeps;
@@ -87,7 +88,7 @@ Settled Settle(PushPull& push_pull, RadiositySolution& solution, std::span<const
     nearest = std::min(nearest, settled.residual);
     if (stagnant == kStagnant) break;
     // The last step is a sweep, not a guess.
-    if (options.acceleration == Acceleration::kNone || settled.sweeps == kMaxSweeps) continue;
+    if (options.acceleration == Acceleration::kNone || settled.sweeps == most) continue;
     std::vector<Rgb> guess = light_of_leaves();
     anderson.Improve(before, guess);
     for (std::size_t i = 0; i < leaves.size(); ++i) push_pull.Light(leaves[i], guess[i]);

@@ -40,7 +40,8 @@ struct Settled {
 struct SettlingOptions {
   IterationScheme scheme;
   Acceleration acceleration;
-  double cutoff;  // the residual at which the sweeps end
+  double cutoff;                // the residual at which the sweeps end
+  std::size_t most_sweeps = 0;  // the largest number of sweeps; 0: no limit
 };
 
 // Makes sweeps until the residual is at most options.cutoff, or until the computation is cancelled
