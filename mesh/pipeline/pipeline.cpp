@@ -680,7 +680,7 @@ void Pipeline::BuildMesh(MeshKind kind, const ExecutionContext& context, bool as
   if (const std::optional<std::string> limit = limits.Exceeded(); limit && !flat)
     impl_->report.unmet.push_back(
         fmt::format("mesh: ended by {}, {}", *limit,
-                    made == kind ? "and not refined by what is shown"
+                    made == kind ? "and not refined to the end by what is shown"
                                  : "before there were interpolants: leaves show their mean"));
   impl_->mesh_kind = context.Cancelled() ? std::nullopt : std::optional(made);
   impl_->mesh_unrefined = as_it_is;

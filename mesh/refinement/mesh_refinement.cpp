@@ -193,6 +193,19 @@ void Take(std::span<const RefinementStep> chosen, std::span<const OmittedOfPatch
   for (const PatchId patch : divided) plan->forest.Balance(patch);
 }
 
+// Moves the mesh of a complete round out of the refinement, which goes on from its plan.
+RefinedMesh Keep(RefinedMesh& refined) {
+  RefinedMesh kept;
+  kept.plan = refined.plan;
+  kept.triangulations = std::move(refined.triangulations);
+  kept.mesh = std::move(refined.mesh);
+  kept.errors = std::move(refined.errors);
+  kept.report = refined.report;
+  kept.share_above = refined.share_above;
+  kept.unmet = refined.unmet;
+  return kept;
+}
+
 }  // namespace
 
 RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options,
@@ -209,7 +222,7 @@ RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options
   PatchTriangulator triangulator(light.visibility, light.solution, mesh_options.discontinuities, context,
                                  local_pass);
   triangulator.RankWith(light.sampler, samples);
-  RefinedMesh refined;
+  RefinedMesh refined, complete;  // of the present round, and of the round before
   refined.plan = memory.start ? *memory.start
                               : BeginPlan(light.visibility, light.solution, mesh_options.discontinuities);
   MeshReport::Seconds seconds;
@@ -222,16 +235,20 @@ RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options
     seconds.triangulate += refined.report.seconds.triangulate;
     evaluations += refined.report.counts.point_evaluations;
     const Stopwatch interpolating;
-    if (context.Cancelled()) return {};
-    evaluations +=
-        Interpolate(scene, mesh_options, options, {light.sampler, context, *samples, memory.known}, &refined);
-    if (context.Cancelled()) return {};
-    if (memory.observer) memory.observer(refined.mesh);
+    if (!context.Cancelled())
+      evaluations += Interpolate(scene, mesh_options, options,
+                                 {light.sampler, context, *samples, memory.known}, &refined);
     seconds.interpolate += interpolating.Seconds();
+    if (context.Cancelled()) {
+      refined = std::move(complete);
+      break;
+    }
+    if (memory.observer) memory.observer(refined.mesh);
 
     const std::vector<RefinementStep> chosen = ChooseSteps(scene, populations, omitted, options, &refined);
     const bool most = refined.mesh.triangles.size() > options.max_triangles;
     if (round == options.max_rounds || most || chosen.empty()) break;
+    complete = Keep(refined);
     Take(chosen, omitted, &refined.plan);
   }
   refined.report.seconds = seconds;

@@ -88,8 +88,8 @@ struct RefinementMemory {
 // of refinement takes the steps with the largest ratio (area that the step brings below the error limit) /
 // (number of new triangles), and only as many steps as the limit on the area requires. A refinement step
 // divides a quadtree leaf, or adds an edge along a discontinuity that had been omitted because of its small
-// weight. If the computation is cancelled, the function returns an empty mesh. REQUIRES: the quadtrees are
-// balanced.
+// weight. If the computation is cancelled, the function returns the mesh of the last complete round; the mesh
+// is empty if no round is complete. REQUIRES: the quadtrees are balanced.
 RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options,
                        const MeshRefinementOptions& options, const ExecutionContext& context,
                        const RefinementMemory& memory = {});

@@ -350,10 +350,8 @@ std::optional<RefinedMesh> ShownMesh::Refine(const RadiositySolution& solution, 
   const IrradianceSampler sampler = Sampler(rows, context);
   RefinedMesh refined = RefineMesh({visibility_, solution, sampler}, options, refinement, context,
                                    {&LocalPass(), &plan_, &samples_, known_, observer_});
-  if (context.Cancelled()) {
-    samples_.Clear();
-    return std::nullopt;
-  }
+  if (context.Cancelled()) samples_.Clear();
+  if (context.Cancelled() && refined.mesh.triangles.empty()) return std::nullopt;
   mesh_ = std::move(refined.mesh);
   triangulations_ = std::move(refined.triangulations);
   plan_ = std::move(refined.plan);

@@ -427,6 +427,37 @@ TEST(Refinement, KeepsSamplesAndSolution) {
             0);
 }
 
+// A refinement that is cancelled shows what its complete rounds have made: a whole mesh, better than the
+// first.
+TEST(Refinement, CancelledKeepsCompleteRounds) {
+  Solved solved(0.1);
+  const IrradianceSampler exact = solved.Sampler();
+  const LightToShow light = {solved.pipeline.visibility(), solved.pipeline.solution(), exact};
+  MeshRefinementOptions options;
+  options.error = 0.01;
+  options.max_rounds = 0;
+  const RefinedMesh coarse = RefineMesh(light, {}, options, ExecutionContext());
+  options.max_rounds = 4;
+  const std::size_t all = RefineMesh(light, {}, options, ExecutionContext()).report.counts.point_evaluations;
+  ExecutionContext context;
+  std::atomic<std::size_t> calls = 0;
+  const IrradianceSampler cancelling = [&](PatchId patch, const ReceiverPoint& at) {
+    if (++calls == all - 1) context.Cancel();
+    return exact(patch, at);
+  };
+  const RefinedMesh kept = RefineMesh({light.visibility, light.solution, cancelling}, {}, options, context);
+  ASSERT_TRUE(context.Cancelled());
+  EXPECT_GT(kept.mesh.triangles.size(), coarse.mesh.triangles.size());
+  EXPECT_LT(kept.share_above, coarse.share_above);
+  EXPECT_EQ(kept.errors.size(), kept.mesh.triangles.size());
+  std::size_t triangles = 0;
+  for (const PatchTriangulation& patch : kept.triangulations) {
+    patch.Validate(solved.scene.patches[static_cast<std::size_t>(patch.patch)]);
+    triangles += patch.triangles.size();
+  }
+  EXPECT_EQ(triangles, kept.mesh.triangles.size());
+}
+
 // The best for its cost comes first, what another has helped counts once, and enough is enough.
 TEST(RefinementSteps, AreChosenByWhatTheyMendForTheirCost) {
   const auto step = [](double cost, std::vector<RefinementStep::Mended> mended) {
