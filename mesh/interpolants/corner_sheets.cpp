@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 #include <unordered_map>
+#include <utility>
 
 namespace penumbra {
 namespace {
@@ -50,9 +51,65 @@ Wedge WedgeAt(const IrradianceMesh& mesh, std::size_t t, std::size_t k) {
   return {right, left, std::atan2(right.cross(left).norm(), right.dot(left))};
 }
 
+// Of each vertex, whether it belongs to a flat triangle.
+std::vector<bool> FindCrowded(const IrradianceMesh& mesh, const FlatTriangles* flat) {
+  std::vector<bool> crowded(mesh.positions.size(), false);
+  if (!flat) return crowded;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (flat->Contains(t))
+      for (const std::uint32_t v : mesh.triangles[t].vertex) crowded[v] = true;
+  return crowded;
+}
+
+bool IsFlat(const IrradianceMesh& mesh, const IrradianceMesh::Triangle& t, double width) {
+  const auto& [u, v, w] = t.vertex;
+  const Vec3 a = mesh.positions[v] - mesh.positions[u], b = mesh.positions[w] - mesh.positions[u];
+  const double longest = std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()});
+  return a.cross(b).squaredNorm() <= width * width * longest;
+}
+
 }  // namespace
 
-CornerSheets::CornerSheets(const IrradianceMesh& mesh) : sheet_(3 * mesh.triangles.size()) {
+FlatTriangles::FlatTriangles(const IrradianceMesh& mesh, std::span<const double> widths)
+    : beside_(mesh.triangles.size()) {
+  constexpr std::size_t kUnknown = ~std::size_t{0};
+  std::size_t unknown = 0;
+  for (std::size_t t = 0; t < beside_.size(); ++t) {
+    const IrradianceMesh::Triangle& triangle = mesh.triangles[t];
+    const bool flat = IsFlat(mesh, triangle, widths[static_cast<std::size_t>(triangle.patch)]);
+    beside_[t] = flat ? kUnknown : t;
+    unknown += flat ? 1 : 0;
+  }
+  if (unknown == 0) return;
+  struct Edge {
+    std::size_t t, u;
+    bool divides;
+  };
+  std::vector<Edge> edges;
+  ForEachInnerEdge(mesh, [&](std::size_t a, std::size_t b) {
+    const std::size_t t = a / 3, u = b / 3;
+    if (beside_[t] != kUnknown && beside_[u] != kUnknown) return;
+    edges.push_back({t, u, mesh.triangles[t].discontinuity[a % 3] || mesh.triangles[u].discontinuity[b % 3]});
+  });
+  // First within the discontinuities, then across.
+  for (const bool across : {false, true})
+    for (bool found = true; found;) {
+      found = false;
+      for (const Edge& edge : edges) {
+        if (edge.divides && !across) continue;
+        for (const auto& [from, to] : {std::pair(edge.t, edge.u), std::pair(edge.u, edge.t)})
+          if (beside_[from] != kUnknown && beside_[to] == kUnknown) {
+            beside_[to] = beside_[from];
+            found = true;
+          }
+      }
+    }
+  for (std::size_t t = 0; t < beside_.size(); ++t)
+    if (beside_[t] == kUnknown) beside_[t] = t;
+}
+
+CornerSheets::CornerSheets(const IrradianceMesh& mesh, const FlatTriangles* flat)
+    : sheet_(3 * mesh.triangles.size()) {
   std::iota(sheet_.begin(), sheet_.end(), std::size_t{0});
   ForEachInnerEdge(mesh, [&](std::size_t a, std::size_t b) {
     if (mesh.triangles[a / 3].discontinuity[a % 3] || mesh.triangles[b / 3].discontinuity[b % 3]) return;
@@ -63,17 +120,20 @@ CornerSheets::CornerSheets(const IrradianceMesh& mesh) : sheet_(3 * mesh.triangl
   for (std::size_t i = 0; i < sheet_.size(); ++i) sheet_[i] = Root(sheet_, i);
 
   into_.assign(sheet_.size(), Vec3::Zero());
+  const std::vector<bool> is_crowded = FindCrowded(mesh, flat);
+  std::vector<bool> crowded(sheet_.size(), false);
   std::vector<double> angle(sheet_.size(), 0.0);
   std::vector<Vec3> normal(sheet_.size(), Vec3::Zero());
   for (std::size_t corner = 0; corner < sheet_.size(); ++corner) {
     const Wedge wedge = WedgeAt(mesh, corner / 3, corner % 3);
     const std::size_t sheet = sheet_[corner];
+    if (is_crowded[mesh.triangles[corner / 3].vertex[corner % 3]]) crowded[sheet] = true;
     angle[sheet] += wedge.angle;
     normal[sheet] += wedge.right.cross(wedge.left);
     into_[sheet] += wedge.right - wedge.left;  // adds up to the first right minus the last left
   }
   for (std::size_t sheet = 0; sheet < into_.size(); ++sheet) {
-    if (std::abs(angle[sheet] - std::numbers::pi) > kStraight) {
+    if (crowded[sheet] || std::abs(angle[sheet] - std::numbers::pi) > kStraight) {
       into_[sheet].setZero();
       continue;
     }

@@ -80,12 +80,28 @@ Nodes NumberNodes(const IrradianceMesh& mesh, bool midpoints) {
 
 double Uncertainty(const Patch& patch, double gap) { return std::max(kOnLine * SnapDistance(patch), gap); }
 
+// Per patch, the distance within which vertices are one place [m]. If a vertex is near a plane, it is farther
+// from the line where this plane meets the patch, by the factor 1 / (sine of the angle between the two): 4
+// for 15 degrees.
+std::vector<double> OnePlace(const Scene& scene) {
+  constexpr double kSkew = 4;
+  const double gap = ContactGap(scene);
+  std::vector<double> widths;
+  for (const Patch& patch : scene.patches) widths.push_back(kSkew * Uncertainty(patch, gap));
+  return widths;
+}
+
 class Sampling {
  public:
-  // `sheets` may be null if no vertices are sampled.
-  Sampling(const Scene& scene, const IrradianceMesh& mesh, const CornerSheets* sheets,
+  struct Sides {
+    const FlatTriangles* flat = nullptr;
+    const CornerSheets* sheets = nullptr;
+  };
+
+  // Without `sides`, no vertices can be sampled.
+  Sampling(const Scene& scene, const IrradianceMesh& mesh, const Sides& sides,
            const IrradianceSampler& sampler, SampleCache* cache, const ExecutionContext& context)
-      : mesh_(mesh), sheets_(sheets), sampler_(sampler), cache_(cache), context_(context), scene_(scene) {
+      : mesh_(mesh), sides_(sides), sampler_(sampler), cache_(cache), context_(context), scene_(scene) {
     const double gap = ContactGap(scene);
     for (const Patch& patch : scene.patches) uncertainty_.push_back(Uncertainty(patch, gap));
   }
@@ -140,17 +156,24 @@ class Sampling {
       at.position = 0.5 * (ascending ? corner(k) + corner(k + 1) : corner(k + 1) + corner(k));
     }
     at.normal = scene_.patches[node.patch].normal;
-    at.approach = (corner(0) + corner(1) + corner(2)) / 3 - at.position;
+    at.approach = Inside(node.triangle) - at.position;
     if (node.sample % 2 == 0) {
-      const std::size_t sheet = sheets_->Of(CornerSheets::Corner(node.triangle, static_cast<std::size_t>(k)));
-      if (sheets_->IsStraight(sheet)) at.approach = sheets_->Into(sheet);
+      const CornerSheets& sheets = *sides_.sheets;
+      const std::size_t sheet = sheets.Of(CornerSheets::Corner(node.triangle, static_cast<std::size_t>(k)));
+      if (sheets.IsStraight(sheet)) at.approach = sheets.Into(sheet);
     }
     at.uncertainty = uncertainty_[node.patch];
     return at;
   }
 
+  // The centroid of the triangle, or of the one beside it if it is flat.
+  Vec3 Inside(std::size_t triangle) const {
+    const auto& vertex = mesh_.triangles[sides_.flat ? sides_.flat->Beside(triangle) : triangle].vertex;
+    return (mesh_.positions[vertex[0]] + mesh_.positions[vertex[1]] + mesh_.positions[vertex[2]]) / 3;
+  }
+
   const IrradianceMesh& mesh_;
-  const CornerSheets* sheets_;
+  const Sides sides_;
   const IrradianceSampler& sampler_;
   SampleCache* cache_;
   const ExecutionContext& context_;
@@ -314,8 +337,9 @@ BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangula
   built.mesh = JoinPatches(patches);
   IrradianceMesh& mesh = built.mesh;
   const bool quadratic = how.order == InterpolantOrder::kQuadratic;
-  const CornerSheets sheets(mesh);
-  Sampling sampling(scene, mesh, &sheets, sampler, cache, context);
+  const FlatTriangles flat(mesh, OnePlace(scene));
+  const CornerSheets sheets(mesh, &flat);
+  Sampling sampling(scene, mesh, {&flat, &sheets}, sampler, cache, context);
   NodeValues nodes(mesh, sheets, quadratic, sampling);
   constexpr double kVerticesShare = 0.4;
   nodes.Sample(kVertices, 0, quadratic ? kVerticesShare : 1);
@@ -341,7 +365,7 @@ BuiltMesh BuildIrradianceMesh(const Scene& scene, std::span<const PatchTriangula
 std::size_t SampleMidpoints(const Scene& scene, const IrradianceMesh& mesh,
                             std::span<const std::uint32_t> triangles, const IrradianceSampler& sampler,
                             const ExecutionContext& context, SampleCache& cache) {
-  Sampling sampling(scene, mesh, nullptr, sampler, &cache, context);
+  Sampling sampling(scene, mesh, {}, sampler, &cache, context);
   std::vector<Node> nodes;
   for (const std::uint32_t t : triangles)
     for (std::uint8_t sample = 1; sample < 6; sample += 2)

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <vector>
@@ -184,6 +185,28 @@ TEST(CornerSheets, AreDividedByDiscontinuities) {
       EXPECT_EQ(sheets.Into(sheets.Of(CornerSheets::Corner(t, k))), Vec3(middle > 0.5 ? 1 : -1, 0, 0));
     }
   }
+}
+
+// A border vertex that rounding has put beside a corner of the patch: the sheets at both are not straight,
+// because neither shows where the lines lead that end in the other. Elsewhere sheets stay straight.
+TEST(CornerSheets, AreNotStraightAtFlatTriangles) {
+  constexpr double kOff = 1e-7;
+  IrradianceMesh mesh;
+  mesh.positions = {{0, 0, 0}, {kOff, 0, 0}, {0.5, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  for (const std::array<std::uint32_t, 3>& vertex :
+       {std::array<std::uint32_t, 3>{0, 1, 5}, {1, 2, 5}, {2, 4, 5}, {2, 3, 4}})
+    mesh.triangles.push_back({.vertex = vertex, .patch = 0});
+  const std::array<double, 1> wide = {10 * kOff}, narrow = {0.1 * kOff};
+  const FlatTriangles flat(mesh, wide), none(mesh, narrow);
+  EXPECT_TRUE(flat.Contains(0));
+  EXPECT_EQ(flat.Beside(0), 1U);
+  EXPECT_FALSE(flat.Contains(1));
+  EXPECT_FALSE(none.Contains(0));
+  const CornerSheets sheets(mesh, &flat), exact(mesh, &none);
+  const auto corner = [](std::size_t t, std::size_t k) { return CornerSheets::Corner(t, k); };
+  EXPECT_FALSE(sheets.IsStraight(sheets.Of(corner(1, 0))));
+  EXPECT_TRUE(exact.IsStraight(exact.Of(corner(1, 0))));
+  EXPECT_TRUE(sheets.IsStraight(sheets.Of(corner(1, 1))));
 }
 
 }  // namespace
