@@ -406,6 +406,9 @@ TEST(SolutionFile, ChecksTheMeshItReads) {
   bad_mesh([](IrradianceMesh& m) { m.irradiance.pop_back(); });
   bad_mesh([](IrradianceMesh& m) { m.irradiance[0].d[0] = kNan; });
   bad_mesh([](IrradianceMesh& m) { m.positions[0].z() = INFINITY; });
+  // Finite, but products of them are not.
+  bad_mesh([](IrradianceMesh& m) { m.positions[0].x() = 1.4e308; });
+  bad_mesh([](IrradianceMesh& m) { m.irradiance[0].a[0] = m.irradiance[0].c2[0] = 1e308; });
 }
 
 // Light that is no number is not kept: no file is written that cannot be read.
