@@ -218,6 +218,30 @@ TEST(ShadowRays, LeaveOutPointsInThePlaneOfAReflector) {
   EXPECT_GT(light[1].minCoeff(), light[2].maxCoeff());
 }
 
+// Behind the slats of a fence, the only lamp gets enough rays: their error is that of the whole light.
+TEST(ShadowRays, FollowEnoughRaysToTheOnlyLamp) {
+  Scene scene;
+  const std::int32_t grey = scene_test::AddMaterial(scene, 0.5, 0),
+                     lamp = scene_test::AddMaterial(scene, 0, 10);
+  scene_test::Add(scene, {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, grey);
+  scene_test::Add(scene, {{-2, -1, 3}, {-2, 1, 3}, {2, 1, 3}, {2, -1, 3}}, lamp);
+  for (int k = -12; k <= 12; ++k)
+    scene_test::AddBox(scene, {0.1 * k - 0.03, -2, 1}, {0.1 * k + 0.03, 2, 1.02}, false, grey);
+  const RayCaster caster(scene);
+  const ShadowRays rays(scene, caster);
+  const ShadowRayEffort by_rays{.divisions = 4, .closer_above = 0.02, .rays_if_hidden = 48, .seed = 0};
+  const ShadowRayEffort exact{.divisions = 4, .closer_above = 0.001, .rays_if_hidden = 0, .seed = 0};
+  std::vector<double> errors;
+  const std::vector<double> floor_only = {1};
+  for (const SurfacePoint& point : SpreadPoints(scene, std::array<PatchId, 1>{0}, floor_only, 100, 12)) {
+    const double want = rays.At(At(scene, point), exact).maxCoeff();
+    errors.push_back(std::abs(rays.At(At(scene, point), by_rays).maxCoeff() / want - 1));
+  }
+  std::sort(errors.begin(), errors.end());
+  std::printf("relative error behind slats: median %.2g, 95th percentile %.2g\n", errors[50], errors[95]);
+  EXPECT_LT(errors[95], 0.1);
+}
+
 // In a building, most lamps are behind walls. Points that have learnt so send these lamps few rays, but lose
 // no light, not even through doorways.
 TEST(ShadowRays, KeepTheLightOfLampsThatSeemHidden) {

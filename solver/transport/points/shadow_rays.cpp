@@ -24,6 +24,9 @@ constexpr double kFarFromReflector = 4;
 // A luminaire that a region seems not to see counts as much as one with this times its light: rays that find
 // a part of it after all must not weigh so much that they show as noise.
 constexpr double kIfHidden = 1.0 / 8;
+// A half-hidden emitter whose light is all that a point gets, is given this times the rays of one whose light
+// is little beside that of others: its error is then the error of the whole.
+constexpr double kRaysIfAlone = 4;
 // A region does not look for a luminaire that sends none of its points this times the light of all.
 constexpr double kNotLookedFor = 1e-3;
 // With fewer luminaires, looking for them does not pay.
@@ -273,6 +276,7 @@ void ShadowRays::AddStrong(const Seen& strong, const Values& rest, const ShadowR
   const Luminaire& luminaire = luminaires_[strong.luminaire];
   const RaySums rays = CastRays(group, PointsLitBy(strong), luminaire, effort);
   std::uint32_t hidden = 0;
+  double largest_share = 0;  // of the light of all, where the luminaire is half hidden
   std::array<Rgb, kTogether> unhindered;
   for (std::size_t p = 0; p < group.size(); ++p) {
     if (rays.visible[p] <= 0) continue;
@@ -283,16 +287,22 @@ void ShadowRays::AddStrong(const Seen& strong, const Values& rest, const ShadowR
       continue;
     }
     unhindered[p] = Unhindered(at, luminaire);
-    const bool matters =
-        unhindered[p].maxCoeff() > effort.closer_above * (group.light[p].maxCoeff() + rest[p]);
-    if (luminaire.emits && rays.visible[p] < rays.all[p] && matters)
+    const double own = unhindered[p].maxCoeff(), others = group.light[p].maxCoeff() + rest[p];
+    if (luminaire.emits && rays.visible[p] < rays.all[p] && own > effort.closer_above * others) {
       hidden |= std::uint32_t{1} << p;
-    else
+      largest_share = std::max(largest_share, own / (own + others));
+    } else {
       group.Add(p, luminaire, rays.visible[p] / rays.all[p] * unhindered[p]);
+    }
   }
   if (hidden == 0) return;
   RaySums more;
-  if (effort.rays_if_hidden > 0) more = CastMoreRays(group, hidden, luminaire, effort);
+  if (effort.rays_if_hidden > 0) {
+    ShadowRayEffort closer = effort;
+    closer.rays_if_hidden =
+        static_cast<int>(std::lround(effort.rays_if_hidden * (1 + (kRaysIfAlone - 1) * largest_share)));
+    more = CastMoreRays(group, hidden, luminaire, closer);
+  }
   for (std::size_t p = 0; p < group.size(); ++p) {
     if ((hidden >> p & 1) == 0) continue;
     if (effort.rays_if_hidden == 0)
