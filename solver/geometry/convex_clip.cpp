@@ -62,9 +62,14 @@ Strip NarrowestStrip(std::span<const Vec2> polygon) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 outwards = Outwards(polygon[i], polygon[(i + 1) % polygon.size()]);
     if (outwards.squaredNorm() == 0) continue;
-    double width = 0;
-    for (const Vec2& p : polygon) width = std::max(width, -outwards.dot(p - polygon[i]));
-    if (width < strip.width) strip = {width, outwards};
+    // The extent to both sides: an edge as short as a rounding error may have any direction, also inwards.
+    double lowest = 0, highest = 0;
+    for (const Vec2& p : polygon) {
+      const double height = outwards.dot(p - polygon[i]);
+      lowest = std::min(lowest, height);
+      highest = std::max(highest, height);
+    }
+    if (highest - lowest < strip.width) strip = {highest - lowest, outwards};
   }
   if (!(strip.width < std::numeric_limits<double>::infinity())) strip.width = 0;
   return strip;

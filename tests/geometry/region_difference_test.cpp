@@ -91,6 +91,8 @@ TEST(ConvexClip, StripsAndDifferences) {
     EXPECT_NEAR(area, w * h, 1e-11);
   }
   EXPECT_EQ(NarrowestStrip(Polygon2{{0, 0}, {1, 0}}).width, 0);
+  // The crossing of two edges near a corner, rounded, may be an edge of its own that runs backwards.
+  EXPECT_EQ(NarrowestStrip(Polygon2{{0, 0}, {1, 0}, {1, 1}, {1, 1 - 1e-15}, {0, 1}}).width, 1);
 }
 
 }  // namespace
