@@ -15,11 +15,11 @@
 namespace penumbra {
 namespace {
 
-using Irradiance = std::function<double(double x, double y)>;
+using LightField = std::function<double(double x, double y)>;
 
 // The largest error over a grid of n x n squares of the unit square, each cut into two triangles, or, with
 // `split`, along x = split instead where that runs through it.
-double LargestError(const Irradiance& f, int degree, int n, double split = -1) {
+double LargestError(const LightField& f, int degree, int n, double split = -1) {
   double worst = 0;
   const auto triangle = [&](const Vec2& a, const Vec2& b, const Vec2& c) {
     if (std::abs(Cross2(b - a, c - a)) < 1e-14) return;
@@ -53,7 +53,7 @@ double LargestError(const Irradiance& f, int degree, int n, double split = -1) {
   return worst;
 }
 
-double Order(const Irradiance& f, int degree, double split = -1) {
+double Order(const LightField& f, int degree, double split = -1) {
   // Coarse against fine, by a factor that keeps the edge at the same place in its square: 1/3 of it.
   constexpr int kCoarse = 16, kFine = 64;
   return std::log2(LargestError(f, degree, kCoarse, split) / LargestError(f, degree, kFine, split)) /
@@ -69,7 +69,7 @@ double Smooth(double x, double y) {
 constexpr double kEdge = 0.3333333333333333;
 
 // An edge across which the irradiance, its gradient or its second derivative jumps (D0, D1, D2).
-Irradiance WithJump(int derivative) {
+LightField WithJump(int derivative) {
   return [derivative](double x, double y) {
     const double beyond = x - kEdge;
     constexpr double kStrong = 30;  // so that what the smooth part adds to the error does not show

@@ -290,16 +290,16 @@ TEST(HierarchicalSolver, Ends) {
   const PatchVisibility visibility(scene);
   SolverOptions options;
   options.eps = 1e-300;
-  options.max_links = 2000;
+  options.max_links = 1000;
   options.max_corrections = 1;
-  options.min_area = 0.1;
+  options.min_area = 0.3;
   options.source_error = 1e-300;
   HierarchicalSolver solver(scene, visibility, options);
   EXPECT_LE(solver.Solve(ExecutionContext()).size(), 10U);
   EXPECT_TRUE(solver.Converged());
   EXPECT_TRUE(solver.Full());
   EXPECT_GT(solver.solution().links.links.size(), 500U);
-  EXPECT_LE(solver.solution().links.links.size(), 2000U + scene.patches.size() * scene.patches.size());
+  EXPECT_LE(solver.solution().links.links.size(), 1000U + scene.patches.size() * scene.patches.size());
   ExpectValid(solver.solution());
 }
 

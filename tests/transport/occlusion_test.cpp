@@ -222,7 +222,7 @@ TEST(Occlusion, InvariantsOfRandomScenes) {
 TEST(Occlusion, InvariantsOfFurnishedRooms) {
   Random random(304);
   double worst = 0;
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < CaseCount(150); ++i) {
     SCOPED_TRACE("room " + std::to_string(i));
     const Scene room = FurnishedRoom(random, 4);
     const Motion motion = i % 2 == 0 ? Motion() : RandomMotion(random, 5);
