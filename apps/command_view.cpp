@@ -176,6 +176,23 @@ class ViewedScene {
     WriteResult(path, ReportJson({options, load_seconds_, pipeline.report()}));
   }
 
+  // The light of what is written from now on differs from that of the scene by this.
+  void LitAs(const viewer::LightChange& change) {
+    const std::lock_guard lock(mutex_);
+    change_ = change;
+  }
+
+  // A function that brings back how the scene is read now.
+  std::function<void()> KeepReading() {
+    const std::lock_guard lock(mutex_);
+    return [this, arguments = arguments_, stored = stored_options_, seconds = load_seconds_] {
+      const std::lock_guard inner(mutex_);
+      arguments_ = arguments;
+      stored_options_ = stored;
+      load_seconds_ = seconds;
+    };
+  }
+
   // Before a file is exported.
   void CheckExport(const std::string& path) const {
     const std::lock_guard lock(mutex_);
@@ -192,6 +209,9 @@ class ViewedScene {
   nlohmann::ordered_json OptionsOf(const Pipeline& pipeline) const {
     SceneArguments told = arguments_;
     told.solving = pipeline.options();
+    for (const Dimming& lamp : change_.lamps) told.dims.push_back(lamp);
+    for (const viewer::Paint& paint : change_.paints)
+      told.reflectance.push_back({paint.material, paint.reflectance});
     return stored_options_ ? StoredOptions(*stored_options_, told, pipeline.resolved())
                            : OptionsUsed(told, &pipeline.resolved());
   }
@@ -217,6 +237,7 @@ class ViewedScene {
 
   mutable std::mutex mutex_;
   SceneArguments arguments_;
+  viewer::LightChange change_;
   std::optional<nlohmann::ordered_json> stored_options_;
   double load_seconds_ = 0;
 };
@@ -231,6 +252,8 @@ viewer::ViewerFiles FilesOf(ViewedScene& viewed) {
   files.save_solution = [&viewed](const std::string& path, const Pipeline& pipeline) {
     viewed.Save(path, pipeline);
   };
+  files.lit_as = [&viewed](const viewer::LightChange& change) { viewed.LitAs(change); };
+  files.keep_reading = [&viewed] { return viewed.KeepReading(); };
   files.save_report = [&viewed](const std::string& path, const Pipeline& pipeline) {
     viewed.SaveReport(path, pipeline);
   };

@@ -71,7 +71,48 @@ ScreenColour FalseColour(double x) {
   return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue)};
 }
 
+double FalseColourScale::Place(double value) const {
+  if (!logarithmic) return value / top;
+  return value > 0 ? 1 + std::log(value / top) / std::log(kLogarithmicRange) : 0;
+}
+
+double FalseColourScale::ValueAt(double place) const {
+  return logarithmic ? top * std::pow(kLogarithmicRange, place - 1) : top * place;
+}
+
+double FalseColourScale::ValueOf(const Rgb& light) const {
+  return unit == LightUnit::kLux ? Lux(light) : light.mean();
+}
+
+double RangeOf(const RgbImage& image, std::span<const PixelKind> kinds, LightUnit unit) {
+  const FalseColourScale scale{1, unit};
+  std::vector<double> values;
+  for (int y = 0; y < image.height; y += kRangeStride)
+    for (int x = 0; x < image.width; x += kRangeStride) {
+      const std::size_t i = image.Index(x, y);
+      if (kinds[i] != PixelKind::kSurface) continue;
+      const double value = scale.ValueOf(Rgb(static_cast<double>(image.channel[0][i]),
+                                             static_cast<double>(image.channel[1][i]),
+                                             static_cast<double>(image.channel[2][i])));
+      if (value > 0) values.push_back(value);
+    }
+  if (values.empty()) return 1;
+  constexpr double kKept = 0.99;
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(kKept * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  const double decade = std::pow(10, std::floor(std::log10(*at)));
+  for (const double round : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0})
+    if (round * decade >= *at) return round * decade;
+  return 10 * decade;
+}
+
 void PaintFalseColours(const RgbImage& image, std::span<const PixelKind> kinds, double top, Srgb8Image* out) {
+  PaintFalseColours(image, kinds, FalseColourScale{top}, out);
+}
+
+void PaintFalseColours(const RgbImage& image, std::span<const PixelKind> kinds, const FalseColourScale& scale,
+                       Srgb8Image* out) {
   out->Resize(image.width, image.height);
   const auto grey =
       static_cast<std::uint8_t>(std::lround(255 * SrgbFromLinear(static_cast<double>(kBackground))));
@@ -81,8 +122,12 @@ void PaintFalseColours(const RgbImage& image, std::span<const PixelKind> kinds, 
       ScreenColour shown{grey, grey, grey};
       if (kinds[i] == PixelKind::kEmitter) shown = kWhite;
       if (kinds[i] == PixelKind::kSurface) {
-        const float sum = image.channel[0][i] + image.channel[1][i] + image.channel[2][i];
-        shown = FalseColour(static_cast<double>(sum) / (3 * top));
+        const float r = image.channel[0][i], g = image.channel[1][i], b = image.channel[2][i];
+        const double value =
+            scale.unit == LightUnit::kLux
+                ? Lux(Rgb(static_cast<double>(r), static_cast<double>(g), static_cast<double>(b)))
+                : static_cast<double>(r + g + b) / 3;
+        shown = FalseColour(scale.Place(value));
       }
       SetPixel(out, i, shown);
     }
@@ -97,6 +142,10 @@ Srgb8Image FalseColours(const std::vector<float>& map, int width, int height) {
 }
 
 void PaintLegend(double top, const std::string& unit, Srgb8Image* picture) {
+  PaintLegend(FalseColourScale{top}, unit, picture);
+}
+
+void PaintLegend(const FalseColourScale& scale_of_values, const std::string& unit, Srgb8Image* picture) {
   if (picture->width < kLegendWidth || picture->height < kLegendHeight) return;
   constexpr int kRows = 540;  // of a picture for which letters are drawn as they are
   const int scale = std::clamp(picture->height / kRows, 1, 8);
@@ -110,7 +159,8 @@ void PaintLegend(double top, const std::string& unit, Srgb8Image* picture) {
   for (int i = 0; i <= kTicks; ++i) {
     const int at = y + height - height * i / kTicks;
     Fill(picture, {x + width, at - (scale + 1) / 2, x + width + 4 * scale, at + scale / 2}, kWhite, 1);
-    PaintText(picture, x + width + 8 * scale, at - 4 * scale, scale, fmt::format("{:.4g}", top * i / kTicks));
+    PaintText(picture, x + width + 8 * scale, at - 4 * scale, scale,
+              fmt::format("{:.3g}", scale_of_values.ValueAt(static_cast<double>(i) / kTicks)));
   }
 }
 

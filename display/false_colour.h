@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "display/image.h"
+#include "display/photometry.h"
 
 namespace penumbra {
 
@@ -24,13 +25,40 @@ inline constexpr int kFalseColourStops = 7;
 // has the unit of the image. In a false-colour picture, emitters are white, and the background is dark grey.
 void PaintFalseColours(const RgbImage& image, std::span<const PixelKind> kinds, double top, Srgb8Image* out);
 
-// A picture of a map of values in false colours; values are clamped to [0, 1].
+// The values that the ends of the colour scale stand for.
+struct FalseColourScale {
+  double top = 1;
+  LightUnit unit = LightUnit::kWatts;  // of `top`: the mean of the channels [W/m^2], or [lux]
+  // The scale begins at 0, or, where it is logarithmic, at top / kLogarithmicRange.
+  bool logarithmic = false;
+
+  // The place of a value on the scale; it may be outside [0, 1].
+  double Place(double value) const;
+  // The value at a place from 0 to 1.
+  double ValueAt(double place) const;
+  double ValueOf(const Rgb& light) const;  // in `unit`
+};
+inline constexpr double kLogarithmicRange = 1000;
+
+// The same as PaintFalseColours() above, by another scale.
+void PaintFalseColours(const RgbImage& image, std::span<const PixelKind> kinds, const FalseColourScale& scale,
+                       Srgb8Image* out);
+
+// The end of a scale that shows the surfaces of a picture: a round number at or above the 99th percentile of
+// their values, so that a few bright points do not darken all the rest; 1 where nothing is lit. Looks at
+// every kRangeStride-th pixel of every kRangeStride-th row.
+double RangeOf(const RgbImage& image, std::span<const PixelKind> kinds, LightUnit unit);
+inline constexpr int kRangeStride = 4;
+
+// A picture of the values of a map in false colours. Values are clamped to [0, 1].
 Srgb8Image FalseColours(const std::vector<float>& map, int width, int height);
 
 // Paints a legend in the lower right corner of the picture: the colour scale from 0 to `top`, with the unit
 // above the scale. PaintLegend() does nothing if the picture is smaller than kLegendWidth x kLegendHeight.
 void PaintLegend(double top, const std::string& unit, Srgb8Image* picture);
-inline constexpr int kLegendWidth = 120, kLegendHeight = 160;  // size of the legend [pixels]
+// The same for another scale.
+void PaintLegend(const FalseColourScale& scale, const std::string& unit, Srgb8Image* picture);
+inline constexpr int kLegendWidth = 120, kLegendHeight = 160;  // [pixels]
 
 // A colour for an id number, for pictures that show triangle ids. Consecutive id numbers have different
 // colours.

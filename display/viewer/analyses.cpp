@@ -1,5 +1,8 @@
 #include "display/viewer/analyses.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "display/viewer/mesh_tools.h"
 #include "display/viewer/overlays.h"
 
@@ -30,6 +33,9 @@ Analyses::Analyses()
       }),
       backprojection_([](const PointKey& key, const ExecutionContext& context) {
         return Backproject(*key.light, key.at, context);
+      }),
+      line_plot_([](const LineKey& key, const ExecutionContext& context) {
+        return PlotAlong(*key.light, key.mesh.get(), key.line, context);
       }) {}
 
 AnalysisResults Analyses::Update(const Snapshot& snapshot, const std::shared_ptr<const MeshState>& tools,
@@ -49,21 +55,22 @@ AnalysisResults Analyses::Update(const Snapshot& snapshot, const std::shared_ptr
   if (view.probe) results.probe = probe_.Get({snapshot.light, interpolants, *view.probe});
   if (view.backprojection)
     results.backprojection = backprojection_.Get({snapshot.light, nullptr, *view.backprojection});
+  if (view.line) results.line_plot = line_plot_.Get({snapshot.light, interpolants, *view.line});
   return results;
 }
 
 bool Analyses::Busy() {
   // All are asked: what is done has to be collected.
-  const bool busy[] = {discontinuities_.Busy(), graph_.Busy(), error_map_.Busy(), probe_.Busy(),
-                       backprojection_.Busy()};
-  return busy[0] || busy[1] || busy[2] || busy[3] || busy[4];
+  const bool busy[] = {discontinuities_.Busy(), graph_.Busy(),          error_map_.Busy(),
+                       probe_.Busy(),           backprojection_.Busy(), line_plot_.Busy()};
+  return std::find(std::begin(busy), std::end(busy), true) != std::end(busy);
 }
 
 bool Analyses::RanOutOfMemory() {
   const bool failed[] = {discontinuities_.RanOutOfMemory(), graph_.RanOutOfMemory(),
-                         error_map_.RanOutOfMemory(), probe_.RanOutOfMemory(),
-                         backprojection_.RanOutOfMemory()};
-  return failed[0] || failed[1] || failed[2] || failed[3] || failed[4];
+                         error_map_.RanOutOfMemory(),       probe_.RanOutOfMemory(),
+                         backprojection_.RanOutOfMemory(),  line_plot_.RanOutOfMemory()};
+  return std::find(std::begin(failed), std::end(failed), true) != std::end(failed);
 }
 
 }  // namespace penumbra::viewer

@@ -50,11 +50,19 @@ class Analyses {
     bool operator==(const PointKey&) const = default;
   };
 
+  struct LineKey {
+    Light light;
+    Mesh mesh;
+    PlotLine line;
+    bool operator==(const LineKey&) const = default;
+  };
+
   Deferred<Light, DiscontinuityList> discontinuities_;
   Deferred<GraphKey, IrradianceGraph> graph_;
   Deferred<MeshKey, ErrorMap> error_map_;
   Deferred<PointKey, ProbeResult> probe_;
   Deferred<PointKey, std::vector<BackprojectedPatch>> backprojection_;
+  Deferred<LineKey, LinePlot> line_plot_;
 };
 
 }  // namespace penumbra::viewer

@@ -1,12 +1,20 @@
 #include "display/viewer/link_overlay.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "display/viewer/links.h"
 #include "display/viewer/settings.h"
 
 namespace penumbra::viewer {
 namespace {
+
+// The width of a link that carries so much, beside the strongest one [pixels]: areas of arrows compare.
+float ArrowWidth(double carried, double strongest) {
+  constexpr double kThinnest = 0.7, kWidest = 3.5;
+  const double share = strongest > 0 ? carried / strongest : 0;
+  return static_cast<float>(kThinnest + (kWidest - kThinnest) * std::sqrt(share));
+}
 
 class LinkOverlay final : public Overlay {
  public:
@@ -32,12 +40,15 @@ class LinkOverlay final : public Overlay {
     // The selection draws the one that is left.
     if (context.Isolates(SelectionKind::kLink) || context.Isolates(SelectionKind::kTube)) return;
     const RadiositySolution& solution = context.snapshot.light->solution();
+    double strongest = 0;
     for (const std::uint32_t i : ShownLinks(solution, settings, context.selection)) {
       const Link& link = solution.links.links[i];
+      const double carried = LinkIrradiance(solution, link);
+      if (strongest == 0) strongest = carried;  // the first
       const Element& receiver = solution.forest[link.receiver];
       drawing->Arrow(Centroid(solution.forest[link.source].Vertices()), Centroid(receiver.Vertices()),
                      context.snapshot.scene->patches[static_cast<std::size_t>(receiver.patch)].normal,
-                     ColourOf(ClassOf(solution, link)), 1.0F,
+                     ColourOf(ClassOf(solution, link)), ArrowWidth(carried, strongest),
                      {SelectionKind::kLink, static_cast<std::int64_t>(i)});
     }
   }

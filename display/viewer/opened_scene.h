@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "display/viewer/light_change.h"
 #include "mesh/pipeline/pipeline.h"
 #include "solver/scene/scene.h"
 
@@ -51,8 +52,11 @@ struct ViewerFiles {
   // Functions that write a solution or a report. REQUIRES: the pipeline is solved and measured, and has a
   // mesh of kind kInterpolant.
   WriteSolved save_solution, save_report;
-  // The function exports_mesh() returns true if the file format that belongs to the path's ending stores the
-  // mesh, not only the scene.
+  // Says by which change of the opened scene's light the pipelines differ that are written from now on.
+  std::function<void(const LightChange&)> lit_as = {};
+  // Returns a function that brings back how the scene is read now, for undo: which scene, and its options.
+  std::function<std::function<void()>()> keep_reading = {};
+  // True if the file format that belongs to the path's ending stores the mesh, not only the scene.
   std::function<bool(const std::string& path)> exports_mesh;
   // The function export_file() writes a scene, or a mesh with its light, to a file. The argument `mesh` is
   // null if the file format does not store the mesh.

@@ -11,6 +11,7 @@
 
 #include "display/viewer/error_map.h"
 #include "display/viewer/irradiance_graph.h"
+#include "display/viewer/line_plot.h"
 #include "display/viewer/overlay_drawing.h"
 #include "display/viewer/probes.h"
 #include "display/viewer/snapshot.h"
@@ -31,6 +32,7 @@ struct AnalysisResults {
   std::shared_ptr<const ErrorMap> error_map;
   std::shared_ptr<const ProbeResult> probe;
   std::shared_ptr<const std::vector<BackprojectedPatch>> backprojection;
+  std::shared_ptr<const LinePlot> line_plot;
 
   bool operator==(const AnalysisResults&) const = default;
 };

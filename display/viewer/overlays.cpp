@@ -6,6 +6,7 @@
 #include "display/viewer/discontinuity_overlay.h"
 #include "display/viewer/element_mesh_overlay.h"
 #include "display/viewer/graph_overlay.h"
+#include "display/viewer/line_overlay.h"
 #include "display/viewer/link_overlay.h"
 #include "display/viewer/probe_overlay.h"
 #include "display/viewer/sample_point_overlay.h"
@@ -17,9 +18,10 @@ namespace penumbra::viewer {
 
 OverlayRegistry& Overlays() {
   static OverlayRegistry registry(
-      "overlay", {ElementMeshOverlayMethod(), LinkOverlayMethod(), DiscontinuityOverlayMethod(),
-                  TriangulationOverlayMethod(), SamplePointOverlayMethod(), GraphOverlayMethod(),
-                  BackprojectionOverlayMethod(), ProbeOverlayMethod(), SelectionOverlayMethod()});
+      "overlay",
+      {ElementMeshOverlayMethod(), LinkOverlayMethod(), DiscontinuityOverlayMethod(),
+       TriangulationOverlayMethod(), SamplePointOverlayMethod(), GraphOverlayMethod(),
+       BackprojectionOverlayMethod(), ProbeOverlayMethod(), LineOverlayMethod(), SelectionOverlayMethod()});
   return registry;
 }
 

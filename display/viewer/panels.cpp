@@ -106,26 +106,47 @@ float PanelWidth(const Viewer& viewer, std::span<const std::string_view> groups,
 }  // namespace
 
 template <class Action>
-void Panels::Try(Viewer& viewer, const Action& action) {
+bool Panels::Try(Viewer& viewer, const Action& action) {
   try {
     action();
+    return true;
   } catch (const InputError& error) {
     viewer.Complain(error.what());
+    return false;
   }
 }
 
+void Panels::Run(Viewer& viewer, const std::string& menu) {
+  Try(viewer, [&] { viewer.RunMenu(menu); });
+}
+
 bool Panels::Typing() { return ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive(); }
+
+bool Panels::WantsKeys(Viewer& viewer) const {
+  return Typing() || !refused_.empty() || !viewer.panels().dialog.empty() ||
+         !viewer.panels().question.empty();
+}
+
+bool Panels::IsOpening(Viewer& viewer) const {
+  return (!viewer.panels().dialog.empty() || !refused_.empty()) && !Typing();
+}
 
 void Panels::Draw(Viewer& viewer) {
   MenuBar(viewer);
   ControlPanel(viewer);
   Parameters(viewer);
+  Lamps(viewer);
+  TimeLine(viewer);
+  Outline(viewer);
+  LinePanel(viewer);
   Details(viewer);
   Report(viewer);
   Help(viewer);
   Dialog(viewer);
+  Question(viewer);
   Message(viewer);
   Legend(viewer);
+  Hover(viewer);
   if (!ImGui::IsAnyItemActive()) EndEdit(viewer);  // of a field that is not shown any more
 }
 
@@ -191,7 +212,8 @@ void Panels::Menus(const Viewer& viewer, std::string* run) {
 // The status indicator, upper right (thesis B.2): what is being done, how far, and a button that ends it.
 void Panels::Status(Viewer& viewer) {
   const SessionStatus status = viewer.status();
-  std::string text = status.cancelling ? "ending " + status.phase : status.phase;
+  std::string text =
+      fmt::format("{}{}, {:.0f} s", status.cancelling ? "ending " : "", status.text, status.seconds);
   if (!status.busy) text = viewer.activity();
   const double fps = viewer.seconds_a_frame() > 0 ? 1 / viewer.seconds_a_frame() : 0;
   const std::string rate = fmt::format("{:.0f} fps", fps);
@@ -204,26 +226,28 @@ void Panels::Status(Viewer& viewer) {
     width += part + gap;
     return true;
   };
+  if (status.busy && WidthOf(text) + WidthOf(rate) + WidthOf("Cancel") + 4 * gap > room)
+    text = status.phase;  // in few words
   if (status.busy) room -= WidthOf("Cancel") + 2 * style.FramePadding.x + gap;
   const bool shows_text = fits(WidthOf(text)), shows_rate = shows_text && fits(WidthOf(rate)),
              shows_bar = status.busy && shows_rate && fits(bar);
   ImGui::SameLine(ImGui::GetCursorPosX() + std::max(room - width, 0.0F));
   if (shows_bar) {
-    // Where a phase does not say how far it is, the bar shows that it moves.
-    const double time = ImGui::GetTime();
-    const double moving = 0.5 + 0.5 * std::sin(2 * time);
-    ImGui::ProgressBar(static_cast<float>(status.fraction > 0 ? status.fraction : moving), ImVec2(bar, 0),
-                       status.fraction > 0 ? nullptr : "");
+    ImGui::ProgressBar(static_cast<float>(status.fraction), ImVec2(bar, 0));
   }
   if (status.busy && ImGui::SmallButton("Cancel")) viewer.RunMenu("Iteration/Cancel");
   if (shows_text) Text(text);
   if (shows_rate) ImGui::TextDisabled("%s", rate.c_str());
 }
 
-// Takes what was typed into a field, however the user left it; Escape has put back what was there.
+// Takes what was typed into a field, however the user left it; Escape has put back what was there. Text that
+// is refused after Enter stays in its field, which gets the keys again: whoever types on must not press
+// shortcuts.
 void Panels::EndEdit(Viewer& viewer) {
   const std::string name = std::exchange(edited_, {});
-  if (!name.empty() && edit_ != unedited_) Try(viewer, [&] { viewer.Set(name, edit_); });
+  if (name.empty() || edit_ == unedited_) return;
+  const bool entered = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  if (!Try(viewer, [&] { viewer.Set(name, edit_); }) && entered) refused_ = name;
 }
 
 // A slider for a positive number. Returns what it has been moved to, else `value`.
@@ -241,6 +265,7 @@ std::string Panels::Slider(const Setting& setting, const std::string& label, con
   if (ImGui::SliderFloat(label.c_str(), &number, low, high, "%.4g", ImGuiSliderFlags_Logarithmic))
     chosen = TextOf(static_cast<double>(number));
   if (ImGui::IsItemActive()) {
+    if (slid_ != setting.name) slides_on_ = false;
     slid_ = setting.name;
     slid_low_ = low;
     slid_high_ = high;
@@ -254,11 +279,14 @@ std::string Panels::Slider(const Setting& setting, const std::string& label, con
 void Panels::Field(Viewer& viewer, const Setting& setting, const std::string& label,
                    const std::string& value) {
   // The field is the user's while he types, and shows the value otherwise.
+  const bool again = refused_ == setting.name;
+  if (again) ImGui::SetKeyboardFocusHere();
   char shown[sizeof edit_];
-  Copy(edited_ == setting.name ? std::string(edit_) : value, shown, sizeof shown);
+  Copy(again || edited_ == setting.name ? std::string(edit_) : value, shown, sizeof shown);
   ImGui::InputText(label.c_str(), shown, sizeof shown);
   if (edited_ == setting.name) std::memcpy(edit_, shown, sizeof shown);
   if (ImGui::IsItemActive()) {
+    if (again) refused_.clear();
     if (edited_ != setting.name) {
       EndEdit(viewer);  // of another field, which Tab leaves
       edited_ = setting.name;
@@ -299,7 +327,11 @@ void Panels::Widget(Viewer& viewer, const Setting& setting) {
       break;
   }
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("set %s %s", setting.name.c_str(), value.c_str());
-  if (chosen != value) Try(viewer, [&] { viewer.Set(setting.name, chosen); });
+  const bool slides = slid_ == setting.name;
+  if (chosen != value) {
+    Try(viewer, [&] { viewer.Set(setting.name, chosen, slides && slides_on_); });
+    if (slides) slides_on_ = true;
+  }
 }
 
 void Panels::Group(Viewer& viewer, std::string_view group) {
@@ -330,7 +362,7 @@ void Panels::Parameters(Viewer& viewer) {
     ImGui::PopItemWidth();
     ImGui::TextDisabled("The next iteration starts over where they differ.");
     for (const char* path : {"Iteration/Iterate", "Iteration/Iterate to convergence"}) {
-      if (ImGui::Button(path + sizeof("Iteration"))) viewer.RunMenu(path);
+      if (ImGui::Button(path + sizeof("Iteration"))) Run(viewer, path);
       ImGui::SameLine();
     }
   }
@@ -428,11 +460,13 @@ void Panels::Help(Viewer& viewer) {
   ImGui::End();
 }
 
-// Asks for the value of a setting that names a file or a camera.
+// Asks for the value of a setting that names a file or a camera. A value that is refused stays, with the
+// reason, until it is mended or the dialog is cancelled.
 void Panels::Dialog(Viewer& viewer) {
   std::string& name = viewer.panels().dialog;
   if (name.empty()) {
     asked_.clear();
+    refusal_.clear();
     return;
   }
   const Setting* setting = viewer.settings().Find(name);
@@ -442,28 +476,67 @@ void Panels::Dialog(Viewer& viewer) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   const float top = InWindow({0, 120, window.x, height}).top;
   ImGui::SetNextWindowPos(ImVec2(window.x / 2, top), ImGuiCond_Always, ImVec2(0.5F, 0));
-  if (ImGui::Begin("##dialog", nullptr,
+  if (ImGui::Begin(
+          "##dialog", nullptr,
+          ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings))
+    DialogField(viewer, *setting);
+  ImGui::End();
+}
+
+void Panels::DialogField(Viewer& viewer, const Setting& setting) {
+  std::string& name = viewer.panels().dialog;
+  Text(setting.help);
+  if (asked_ != name) {
+    asked_ = name;
+    text_[0] = '\0';
+    refusal_.clear();
+  }
+  // The keys are the dialog's as long as it is open.
+  if (!ImGui::IsAnyItemActive() && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) ImGui::SetKeyboardFocusHere();
+  const float width = ImGui::GetIO().DisplaySize.x;
+  ImGui::PushItemWidth(std::min(460 * Scale(), std::max(width - 60, 60.0F)));
+  const bool entered = ImGui::InputText("##value", text_, sizeof text_, ImGuiInputTextFlags_EnterReturnsTrue);
+  ImGui::PopItemWidth();
+  const bool done = ImGui::Button("OK") || entered;
+  ImGui::SameLine();
+  const bool cancelled =
+      ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+  if (!refusal_.empty()) ImGui::TextColored(ImVec4(1, 0.6F, 0.4F, 1), "%s", refusal_.c_str());
+  if (cancelled || (done && text_[0] == '\0')) {
+    name.clear();
+  } else if (done) {
+    try {
+      // The setting may open another dialog, and then this one's name is gone.
+      const std::string option = std::exchange(name, {});
+      viewer.Set(option, text_);
+    } catch (const InputError& error) {
+      name = setting.name;
+      refusal_ = error.what();
+    }
+  }
+}
+
+// Before work is lost that undo cannot bring back.
+void Panels::Question(Viewer& viewer) {
+  std::string& question = viewer.panels().question;
+  if (question.empty()) return;
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImVec2(window.x / 2, InWindow({0, 120, window.x, 80}).top), ImGuiCond_Always,
+                          ImVec2(0.5F, 0));
+  if (ImGui::Begin("##question", nullptr,
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
                        ImGuiWindowFlags_NoSavedSettings)) {
-    Text(setting->help);
-    if (asked_ != name) {
-      asked_ = name;
-      text_[0] = '\0';
-      ImGui::SetKeyboardFocusHere();
-    }
-    ImGui::PushItemWidth(std::min(460 * Scale(), std::max(window.x - 60, 60.0F)));
-    const bool entered =
-        ImGui::InputText("##value", text_, sizeof text_, ImGuiInputTextFlags_EnterReturnsTrue);
-    ImGui::PopItemWidth();
-    const bool done = ImGui::Button("OK") || entered;
+    ImGui::PushTextWrapPos(std::min(460 * Scale(), std::max(window.x - 60, 60.0F)));
+    ImGui::TextWrapped("%s", question.c_str());
+    ImGui::PopTextWrapPos();
+    const char* run = nullptr;
+    if (ImGui::Button("Save...")) run = "File/Save solution...";
     ImGui::SameLine();
-    const bool cancelled =
-        ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
-    if (done || cancelled) {
-      const std::string option = name;
-      name.clear();
-      if (done && text_[0] != '\0') Try(viewer, [&] { viewer.Set(option, text_); });
-    }
+    if (ImGui::Button("Quit without saving")) run = "File/Quit without saving";
+    ImGui::SameLine();
+    const bool stays = ImGui::Button("Stay (escape)");
+    if (run || stays || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) question.clear();
+    if (run) Try(viewer, [&] { viewer.RunMenu(run); });
   }
   ImGui::End();
 }
@@ -484,11 +557,24 @@ void Panels::Message(Viewer& viewer) {
   ImGui::End();
 }
 
+// What is under the pointer, in one line along the lower border.
+void Panels::Hover(Viewer& viewer) {
+  static_cast<void>(this);
+  if (!viewer.panels().hover || ImGui::GetIO().WantCaptureMouse) return;
+  const std::string line = viewer.Hover();
+  if (line.empty()) return;
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const float top = size.y - ImGui::GetFontSize() - 4;
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  draw->AddRectFilled(ImVec2(0, top), ImVec2(std::min(WidthOf(line) + 12, size.x), size.y),
+                      IM_COL32(20, 20, 20, 190));
+  draw->AddText(ImVec2(6, top + 2), IM_COL32(230, 230, 230, 255), line.c_str());
+}
+
 // The scale of false colours: smaller in a window that has no room for it.
 void Panels::Legend(Viewer& viewer) {
   const ColourScale colours = viewer.picture().scale();
   if (colours == ColourScale::kNone) return;
-  const double top = viewer.picture().scale_top();
   constexpr float kWidth = 112, kHeight = 270, kBarTop = 34, kBarLeft = 12, kBarWidth = 18, kBarHeight = 220;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const float menus = ImGui::GetFrameHeight();
@@ -516,7 +602,8 @@ void Panels::Legend(Viewer& viewer) {
     const float x = bar.x + kBarWidth * scale;
     const float y = bar.y + kBarHeight * scale * static_cast<float>(kTicks - i) / kTicks;
     draw->AddLine(ImVec2(x, y), ImVec2(x + 5 * scale, y), IM_COL32_WHITE);
-    write(x + 9 * scale, y - letters / 2, fmt::format("{:.3g}", top * i / kTicks));
+    write(x + 9 * scale, y - letters / 2,
+          fmt::format("{:.3g}", viewer.picture().scale_values().ValueAt(static_cast<double>(i) / kTicks)));
   }
 }
 

@@ -30,6 +30,12 @@ class Panels {
   // True while the user edits a text field that receives the key presses. Typing() is used instead of ImGui's
   // WantTextInput, because WantTextInput remains true for two frames after the end of the edit.
   static bool Typing();
+  // True if keys belong to a panel: while the user types, and while a dialog or a question waits for him.
+  // What is typed then never reaches the picture.
+  bool WantsKeys(Viewer& viewer) const;
+  // True for the few frames until a field that opens, or whose text was refused, receives the keys. Keys must
+  // wait until then.
+  bool IsOpening(Viewer& viewer) const;
 
  private:
   bool BeginPanel(const char* name, const PanelRect& first, bool* open);
@@ -47,12 +53,25 @@ class Panels {
   void Report(Viewer& viewer);
   void Help(Viewer& viewer);
   void Dialog(Viewer& viewer);
+  void DialogField(Viewer& viewer, const Setting& setting);
+  void Question(Viewer& viewer);
+  void Lamps(Viewer& viewer);  // lamps_panel.cpp
+  void LampRow(Viewer& viewer, const Lamp& lamp);
+  void PaintRow(Viewer& viewer, const Material& material);
+  static void Run(Viewer& viewer, const std::string& menu);
+  static void Change(Viewer& viewer, const char* setting, const std::string& value, bool merge);
+  void Outline(Viewer& viewer);  // outline_panel.cpp
+  void OutlineObject(Viewer& viewer, std::size_t object, std::int64_t selected_object,
+                     std::int64_t selected_face);
+  void LinePanel(Viewer& viewer);  // line_panel.cpp
+  void Hover(Viewer& viewer);
+  void TimeLine(Viewer& viewer);  // time_line_panel.cpp
   void Message(Viewer& viewer);
   void Legend(Viewer& viewer);
-  // Runs an action that the user requests. If the action throws an exception, Try() shows the exception's
-  // message to the user.
+  // Runs the action. If the action throws an exception, shows the exception's message to the user and returns
+  // false.
   template <class Action>
-  void Try(Viewer& viewer, const Action& action);
+  static bool Try(Viewer& viewer, const Action& action);
 
   struct PanelPlace {
     PanelRect wanted;                // place and size that the user chose
@@ -67,6 +86,12 @@ class Panels {
   std::string unedited_;                      // the field's text before the edit
   std::string slid_;                          // the setting whose slider the user drags
   float slid_low_ = 0, slid_high_ = 1;
+  bool slides_on_ = false;  // the drag has set a value before
+  std::string refused_;     // the setting whose field gets the keys again, for its text was refused
+  char search_[256] = {};   // the text that the outline is searched for
+  std::string refusal_;     // why the dialog's text was refused
+  std::map<std::string, Rgb> factors_before_off_;  // of lamps that were switched off here
+  std::string dragged_;                            // the lamp or the material whose widget is dragged
 };
 
 }  // namespace penumbra::viewer

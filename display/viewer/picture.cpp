@@ -35,6 +35,8 @@ const char* UnitOf(ColourScale scale) {
       break;
     case ColourScale::kIrradiance:
       return "W/m^2";
+    case ColourScale::kLux:
+      return "lux";
     case ColourScale::kError:
       return "rel. error";
   }
@@ -54,6 +56,36 @@ double MeterSparsely(const RgbImage& linear, const std::vector<PixelKind>& kinds
   return MeterExposure(sparse, sparse_kinds);
 }
 
+namespace {
+
+// The even light of the preview: nearly the same from all sides, but not quite, so that faces of one
+// reflectance that meet at an edge differ.
+Rgb EvenLight(const Vec3& normal) {
+  constexpr double kMean = 0.8, kAcross = 0.06, kAlong = 0.03, kUp = 0.11;
+  return Rgb::Constant(kMean + kAcross * normal.x() + kAlong * normal.y() + kUp * normal.z());
+}
+
+bool HasGathered(const Snapshot& snapshot) {
+  return snapshot.light && (!snapshot.iterations.empty() || snapshot.begun || snapshot.converged ||
+                            snapshot.light->solution().links.links.empty());
+}
+
+}  // namespace
+
+void PictureMaker::UpdatePreview(const OverlayContext& context) {
+  previews_ = !HasGathered(context.snapshot);
+  const std::shared_ptr<const MeshState>& flat = context.snapshot.Mesh(MeshKind::kFlat);
+  if (!previews_ || preview_of_ == flat) return;
+  IrradianceMesh mesh = flat->mesh();
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto patch = static_cast<std::size_t>(mesh.triangles[i].patch);
+    mesh.irradiance[i] = QuadraticInterpolant();
+    mesh.irradiance[i].f = EvenLight(context.snapshot.scene->patches[patch].normal);
+  }
+  preview_ = std::make_shared<const MeshState>(context.snapshot.scene, std::move(mesh));
+  preview_of_ = flat;
+}
+
 void PictureMaker::ChooseMesh(const OverlayContext& context, const ViewState& view) {
   kind_ = view.error_map && context.results.error_map ? MeshKind::kInterpolant : MeshOf(view.mode);
   std::shared_ptr<const MeshState> wanted = context.snapshot.Mesh(kind_);
@@ -61,6 +93,8 @@ void PictureMaker::ChooseMesh(const OverlayContext& context, const ViewState& vi
     kind_ = MeshKind::kFlat;
     wanted = context.snapshot.Mesh(kind_);
   }
+  UpdatePreview(context);
+  if (previews_) wanted = preview_;
   // Rays meet the whole scene. A triangle is one of the tools' mesh.
   const bool isolate = view.isolate && context.selection && !(CastsRays(view.mode) && !view.error_map);
   if (isolate && context.selection.kind == SelectionKind::kTriangle)
@@ -68,20 +102,35 @@ void PictureMaker::ChooseMesh(const OverlayContext& context, const ViewState& vi
       if (mesh.get() == &context.mesh) wanted = mesh;
   const Selection isolated = isolate ? context.selection : Selection{};
   const bool same_results = isolated.kind != SelectionKind::kDiscontinuity || isolated_by_ == context.results;
-  if (wanted == whole_ && isolated == isolated_ && same_results && view.backend == backend_ &&
-      view.coordinates == coordinates_ && display_)
+  if (wanted == whole_ && isolated == isolated_ && view.hidden == hidden_ && same_results &&
+      view.backend == backend_ && view.coordinates == coordinates_ && display_)
     return;
   backend_ = view.backend;
   coordinates_ = view.coordinates;
   whole_ = wanted;
   isolated_ = isolated;
   isolated_by_ = context.results;
-  drawn_ = whole_;
-  if (isolated) {
-    left_ = IsolatedTriangles(context, whole_->mesh());
-    drawn_ = std::make_shared<const MeshState>(context.snapshot.scene, SubMesh(whole_->mesh(), left_));
-  }
+  hidden_ = view.hidden;
+  ChoosePart(context);
   display_.emplace(*context.snapshot.scene, drawn_->mesh(), MakePasses());
+}
+
+// What is drawn of the mesh: all of it, the selection alone, or what is not hidden.
+void PictureMaker::ChoosePart(const OverlayContext& context) {
+  drawn_ = whole_;
+  const IrradianceMesh& mesh = whole_->mesh();
+  if (isolated_) {
+    left_ = IsolatedTriangles(context, mesh);
+  } else if (!hidden_.empty()) {
+    left_.clear();
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+      const auto patch = static_cast<std::size_t>(mesh.triangles[i].patch);
+      if (!hidden_.contains(context.snapshot.scene->patches[patch].object)) left_.push_back(i);
+    }
+  } else {
+    return;
+  }
+  drawn_ = std::make_shared<const MeshState>(context.snapshot.scene, SubMesh(mesh, left_));
 }
 
 // Of what is drawn; the rasteriser's where there is no OpenGL.
@@ -116,7 +165,8 @@ void PictureMaker::PaintErrors(const ErrorMap& errors, double top, Srgb8Image* o
 void PictureMaker::CastRays(const OverlayContext& context, const ViewState& view, int width, int height) {
   const bool lerp = view.mode == DrawMode::kLerp;
   const auto& interpolants = context.snapshot.Mesh(MeshKind::kInterpolant);
-  by_rays_ = CastsRays(view.mode) && !view.error_map && context.snapshot.light && (!lerp || interpolants);
+  by_rays_ = CastsRays(view.mode) && !view.error_map && context.snapshot.light && !previews_ &&
+             (!lerp || interpolants);
   if (!by_rays_) {
     rays_.Clear();
     return;
@@ -131,18 +181,20 @@ void PictureMaker::CastRays(const OverlayContext& context, const ViewState& view
 void PictureMaker::Shade(const OverlayContext& context, const ViewState& view, Srgb8Image* out) {
   const std::vector<PixelKind>& kinds = by_rays_ ? ray_kind_ : display_->frame().kind;
   const bool rho = view.mode == DrawMode::kRho || (view.mode == DrawMode::kFlat && view.trees_by_reflectance);
-  exposure_ = rho ? 1 : view.auto_exposure ? MeterSparsely(linear(), kinds) : view.exposure;
-  scale_top_ = view.false_colour_max > 0 ? view.false_colour_max : 1 / exposure_;
+  exposure_ = rho || previews_ ? 1 : view.auto_exposure ? MeterSparsely(linear(), kinds) : view.exposure;
   const bool errors = view.error_map && Shows(context.results.error_map.get());
-  scale_ = errors                      ? ColourScale::kError
-           : view.false_colour && !rho ? ColourScale::kIrradiance
-                                       : ColourScale::kNone;
+  const ColourScale light = view.unit == LightUnit::kLux ? ColourScale::kLux : ColourScale::kIrradiance;
+  const bool false_colours = view.false_colour && !rho && !previews_;
+  scale_ = errors ? ColourScale::kError : false_colours ? light : ColourScale::kNone;
+  scale_values_ = {1, view.unit, view.false_colour_log};
   if (errors) {
-    scale_top_ = view.error_map_max;
+    scale_values_ = {view.error_map_max};
     *out = display_->ToneMap({exposure_, true}).screen;
-    PaintErrors(*context.results.error_map, scale_top_, out);
-  } else if (scale_ == ColourScale::kIrradiance) {
-    PaintFalseColours(linear(), kinds, scale_top_, out);
+    PaintErrors(*context.results.error_map, scale_values_.top, out);
+  } else if (false_colours) {
+    scale_values_.top =
+        view.false_colour_max > 0 ? view.false_colour_max : RangeOf(linear(), kinds, view.unit);
+    PaintFalseColours(linear(), kinds, scale_values_, out);
   } else if (by_rays_) {
     ToneMap(linear(), kinds, {exposure_, true}, out);
   } else {

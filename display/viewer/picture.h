@@ -8,9 +8,11 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "display/false_colour.h"
 #include "display/two_pass_display.h"
 #include "display/viewer/overlay.h"
 #include "display/viewer/overlay_painter.h"
@@ -19,7 +21,7 @@
 namespace penumbra::viewer {
 
 // The quantity that false colours represent in a picture.
-enum class ColourScale { kNone, kIrradiance /* [W/m^2] */, kError /* relative */ };
+enum class ColourScale { kNone, kIrradiance /* [W/m^2] */, kLux, kError /* relative */ };
 const char* UnitOf(ColourScale scale);
 
 class PictureMaker {
@@ -45,33 +47,39 @@ class PictureMaker {
   const DepthMap* depth() const { return depth_ ? &*depth_ : nullptr; }
   // The mesh that frame() shows.
   const IrradianceMesh& drawn() const { return drawn_->mesh(); }
-  // The kind of the drawn mesh. The kind of the drawn mesh differs from MeshOf(view.mode) until the mesh of
-  // kind MeshOf(view.mode) has been built.
+  // True if the last picture shows reflectances and emitters, since no light is known yet.
+  bool previews() const { return previews_; }
+  // The kind of the drawn mesh. The kind differs from MeshOf(view.mode) as long as the mesh of that kind does
+  // not exist.
   MeshKind drawn_kind() const { return kind_; }
   // The exposure of the last picture: linear screen value per W/m^2 of radiosity.
   double exposure() const { return exposure_; }
   ColourScale scale() const { return scale_; }
-  double scale_top() const { return scale_top_; }  // value at the upper end of the false-colour scale
-  // The reason why the chosen back end (OpenGL) could not draw the picture, so that the software rasteriser
-  // has drawn the picture instead. The text backend_error() is empty if the chosen back end has drawn the
-  // picture.
+  double scale_top() const { return scale_values_.top; }  // of false colours
+  const FalseColourScale& scale_values() const { return scale_values_; }
+  // If the chosen back end could not draw the picture, the reason; the software rasteriser has then drawn the
+  // picture instead. Empty if the chosen back end has drawn the picture.
   const std::string& backend_error() const { return backend_error_; }
   const FrameTimes& times() const { return times_; }
 
  private:
   void ChooseMesh(const OverlayContext& context, const ViewState& view);
+  void UpdatePreview(const OverlayContext& context);
+  void ChoosePart(const OverlayContext& context);
   std::unique_ptr<Passes> MakePasses();
   void CastRays(const OverlayContext& context, const ViewState& view, int width, int height);
   void Shade(const OverlayContext& context, const ViewState& view, Srgb8Image* out);
   bool Shows(const ErrorMap* errors) const;
   void PaintErrors(const ErrorMap& errors, double top, Srgb8Image* out) const;
 
-  std::shared_ptr<const MeshState> whole_;  // the mesh for the drawing mode
-  // the drawn mesh: whole_, or its selected part if the picture shows only the selection
-  std::shared_ptr<const MeshState> drawn_;
-  // If only the selection is drawn, the indices of the drawn triangles in whole_.
-  std::vector<std::uint32_t> left_;
+  // Before any light is gathered: the patches in an even light, so that they can be told apart.
+  std::shared_ptr<const MeshState> preview_, preview_of_;
+  bool previews_ = false;                   // the last picture shows it
+  std::shared_ptr<const MeshState> whole_;  // the mesh for the mode
+  std::shared_ptr<const MeshState> drawn_;  // whole_, or a part of it when a selection is isolated
+  std::vector<std::uint32_t> left_;         // for a part: its triangles' indices in whole_
   Selection isolated_;
+  std::set<std::int32_t> hidden_;  // objects
   AnalysisResults isolated_by_;
   std::optional<TwoPassDisplay> display_;
   Backend backend_ = Backend::kSoftware;  // back end that the view requests
@@ -84,7 +92,8 @@ class PictureMaker {
   std::vector<PixelKind> ray_kind_;
   Srgb8Image screen_, part_;
   MeshKind kind_ = MeshKind::kFlat;
-  double exposure_ = 1, scale_top_ = 1;
+  double exposure_ = 1;
+  FalseColourScale scale_values_;
   ColourScale scale_ = ColourScale::kNone;
   FrameTimes times_;
 };

@@ -137,6 +137,30 @@ std::vector<std::string> DescribeDiscontinuity(const OverlayContext& context) {
           fmt::format("from {} to {}", Text(ends[0]), Text(ends[1]))};
 }
 
+std::vector<std::string> DescribePart(const OverlayContext& context) {
+  const Scene& scene = *context.snapshot.scene;
+  const auto index = static_cast<std::size_t>(context.selection.index);
+  const bool object = context.selection.kind == SelectionKind::kObject;
+  const std::vector<PatchId> patches = PatchesOf(scene, context.selection);
+  double area = 0;
+  Rgb light = Rgb::Zero();
+  for (const PatchId p : patches) {
+    const double a = scene.patches[static_cast<std::size_t>(p)].area;
+    area += a;
+    if (context.snapshot.light)
+      light += a * context.snapshot.light->solution().irradiance[static_cast<std::size_t>(p)];
+  }
+  std::vector<std::string> lines = {
+      object ? "object " + scene.objects[index].name : "material " + scene.materials[index].name,
+      fmt::format("{} patches, {:.5g} m^2", patches.size(), area)};
+  if (context.snapshot.light && area > 0)
+    lines.push_back(fmt::format("mean irradiance {} W/m^2", Text(Rgb(light / area))));
+  if (object) return lines;
+  lines.push_back(fmt::format("reflectance {}", Text(scene.materials[index].reflectance)));
+  lines.push_back(fmt::format("emittance {} W/m^2", Text(scene.materials[index].emittance)));
+  return lines;
+}
+
 }  // namespace
 
 std::optional<ProbedPoint> PointAt(const Scene& scene, const IrradianceMesh& drawn,
@@ -190,8 +214,22 @@ bool IsValid(const OverlayContext& context, const Selection& selection) {
       return index < context.mesh.mesh().triangles.size();
     case SelectionKind::kDiscontinuity:
       return context.results.discontinuities && index < context.results.discontinuities->all.size();
+    case SelectionKind::kObject:
+      return index < context.snapshot.scene->objects.size();
+    case SelectionKind::kMaterial:
+      return index < context.snapshot.scene->materials.size();
   }
   return false;
+}
+
+std::vector<PatchId> PatchesOf(const Scene& scene, const Selection& part) {
+  std::vector<PatchId> patches;
+  for (std::size_t p = 0; p < scene.patches.size(); ++p) {
+    const std::int32_t of =
+        part.kind == SelectionKind::kObject ? scene.patches[p].object : scene.patches[p].material;
+    if (of == part.index) patches.push_back(static_cast<PatchId>(p));
+  }
+  return patches;
 }
 
 std::vector<ElementId> SelectedElements(const OverlayContext& context) {
@@ -218,6 +256,11 @@ std::vector<ElementId> SelectedElements(const OverlayContext& context) {
         if (patch != kNoPatch) elements.push_back(ElementForest::Root(patch));
       break;
     }
+    case SelectionKind::kObject:
+    case SelectionKind::kMaterial:
+      for (const PatchId patch : PatchesOf(*context.snapshot.scene, context.selection))
+        elements.push_back(ElementForest::Root(patch));
+      break;
   }
   return elements;
 }
@@ -252,6 +295,9 @@ std::vector<std::string> DescribeSelection(const OverlayContext& context) {
       return DescribeTriangle(context);
     case SelectionKind::kDiscontinuity:
       return DescribeDiscontinuity(context);
+    case SelectionKind::kObject:
+    case SelectionKind::kMaterial:
+      return DescribePart(context);
   }
   return {};
 }

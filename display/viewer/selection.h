@@ -34,7 +34,10 @@ Selection SelectLine(const Selection& before, const Selection& picked);
 // True if the current Snapshot (state of the solver) contains the selected object.
 bool IsValid(const OverlayContext& context, const Selection& selection);
 
-// The quadtree elements of the selected object; empty for a triangle.
+// The patches of an object or of a material. REQUIRES: `part` is one.
+std::vector<PatchId> PatchesOf(const Scene& scene, const Selection& part);
+
+// The elements of the selected object; empty for a triangle.
 std::vector<ElementId> SelectedElements(const OverlayContext& context);
 
 // The indices of the triangles of `drawn` that are drawn if the picture shows only the selection.

@@ -16,6 +16,8 @@ class SelectionOverlay final : public Overlay {
       case SelectionKind::kNone:
         break;
       case SelectionKind::kElement:
+      case SelectionKind::kObject:
+      case SelectionKind::kMaterial:
         for (const ElementId element : SelectedElements(context))
           drawing->Outline(VerticesOf(context, element), colour::kYellow, 2.0F);
         break;

@@ -98,17 +98,20 @@ inline const char* NameOf(MeshKind kind) {
 }
 
 struct Snapshot {
-  std::uint64_t number = 0;  // each new Snapshot has a larger number
+  std::uint64_t number = 0;  // ascending
+  // Which opened scene it shows; lamps that are dimmed change `scene`, but not this.
+  std::uint64_t opening = 0;
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const LightState> light;  // null until the solver has made links between elements
   // The meshes of the solution, indexed by MeshKind; null if a mesh has not been built. The mesh of kind
   // kFlat always exists, and has irradiance 0 until the solver has made links.
   std::array<std::shared_ptr<const MeshState>, kMeshKinds> mesh;
   std::vector<IterationReport> iterations;
+  std::optional<IterationReport> begun = {};  // SolverReport::begun
   std::size_t corrections = 0;
   bool converged = false;
-  // energy balance and errors; set after the user has requested a measurement
-  std::optional<PipelineReport> measured;
+  bool complete = false;                   // no step is left
+  std::optional<PipelineReport> measured;  // energy and errors, after a request
 
   const std::shared_ptr<const MeshState>& Mesh(MeshKind kind) const {
     return mesh[static_cast<std::size_t>(kind)];

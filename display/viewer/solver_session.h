@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -12,9 +13,13 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "display/viewer/light_change.h"
 #include "display/viewer/opened_scene.h"
+#include "display/viewer/session_progress.h"
 #include "display/viewer/snapshot.h"
+#include "display/viewer/solver_place.h"
 #include "mesh/pipeline/pipeline.h"
 #include "solver/base/progress.h"
 
@@ -23,9 +28,12 @@ namespace penumbra::viewer {
 struct SessionStatus {
   bool busy = false;
   bool cancelling = false;
-  std::string phase;    // the present task
-  double fraction = 0;  // complete fraction of the present task, in [0, 1]
-  std::string message;  // the last error message; empty if no error occurred
+  std::string phase;           // the present task
+  double fraction = 0;         // complete fraction of the chain of tasks, in [0, 1); it does not fall
+  std::string text;            // what runs, in words: the stage, its turn, the error so far
+  double seconds = 0;          // since the session began to work
+  double unsaved_seconds = 0;  // the work in the present state that no file holds
+  std::string message;         // the last error; empty: none
 };
 
 // Any thread may call the functions of SolverSession, except the destructor; all functions return without
@@ -57,13 +65,28 @@ class SolverSession {
   void SetErrorPoints(std::size_t points);
   PipelineOptions options() const;
 
-  void Link();      // discards the solution and makes links between the root elements
-  void Iterate();   // makes one iteration of the solver; first makes links if the solution has none
-  void Converge();  // iterates until the light has converged, then makes the deferred corrections
-  void Correct();   // makes one deferred correction by exact irradiance
-  // Builds a mesh of the given kind, from the state of the solution at the start of the task. If the solver
-  // has converged and `kind` is kInterpolant, the light is refined first (Pipeline::RefineLight), and the
-  // Snapshot shows the refined light.
+  void Link();      // from the beginning
+  void Iterate();   // links first if there are no links
+  void Converge();  // iterates until convergence, then corrects
+  void Correct();   // by exact irradiance
+  // Makes the next of the smallest steps: links, one sweep, one level of splitting, the corrections, the
+  // first interpolants, the refinement of light, that of the mesh. No effect once the snapshot is complete.
+  void Step();
+  // Lights the scene with other lamps and reflectances, over the transport that is kept of the solution: no
+  // form factor is computed. Builds the interpolants, and keeps the transport, at the first call. A call
+  // replaces a waiting one. A call with the present light makes ready for others.
+  void SetLight(const LightChange& change);
+
+  // The present state, and the way back to it. Return() ends what is running.
+  std::shared_ptr<const SolverPlace> place() const;
+  void Return(std::shared_ptr<const SolverPlace> place);
+  // The steps since the scene was opened, the oldest first. The present state is that after the first
+  // place()->step of them: a step replaces those that follow it. Places of the oldest are dropped where they
+  // need much memory.
+  std::shared_ptr<const std::vector<StepRecord>> steps() const;
+  // Builds the mesh for a display mode, from the state at the start of the task. If the solver has converged
+  // and `kind` is kInterpolant, the light is refined first (Pipeline::RefineLight), and the snapshot shows
+  // the refined light.
   void BuildMesh(MeshKind kind);
   // Measures the energy balance and the errors of the irradiance interpolants. Measure() builds the
   // interpolants if necessary. For a solution from a file, Measure() keeps the measurements that the file
@@ -83,9 +106,13 @@ class SolverSession {
   using Task = std::function<void(const ExecutionContext&)>;
 
   void Work();
+  void Hear(std::string_view phase, double fraction);
+  void Begin(SolveStage stage);
   bool MustLink() const;
   bool Converged() const;
-  void Enqueue(const std::string& phase, Task task);
+  bool IsLit() const;
+  void Own();
+  void Enqueue(const std::string& phase, Task task, bool replaces = false);
   void DoLink(const ExecutionContext& context);
   void DoIterate(const ExecutionContext& context);
   void DoConverge(const ExecutionContext& context);
@@ -94,9 +121,25 @@ class SolverSession {
   void DoInterpolants(const ExecutionContext& context);
   void DoMeasure(const ExecutionContext& context);
   void DoLoad(const OpenedScene& opened);
+  void DoFirstGather(const ExecutionContext& context);
+  void DoStep(const ExecutionContext& context);
+  void DoMeshStep(const ExecutionContext& context);
+  void DoRefineLight(const ExecutionContext& context);
+  void DoRefineMesh(const ExecutionContext& context);
+  void DoSave(const std::function<void(const Pipeline&)>& write, const ExecutionContext& context);
+  void DoReturn(const SolverPlace& place);
+  // session_light.cpp
+  void DoLight(const LightChange& change, const ExecutionContext& context);
+  std::optional<EmitterLight> SumOfLamps(const LightChange& change);
+  void PublishLit(std::shared_ptr<const Scene> scene, const EmitterLight& light);
+  std::optional<PipelineState> LitState() const;
+
   std::shared_ptr<Snapshot> NextLight(std::size_t corrections) const;
-  void PublishLight(std::size_t corrections);
-  void Publish(std::shared_ptr<Snapshot> next);
+  void PublishLight(std::size_t corrections, const std::string& step);
+  // `step`: the name of a record; empty: no step of the solver.
+  void Publish(std::shared_ptr<Snapshot> next, const std::string& step = "");
+  void Record(const std::string& step, const Snapshot& before);
+  Pipeline& pipeline() const { return *held_->pipeline; }
 
   mutable std::mutex mutex_;  // protects the following members, which several threads use
   std::condition_variable wake_;
@@ -106,17 +149,26 @@ class SolverSession {
   PipelineOptions options_;
   std::shared_ptr<ExecutionContext> running_;
   bool stopping_ = false;
-  bool stale_links_ = false;  // true if options that affect links changed after the links were made
+  std::shared_ptr<const SolverPlace> place_;
+  std::shared_ptr<const std::vector<StepRecord>> steps_ = std::make_shared<std::vector<StepRecord>>();
+  SessionProgress progress_;
+  std::chrono::steady_clock::time_point working_since_;
 
   // Only the solver's thread uses the following members.
-  std::shared_ptr<const PatchVisibility> visibility_;
-  std::unique_ptr<Pipeline> pipeline_;
-  // The earlier solution whose links this session keeps; null if the session makes links of its own.
-  std::shared_ptr<const PipelineState> restart_;
-  bool settled_ = false;  // true if the iterations have ended
-  // True if pipeline_ holds a solution from a file. The next step of the solver then starts from the
-  // beginning.
-  bool stored_ = false;
+  std::chrono::steady_clock::time_point step_since_,
+      record_since_;                              // of Publish() and of Record()
+  std::shared_ptr<HeldPipeline> held_;            // null before links
+  std::shared_ptr<const PipelineState> restart_;  // its links transport the light; null: the scene's own
+  std::shared_ptr<const Scene> opened_;           // before any change of its light
+  LightChange change_;                            // of the snapshot's scene
+  std::size_t step_ = 0;                          // SolverPlace::step
+  std::uint64_t openings_ = 0;                    // the number of scenes that were opened after the first
+  std::shared_ptr<const Snapshot> unlit_;  // of held_'s own scene, while the snapshot has another light
+  // The light of each lamp alone over the kept transport, in the order of LampsOf(held_->scene); empty: not
+  // computed.
+  std::vector<EmitterLight> lamps_;
+  const HeldPipeline* lamps_of_ = nullptr;
+  std::uint64_t lamps_at_ = 0;  // HeldPipeline::changes
 
   std::thread thread_;
 };

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
@@ -14,6 +15,8 @@
 #include <string_view>
 
 #include "display/opengl_passes.h"
+#include "display/photometry.h"
+#include "mesh/discontinuities/discontinuity.h"
 #include "mesh/pipeline/pipeline.h"
 #include "solver/scene/scene.h"
 
@@ -34,12 +37,21 @@ enum class Backend : std::uint8_t { kSoftware, kOpenGl };
 
 enum class Navigation : std::uint8_t { kArcball, kWalk };
 
-enum class SelectionKind : std::uint8_t { kNone, kElement, kLink, kTube, kTriangle, kDiscontinuity };
+enum class SelectionKind : std::uint8_t {
+  kNone,
+  kElement,
+  kLink,
+  kTube,
+  kTriangle,
+  kDiscontinuity,
+  kObject,
+  kMaterial
+};
 
 struct Selection {
   SelectionKind kind = SelectionKind::kNone;
-  // The selected object: an ElementId, or an index in LinkSet::links, in IrradianceMesh::triangles or in the
-  // list of discontinuities.
+  // The selected object: an ElementId, or an index in LinkSet::links, in IrradianceMesh::triangles, in the
+  // list of discontinuities, in Scene::objects or in Scene::materials.
   std::int64_t index = -1;
 
   bool operator==(const Selection&) const = default;
@@ -56,29 +68,37 @@ struct ProbedPoint {
   }
 };
 
+// A line over which light is plotted, in the plane of a patch, the first end on its front.
+struct PlotLine {
+  PatchId patch = kNoPatch;
+  std::array<Vec3, 2> ends = {Vec3::Zero(), Vec3::Zero()};  // [m]
+
+  bool operator==(const PlotLine& other) const {
+    return patch == other.patch && ends[0] == other.ends[0] && ends[1] == other.ends[1];
+  }
+};
+
 // The settings of the overlays, which are drawn over the faces (thesis B.4).
 struct OverlaySettings {
-  std::set<std::string, std::less<>> shown;  // names of the overlay switches that are on
-  int mesh_depth = 20;                       // deepest quadtree level of elements that is drawn
-  double link_min_irradiance = 0;            // smallest irradiance of a link that is shown [W/m^2]
-  int link_limit = 5000;       // largest number of links that are shown; stronger links come first
-  double graph_scale = 0.001;  // height of graphs and probes [m per W/m^2]
-  int grid_density = 12;       // number of grid cells per side of a graph over a whole element
-  // If true, graphs have fewer grid cells on triangles that fill a small part of their element.
-  bool dynamic_grid = true;
-  bool hidden_lines = false;  // if true, overlay lines behind faces are also drawn
+  std::set<std::string, std::less<>> shown;  // names of the switches that are on
+  int mesh_depth = 20;                       // deepest level of elements that is drawn
+  double link_min_irradiance = 0;            // links with less irradiance are omitted [W/m^2]
+  int link_limit = 5000;                     // largest number of the other links: the strongest are shown
+  // Of the discontinuities, those of this kind that weigh at least so much; no kind: all.
+  std::optional<DiscontinuityKind> discontinuity_kind = {};
+  double discontinuity_min_weight = 0;   // [W/m^2]
+  bool discontinuities_by_kind = false;  // a colour for each kind
+  double graph_scale = 0.001;            // height of graphs and probes [m per W/m^2]
+  int grid_density = 12;                 // cells per side of a graph over a whole element
+  bool dynamic_grid = true;              // fewer cells for triangles that fill a small part of the element
+  bool hidden_lines = false;             // draw lines behind faces as well
 
   bool Shows(std::string_view name) const { return shown.contains(name); }
   bool operator==(const OverlaySettings&) const = default;
 };
 
-struct ViewState {
-  Camera camera;
-  Navigation navigation = Navigation::kArcball;
-  double walk_speed = 2;  // speed of the camera in walk mode [m/s]
-  bool mouse_look = false;
-  glm::dvec3 up_axis{0, 0, 1};  // the vertical direction in walk mode
-
+// What is shown, wherever it is seen from. Undo brings it back, and leaves the camera alone.
+struct ShownState {
   DrawMode mode = DrawMode::kFlat;
   Backend backend = Backend::kSoftware;
   // how the OpenGL passes compute barycentric coordinates
@@ -89,18 +109,30 @@ struct ViewState {
   bool auto_exposure = true;
   double exposure = 0.01;  // linear screen value per W/m^2 of radiosity (Irradiance-2-Pixel in the thesis)
   bool false_colour = false;
-  // upper end of the false-colour scale [W/m^2]; 0: the value that the exposure makes white
-  double false_colour_max = 0;
+  double false_colour_max = 0;  // end of the scale, in `unit`; 0: by the values that are seen (RangeOf)
+  bool false_colour_log = false;
+  LightUnit unit = LightUnit::kWatts;  // of false colours, of the line under the pointer and of plots
   bool error_map = false;
-  double error_map_max = 0.1;  // upper end of the colour scale for relative errors [1]
-  int supersampling = 2;       // number of samples along a side of a pixel, in saved pictures
-  bool isolate = true;         // if true, only the selected object is drawn
+  double error_map_max = 0.1;          // end of the scale, relative
+  int supersampling = 2;               // of saved pictures: samples per side of a pixel
+  bool isolate = false;                // draw only the selection
+  std::set<std::int32_t> hidden = {};  // objects that are not drawn; rays meet them all the same
 
   OverlaySettings overlays;
   Selection selection;
-  std::optional<ProbedPoint> probe;  // point at which the irradiance is probed
-  // The point from which backprojections (visible parts of sources) are shown.
-  std::optional<ProbedPoint> backprojection;
+  std::optional<ProbedPoint> probe;           // of the irradiance
+  std::optional<ProbedPoint> backprojection;  // of the sources' backprojections
+  std::optional<PlotLine> line;               // over which light is plotted
+
+  bool operator==(const ShownState&) const = default;
+};
+
+struct ViewState : ShownState {
+  Camera camera;
+  Navigation navigation = Navigation::kArcball;
+  double walk_speed = 2;  // [m/s]
+  bool mouse_look = false;
+  glm::dvec3 up_axis{0, 0, 1};  // the vertical direction in walk mode
 };
 
 }  // namespace penumbra::viewer

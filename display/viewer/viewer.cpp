@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 
 #include "display/viewer/overlays.h"
 #include "display/viewer/selection.h"
+#include "display/viewer/viewer_do.h"
 #include "display/viewer/walk.h"
 #include "mesh/pipeline/link_options.h"
 #include "solver/base/check.h"
@@ -15,6 +17,16 @@ namespace penumbra::viewer {
 namespace {
 
 constexpr const char* kNoMemory = "out of memory for what is drawn over the picture: ask for a coarser grid";
+
+// A scene is crossed in some eight seconds, whatever its size; 2 m/s where it has none.
+double WalkSpeedOf(const Scene& scene) {
+  constexpr double kSecondsAcross = 8, kPlainSpeed = 2;
+  const double diagonal = scene.Diagonal();
+  if (!(diagonal > 0)) return kPlainSpeed;
+  const double speed = std::clamp(diagonal / kSecondsAcross, 1e-3, 1e4);
+  const double decade = std::pow(10, std::floor(std::log10(speed)));
+  return std::round(speed / decade * 10) / 10 * decade;
+}
 
 }  // namespace
 
@@ -27,10 +39,13 @@ Viewer::Viewer(const OpenedScene& opened, ViewerOptions options)
   AddViewSettings();
   AddSceneSettings();
   AddSolveSettings();
+  AddLightSettings();
+  AddStepSettings();
   AddFileSettings();
   AddMenus();
   ListCameras();
   Home();
+  view_.walk_speed = WalkSpeedOf(*opened.scene);
   if (options_.solve && !opened.stored) session_.Converge();
 }
 
@@ -53,6 +68,9 @@ void Viewer::Unselect() {
   view_.selection = {};
   view_.probe.reset();
   view_.backprojection.reset();
+  view_.line.reset();
+  line_start_.reset();
+  draws_line_ = false;
 }
 
 // Tools speak of the triangles of the mode, and of the interpolants in modes without any (thesis B.4).
@@ -69,23 +87,34 @@ OverlayContext Viewer::Context() const {
 
 void Viewer::Want(MeshKind kind) {
   if (!snapshot_->light || snapshot_->Mesh(kind)) return;
+  if (kind == MeshKind::kInterpolant && snapshot_->complete) return;  // a limit ended it
   if (asked_.emplace(snapshot_->number, kind).second) session_.BuildMesh(kind);
 }
 
 // Meshes are built when the solver rests: the picture follows it with the leaves until then.
 void Viewer::AskForMeshes() {
-  if (session_.status().busy || session_.snapshot() != snapshot_) return;
+  if (stepping_ || session_.status().busy || session_.snapshot() != snapshot_) return;
   const bool tools = NeedsOf(view_.overlays).triangles;
   if (MeshOf(view_.mode) != MeshKind::kFlat) Want(MeshOf(view_.mode));
   if (view_.error_map || view_.probe || (tools && MeshOf(view_.mode) == MeshKind::kFlat))
     Want(MeshKind::kInterpolant);
+  // Dimmers answer at once if the transport is kept before the first is touched.
+  if (panels_.lamps && snapshot_->complete && light_.empty() && ready_for_light_ != snapshot_->light) {
+    ready_for_light_ = snapshot_->light;
+    session_.SetLight(light_);
+  }
 }
 
 std::string Viewer::activity() {
+  if (draws_line_) return line_start_ ? "click the other end of the line" : "click one end of the line";
   if (picture_.Busy()) return fmt::format("casting rays, {:.0f} %", 100 * picture_.RayFraction());
   if (analyses_.Busy()) return "analysing";
-  if (!snapshot_->light) return "not solved";
-  return snapshot_->Mesh(MeshOf(view_.mode)) ? "ready" : "the leaves: no mesh was made";
+  if (!snapshot_->light) return "not solved: reflectances, i or c solves";
+  if (stepping_) return fmt::format("step {} of {}", step(), session_.steps()->size());
+  if (!snapshot_->Mesh(MeshOf(view_.mode))) return "the leaves: no mesh was made";
+  const bool on_the_way =
+      MeshOf(view_.mode) == MeshKind::kInterpolant && snapshot_->converged && !snapshot_->complete;
+  return on_the_way ? "the mesh is not refined to its end" : "ready";
 }
 
 // What goes wrong in the session is told once.
@@ -113,21 +142,24 @@ const Srgb8Image& Viewer::Frame(int width, int height, double seconds) {
   if (view_.navigation == Navigation::kWalk) Walk(seconds);
 
   const std::shared_ptr<const Snapshot> latest = session_.snapshot();
-  if (latest->scene != snapshot_->scene) {
+  if (latest->opening != snapshot_->opening) {
     snapshot_ = latest;
     Unselect();
     ListCameras();
     if (!keep_camera_) Home();
+    view_.walk_speed = WalkSpeedOf(*snapshot_->scene);
   }
   snapshot_ = latest;
   HearSession();
+  Play();
   AskForMeshes();
   const std::shared_ptr<const MeshState> tools = ToolsMesh();
   // Numbers of links, triangles and discontinuities are those of one state; elements keep theirs.
   if (tools != tools_ && view_.selection.kind == SelectionKind::kTriangle) view_.selection = {};
   tools_ = tools;
   if (drawn_of_ && drawn_of_->snapshot->light != snapshot_->light &&
-      view_.selection.kind != SelectionKind::kElement)
+      view_.selection.kind != SelectionKind::kElement && view_.selection.kind != SelectionKind::kObject &&
+      view_.selection.kind != SelectionKind::kMaterial)
     view_.selection = {};
   results_ = analyses_.Update(*snapshot_, tools_, view_);
   if (analyses_.RanOutOfMemory()) Complain(kNoMemory);
@@ -154,6 +186,8 @@ const Srgb8Image& Viewer::Frame(int width, int height, double seconds) {
     view_.backend = Backend::kSoftware;
   }
   fresh_ = true;
+  if (compares_ && comparison_.HasKept() && !view_.split)
+    return comparison_.Draw(picture_, view_, compare_at_);
   return picture_.screen();
 }
 
@@ -169,7 +203,7 @@ void Viewer::DrawOverlays() {
 }
 
 bool Viewer::Idle() {
-  if (session_.status().busy || analyses_.Busy() || picture_.Busy() || !fresh_) return false;
+  if (playing_ || session_.status().busy || analyses_.Busy() || picture_.Busy() || !fresh_) return false;
   // A result that came since the last frame has to be drawn first, and may ask for more.
   if (session_.snapshot() != snapshot_ || HasNews()) return false;
   AskForMeshes();
@@ -183,10 +217,13 @@ void Viewer::RunMenu(const std::string& path) {
   if (!item) throw InputError(fmt::format("there is no menu item '{}'; --help-script lists them", path));
   // A copy: the item may replace itself.
   const std::function<void()> run = item->run;
-  run();
+  if (path.starts_with("Edit/"))
+    run();
+  else
+    Do(path.substr(path.rfind('/') + 1), /*merge=*/false, run);
 }
 
-void Viewer::Set(const std::string& name, const std::string& value) {
+void Viewer::Set(const std::string& name, const std::string& value, bool merge) {
   fresh_ = false;
   const Setting* setting = settings_.Find(name);
   if (!setting) throw InputError(fmt::format("there is no option '{}'; --help-script lists them", name));
@@ -194,7 +231,7 @@ void Viewer::Set(const std::string& name, const std::string& value) {
     throw InputError(
         fmt::format("{}: it says how links are made, but restart keeps those of a solution", name));
   try {
-    setting->set(value);
+    Do(setting->help, merge, [&] { setting->set(value); });
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", name, error.what()));
   }
@@ -215,6 +252,10 @@ std::vector<std::string> Viewer::Details() const {
     lines.push_back(fmt::format("backprojection on {} sources, {} of them hidden",
                                 results_.backprojection->size(), hidden));
     lines.push_back(DescribePlace(*view_.backprojection, *snapshot_->scene));
+  }
+  if (compares_ && comparison_.HasKept()) {
+    if (!lines.empty()) lines.emplace_back();
+    lines.push_back(TextOf(comparison_.difference()));
   }
   return lines;
 }

@@ -15,7 +15,10 @@
 
 #include "display/viewer/analyses.h"
 #include "display/viewer/arcball.h"
+#include "display/viewer/comparison.h"
+#include "display/viewer/history.h"
 #include "display/viewer/input.h"
+#include "display/viewer/light_change.h"
 #include "display/viewer/menu.h"
 #include "display/viewer/opened_scene.h"
 #include "display/viewer/picture.h"
@@ -29,7 +32,9 @@ namespace penumbra::viewer {
 // The state of the panels and dialogs around the viewer's picture.
 struct PanelState {
   bool control = false, help = false, details = true, report = false, parameters = false;
-  std::string dialog;  // the setting whose value the open dialog requests; empty: no dialog is open
+  bool lamps = false, steps = false, hover = true, outline = false;
+  std::string dialog;    // the setting whose value a dialog requests; empty: no dialog
+  std::string question;  // before unsaved work is lost; empty: none
   bool quit = false;
 };
 
@@ -64,7 +69,15 @@ class Viewer {
   // RunMenu() runs a menu item; Set() changes the value of a setting. RunMenu() and Set() throw InputError if
   // the menu item or setting does not exist, or if the action fails.
   void RunMenu(const std::string& path);
-  void Set(const std::string& name, const std::string& value);
+  // A dragged slider sets its value again and again, which is one action for undo: `merge` is then true from
+  // the second time on.
+  void Set(const std::string& name, const std::string& value, bool merge = false);
+  // Takes back the last action, or does again what was taken back: settings, lamps, solver steps, opened
+  // scenes; not the camera. No effect if there is none.
+  void Undo();
+  void Redo();
+  std::string UndoLabel() const { return history_.UndoLabel(); }
+  std::string RedoLabel() const { return history_.RedoLabel(); }
 
   // True if no computation is running, no computation will start without user input, and the last frame shows
   // all results.
@@ -78,14 +91,22 @@ class Viewer {
   const PictureMaker& picture() const { return picture_; }
   const std::vector<Camera>& cameras() const { return cameras_; }
   SessionStatus status() const { return session_.status(); }
-  // A few words for the status line about the state of the viewer while the solver is idle, for example
-  // "ready" or "analysing".
+  std::shared_ptr<const std::vector<StepRecord>> steps() const { return session_.steps(); }
+  std::size_t step() const { return session_.place()->step; }
+  bool playing() const { return playing_; }
+  const LightChange& light() const { return light_; }
+  // The scene as it was opened, before its light was changed.
+  std::shared_ptr<const Scene> opened() const { return session_.place()->opened; }
+  // A few words about running computations other than the solver's.
   std::string activity();
   // The message for the user: the last error that occurred before the last frame; empty if no error occurred.
   const std::string& message() const { return message_; }
   void Dismiss() { message_.clear(); }
   void Complain(const std::string& message) { message_ = message; }
-  // Descriptions of the selected object and of the probed points, one string per line.
+  // One line about what is under the pointer: face, material, light, triangle; empty over the background.
+  std::string Hover() const;
+  std::shared_ptr<const LinePlot> line_plot() const { return results_.line_plot; }
+  // Descriptions of the selection and the probes, one string per line.
   std::vector<std::string> Details() const;
   const std::string& scene_name() const { return options_.scene_name; }
   const PipelineOptions& solving() const { return options_.solving; }
@@ -102,14 +123,51 @@ class Viewer {
   void GoTo(const Camera& camera);
 
  private:
-  // The following functions are defined in viewer_settings.cpp.
+  // What undo brings back.
+  struct UserState {
+    ShownState shown;
+    PipelineOptions solving;
+    std::optional<PipelineOptions> own_links;
+    LightChange light;
+    std::string scene_name;
+    std::function<void()> reading;             // ViewerFiles::keep_reading
+    std::shared_ptr<const SolverPlace> place;  // null: the action did not touch the solver
+  };
+
+  // viewer_settings.cpp
   void AddViewSettings();
   void AddVisualisationSettings();
   void AddViewingSettings();
   void AddSolveSettings();
   void AddSolveSetting(const SolveOption& option);
   void AddFileSettings();
-  // The following functions are defined in viewer_menu.cpp.
+  // viewer_light.cpp
+  void AddLightSettings();
+  void ChangeLight(LightChange next);
+  // viewer_steps.cpp
+  void AddStepSettings();
+  // viewer_parts.cpp
+  void AddPartSettings();
+  void AddPartMenu();
+  void SelectPart(const std::string& text);
+  void SelectPatch(PatchId patch);
+  std::set<std::int32_t> SelectedObjects() const;
+  void FrameSelection();
+  void AddStepMenu();
+  void StepOn();
+  void GoToStep(std::size_t number);
+  void Play();
+  // viewer_history.cpp
+  UserState Now(bool with_place) const;
+  bool Differs(const UserState& before) const;
+  void Restore(const UserState& state);
+  template <class Action>
+  void Do(const std::string& label, bool merge, const Action& action);
+  void Remember(const std::string& label, UserState before);
+  SolverSession& Change();
+  void AddHistoryMenu();
+  void AskToQuit();
+  // viewer_menu.cpp
   void AddMenus();
   void AddFileMenu();
   void AddViewingMenu();
@@ -131,6 +189,7 @@ class Viewer {
   void Click(const InputEvent& event);
   void Walk(double seconds);
   void Probe(const InputEvent& event, bool backproject);
+  void DrawLine(const ProbedPoint& at);
 
   void Home();
 
@@ -143,6 +202,7 @@ class Viewer {
   void SavePicture(const std::string& path);
   void SaveLargerPicture(const std::string& path, int k);
   void SaveRayPicture(const std::string& path);
+  void SaveLine(const std::string& path);
   void SaveSolved(const std::string& path, const ViewerFiles::WriteSolved& write);
   void Export(const std::string& path);
   void ListCameras();
@@ -212,8 +272,23 @@ class Viewer {
   double clock_ = 0;
   double last_click_ = -1, last_click_x_ = 0, last_click_y_ = 0;
   double seconds_a_frame_ = 0;
-  bool keep_camera_ = false;  // if true, the next opened scene keeps the present camera
-  bool fresh_ = false;        // true if no user input has arrived since the last frame
+  bool keep_camera_ = false;  // keep the camera when the next scene opens
+  bool fresh_ = false;        // nothing happened after the last frame
+
+  History<UserState> history_;
+  int depth_ = 0;         // of actions in actions: the outermost is the user's
+  bool changes_ = false;  // the present action changes the state of the solver
+  LightChange light_;
+  std::shared_ptr<const LightState> ready_for_light_;  // the transport of this light has been asked for
+  Comparison comparison_;
+  bool compares_ = false;
+  double compare_at_ = 0.5;      // the border, as a fraction of the width
+  double ask_above_ = 10;        // seconds of unsaved work
+  bool stepping_ = false;        // the user makes the solver's steps: no mesh is made unless he asks for it
+  std::size_t wanted_step_ = 0;  // the step that was gone to last
+  bool playing_ = false;         // step follows step
+  bool draws_line_ = false;      // the next clicks set the ends of the plot's line
+  std::optional<ProbedPoint> line_start_;
 };
 
 }  // namespace penumbra::viewer

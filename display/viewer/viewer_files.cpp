@@ -11,6 +11,7 @@
 #include "mesh/pipeline/link_options.h"
 #include "solver/base/check.h"
 #include "solver/base/file_endings.h"
+#include "solver/base/whole_file.h"
 #include "solver/scene/named_scene.h"
 
 namespace penumbra::viewer {
@@ -29,7 +30,7 @@ OverlayDrawing Widened(OverlayDrawing drawing, int k) {
 
 void WriteWithLegend(const std::string& path, const PictureMaker& picture, Srgb8Image* screen) {
   if (picture.scale() != ColourScale::kNone)
-    PaintLegend(picture.scale_top(), UnitOf(picture.scale()), screen);
+    PaintLegend(picture.scale_values(), UnitOf(picture.scale()), screen);
   WriteImageFile(path, *screen);
 }
 
@@ -62,7 +63,9 @@ void Viewer::TakeOptions(const OpenedScene& opened) {
 
 void Viewer::Take(const OpenedScene& opened) {
   TakeOptions(opened);
-  Begin().SetScene(opened);
+  light_ = {};
+  stepping_ = playing_ = false;
+  Change().SetScene(opened);
   if (options_.solve && !opened.stored) Begin().Converge();
 }
 
@@ -131,7 +134,9 @@ void Viewer::SaveLargerPicture(const std::string& path, int k) {
 void Viewer::SaveRayPicture(const std::string& path) {
   const bool exact = view_.mode == DrawMode::kExact;
   const ViewState view = view_;
-  const double exposure = picture_.exposure(), top = picture_.scale_top();
+  const double exposure = picture_.exposure();
+  const FalseColourScale scale = picture_.scale_values();
+  const ColourScale shown = picture_.scale();
   Begin().Run(
       "render", [=, size = size_, light = snapshot_->light, mesh = snapshot_->Mesh(MeshKind::kInterpolant)](
                     const Snapshot&, const ExecutionContext& context) {
@@ -146,8 +151,8 @@ void Viewer::SaveRayPicture(const std::string& path) {
           std::vector<PixelKind> first;
           for (std::size_t i = 0; i < picture.kind.size(); i += static_cast<std::size_t>(picture.samples))
             first.push_back(picture.kind[i]);
-          PaintFalseColours(Downsample(picture.linear, picture.samples, 1), first, top, &screen);
-          PaintLegend(top, UnitOf(ColourScale::kIrradiance), &screen);
+          PaintFalseColours(Downsample(picture.linear, picture.samples, 1), first, scale, &screen);
+          PaintLegend(scale, UnitOf(shown), &screen);
         } else {
           EncodeSrgb(Expose(picture.linear, picture.kind, exposure, picture.samples), true, &screen);
         }
@@ -155,9 +160,17 @@ void Viewer::SaveRayPicture(const std::string& path) {
       });
 }
 
+void Viewer::SaveLine(const std::string& path) {
+  if (!results_.line_plot) throw InputError("no line is drawn, or its light is still being computed");
+  WriteWholeFile(path, LinePlotCsv(*results_.line_plot));
+}
+
 void Viewer::SaveSolved(const std::string& path, const ViewerFiles::WriteSolved& write) {
   if (!write) throw InputError("there is nobody who writes it");
-  Begin().Save([path, write](const Pipeline& pipeline) { write(path, pipeline); });
+  Begin().Save([path, write, lit_as = options_.files.lit_as, light = light_](const Pipeline& pipeline) {
+    if (lit_as) lit_as(light);
+    write(path, pipeline);
+  });
 }
 
 void Viewer::Export(const std::string& path) {

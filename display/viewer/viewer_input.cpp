@@ -1,12 +1,17 @@
 // What keys and mouse do to the picture (thesis B.3.1, B.4.6, B.4.9, B.4.10).
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "display/viewer/selection.h"
 #include "display/viewer/viewer.h"
+#include "display/viewer/viewer_do.h"
 #include "display/viewer/walk.h"
+#include "solver/base/check.h"
 
 namespace penumbra::viewer {
 namespace {
@@ -108,7 +113,8 @@ void Viewer::Move(const InputEvent& event) {
 
 void Viewer::ButtonUp(const InputEvent& event) {
   Move(event);
-  if (press_ && press_->button == event.button && !press_->moved) Click(event);
+  if (press_ && press_->button == event.button && !press_->moved)
+    Do("Select", /*merge=*/false, [&] { Click(event); });
   press_.reset();
   drag_.reset();
 }
@@ -127,6 +133,12 @@ void Viewer::Click(const InputEvent& event) {
   last_click_ = clock_;
   last_click_x_ = event.x;
   last_click_y_ = event.y;
+  if (draws_line_) {
+    if (const auto at = PointAt(*snapshot_->scene, picture_.drawn(), *picture_.frame(),
+                                picture_.depth()->rays(), event.x, event.y))
+      DrawLine(*at);
+    return;
+  }
   if (const Selection picked = PickLine(drawing_, *picture_.depth(), event.x, event.y)) {
     view_.selection = SelectLine(view_.selection, picked);
     return;
@@ -137,6 +149,43 @@ void Viewer::Click(const InputEvent& event) {
     view_.selection = SelectSurface(Context(), *at);
   else if (twice)
     Unselect();
+}
+
+// The first click sets an end of the line, the second the other.
+void Viewer::DrawLine(const ProbedPoint& at) {
+  if (!line_start_) {
+    line_start_ = at;
+    return;
+  }
+  const ProbedPoint start = *std::exchange(line_start_, std::nullopt);
+  const Patch& patch = snapshot_->scene->patches[static_cast<std::size_t>(start.patch)];
+  constexpr double kInPlane = 1e-6;  // of the scene's diagonal
+  const double off = std::abs(patch.normal.dot(at.position - patch.vertex[0]));
+  draws_line_ = false;
+  if (off > kInPlane * snapshot_->scene->Diagonal())
+    throw InputError("both ends of the line must lie on one face; draw it again");
+  view_.line = PlotLine{start.patch, {start.position, at.position}};
+}
+
+std::string Viewer::Hover() const {
+  const RenderedFrame* const frame = picture_.frame();
+  if (!frame || view_.split || !(x_ >= 0 && y_ >= 0 && x_ < frame->width && y_ < frame->height)) return "";
+  const auto pixel =
+      static_cast<std::size_t>(y_) * static_cast<std::size_t>(frame->width) + static_cast<std::size_t>(x_);
+  const std::uint32_t triangle = frame->triangle[pixel];
+  const auto at = PointAt(*snapshot_->scene, picture_.drawn(), *frame, picture_.depth()->rays(), x_, y_);
+  if (!at || triangle == kNoTriangle) return "";
+  const Scene& scene = *snapshot_->scene;
+  const Material& material = scene.MaterialOf(at->patch);
+  std::string line = DescribePlace(*at, scene) + ", " + material.name;
+  if (!picture_.previews()) {
+    const Rgb light = picture_.drawn().irradiance[triangle].At(static_cast<double>(frame->s[pixel]),
+                                                               static_cast<double>(frame->t[pixel]));
+    line += view_.unit == LightUnit::kLux
+                ? fmt::format(", {:.4g} lux", Lux(light.max(0.0)))
+                : fmt::format(", irradiance {:.4g} {:.4g} {:.4g} W/m^2", light[0], light[1], light[2]);
+  }
+  return line + fmt::format(", triangle {}", triangle);
 }
 
 void Viewer::Probe(const InputEvent& event, bool backproject) {

@@ -31,16 +31,19 @@ void Viewer::AskItem(const std::string& path, const std::string& key, const std:
 
 void Viewer::AddMenus() {
   AddFileMenu();
+  AddHistoryMenu();
   AddViewingMenu();
   AskItem("Cameras/Save as...", "ctrl+k", "save-camera");
   AddDrawingMenu();
   AddOverlayMenu();
   Item("Geometry/Unselect all", "escape", "Nothing is selected or probed any more", [this] { Unselect(); });
   ToggleItem("Geometry/Draw only what is selected", "z", "isolate");
+  AddPartMenu();
   ToggleItem("Geometry/Parameters", "ctrl+d", "parameters");
   AddIterationMenu();
   ToggleItem("Help/Keyboard shortcuts", "?", "help");
   ToggleItem("Help/Details", "ctrl+i", "details");
+  ToggleItem("Help/What is under the pointer", "", "hover");
 }
 
 void Viewer::AddFileMenu() {
@@ -49,7 +52,8 @@ void Viewer::AddFileMenu() {
   AskItem("File/Save report...", "", "save-report");
   AskItem("File/Export...", "ctrl+e", "export");
   AskItem("File/Save picture...", "ctrl+p", "save-picture");
-  Item("File/Quit", "ctrl+q", "End the program", [this] { panels_.quit = true; });
+  Item("File/Quit", "ctrl+q", "End the program", [this] { AskToQuit(); });
+  Item("File/Quit without saving", "", "End the program, and ask nothing", [this] { panels_.quit = true; });
 }
 
 void Viewer::AddViewingMenu() {
@@ -92,6 +96,7 @@ void Viewer::AddDrawingMenu() {
   Item("Drawing/Darker", "[", "Lower the exposure", [expose] { expose(0.8); });
   ToggleItem("Drawing/False colours", "o", "false-colour");
   ToggleItem("Drawing/Drawing control panel", "d", "control-panel");
+  ToggleItem("Drawing/Lamps and materials", "ctrl+l", "lamps");
 }
 
 void Viewer::AddOverlayMenu() {
@@ -107,31 +112,51 @@ void Viewer::AddOverlayMenu() {
   ToggleItem("Visualisation/Representation error", "e", "error-map");
   for (const auto& overlay : overlays)
     if (is_graph(*overlay)) visualise(*overlay);
+  Item("Visualisation/Keep for comparison", "alt+k", "Keep this state, to compare others with it",
+       [this] { comparison_.Keep(snapshot_); });
+  ToggleItem("Visualisation/Compare with what was kept", "alt+c", "compare");
+  Item("Visualisation/Plot over a line", "ctrl+g", "Two clicks on a face draw the line", [this] {
+    draws_line_ = true;
+    line_start_.reset();
+  });
   ToggleItem("Visualisation/Hidden lines", "u", "hidden-lines");
 }
 
 void Viewer::AddIterationMenu() {
-  Item("Iteration/Link", "", "Start over: links between patches", [this] { Begin().Link(); });
-  Item("Iteration/Iterate", "i", "Gather until little changes, then refine, once",
-       [this] { Begin().Iterate(); });
+  Item("Iteration/Link", "", "Start over: links between patches", [this] {
+    stepping_ = false;
+    Change().Link();
+  });
+  Item("Iteration/Iterate", "i", "Gather until little changes, then refine, once", [this] {
+    stepping_ = false;
+    Change().Iterate();
+  });
   Item("Iteration/Iterate to convergence", "c", "Iterate until it is done, then correct", [this] {
     asked_.clear();
-    Begin().Converge();
+    stepping_ = playing_ = false;
+    Change().Converge();
   });
-  Item("Iteration/Correct", "y", "One pass of exact irradiance over the leaves",
-       [this] { Begin().Correct(); });
-  Item("Iteration/Build interpolants", "", "Discontinuities, triangles and interpolants",
-       [this] { Begin().BuildMesh(MeshKind::kInterpolant); });
+  Item("Iteration/Correct", "y", "One pass of exact irradiance over the leaves", [this] {
+    stepping_ = false;
+    Change().Correct();
+  });
+  Item("Iteration/Build interpolants", "", "Discontinuities, triangles and interpolants", [this] {
+    stepping_ = false;
+    Change().BuildMesh(MeshKind::kInterpolant);
+  });
+  AddStepMenu();
   Item("Iteration/Measure", "", "Energy balance, and errors at random points", [this] {
     panels_.report = true;
     Begin().Measure();
   });
   Item("Iteration/Cancel", "backspace", "End what is being computed after its last whole step", [this] {
+    playing_ = false;
     if (picture_.Busy()) {
       picture_.CancelRays();
       return;
     }
-    asked_.emplace(session_.snapshot()->number, MeshOf(view_.mode));  // nor is it begun now
+    asked_.emplace(session_.snapshot()->number,
+                   MeshOf(view_.mode));  // nor is it begun now
     session_.Cancel();
   });
   ToggleItem("Iteration/Report", "ctrl+r", "report");

@@ -118,8 +118,11 @@ void Viewer::AddViewSettings() {
     view_.auto_exposure = false;
   };
   s.Toggle("false-colour", "Exposure", "False colours", &view_.false_colour);
-  s.Number("false-colour-max", "Exposure", "Top of the scale [W/m^2], 0: by exposure",
-           &view_.false_colour_max, {0, 1e12});
+  s.Number("false-colour-max", "Exposure", "Top of the scale, 0: by what is seen", &view_.false_colour_max,
+           {0, 1e12});
+  s.Toggle("false-colour-log", "Exposure", "Logarithmic scale, three decades", &view_.false_colour_log);
+  s.Choice("unit", "Exposure", "Unit of light", &view_.unit,
+           {{"watts", LightUnit::kWatts}, {"lux", LightUnit::kLux}});
 
   AddVisualisationSettings();
   AddViewingSettings();
@@ -130,11 +133,23 @@ void Viewer::AddVisualisationSettings() {
   OverlaySettings& o = view_.overlays;
   AddOverlaySettings("Visualisations", &o, &s);
   s.Toggle("hidden-lines", "Visualisations", "Show hidden lines", &o.hidden_lines);
+  s.Toggle("compare", "Visualisations", "What was kept, left of a border", &compares_);
+  s.Number("compare-at", "Visualisations", "The border", &compare_at_, {0, 1});
   s.Toggle("isolate", "Visualisations", "Draw only what is selected", &view_.isolate);
+  AddPartSettings();
   AddOverlaySettings("Links", &o, &s);
   s.Toggle("error-map", "Graphs", "Representation error as a map", &view_.error_map);
   s.Number("error-map-max", "Graphs", "Top of the map, relative", &view_.error_map_max, {1e-9, 1e9, true});
   AddOverlaySettings("Graphs", &o, &s);
+  Setting line{"line", "Graphs", "Line of the plot, x,y,z x,y,z", SettingKind::kText, 0, 1, false, false, {},
+               {},     {}};
+  line.get = [this] { return TextOf(view_.line); };
+  line.set = [this](const std::string& text) {
+    view_.line = ParseLine(*snapshot_->scene, text);
+    line_start_.reset();
+    draws_line_ = false;
+  };
+  s.Add(std::move(line));
 }
 
 void Viewer::AddViewingSettings() {
@@ -165,9 +180,14 @@ void Viewer::AddViewingSettings() {
 
   s.Toggle("control-panel", "Panels", "Drawing control panel", &panels_.control);
   s.Toggle("parameters", "Panels", "Parameters", &panels_.parameters);
+  s.Toggle("lamps", "Panels", "Lamps and materials", &panels_.lamps);
+  s.Toggle("outline", "Panels", "Objects, materials and faces", &panels_.outline);
+  s.Toggle("time-line", "Panels", "Time line", &panels_.steps);
   s.Toggle("report", "Panels", "Report", &panels_.report);
   s.Toggle("details", "Panels", "Details", &panels_.details);
+  s.Toggle("hover", "Panels", "What is under the pointer", &panels_.hover);
   s.Toggle("help", "Panels", "Keyboard shortcuts", &panels_.help);
+  s.Number("ask-above", "Panels", "Ask before so much unsaved work is lost [s]", &ask_above_, {0, 1e9});
 }
 
 void Viewer::AddSolveSettings() {
@@ -226,6 +246,7 @@ void Viewer::AddFileSettings() {
          [this](const std::string& v) { SaveSolved(v, options_.files.save_report); });
   action("export", ExportHelp(), [this](const std::string& v) { Export(v); });
   action("save-picture", PictureHelp(), [this](const std::string& v) { SavePicture(v); });
+  action("save-line", "Save the light over the line as CSV", [this](const std::string& v) { SaveLine(v); });
   action("save-camera", "Name this camera", [this](const std::string& v) { SaveCamera(v); });
   action("camera", "Go to a camera", [this](const std::string& v) {
     for (const Camera& camera : cameras_)

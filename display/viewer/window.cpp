@@ -27,6 +27,7 @@ namespace {
 
 constexpr int kWidth = 1280, kHeight = 800;
 constexpr double kRestSeconds = 0.1;  // between frames when nothing happens
+constexpr int kMostHeldFrames = 10;   // a field that needs more to open is not seen at all
 
 std::string& LastError() {
   static std::string error;
@@ -146,8 +147,10 @@ class Window final : public ScriptStage {
   };
   std::optional<PressedKey> typing_;  // the key that was pressed last, until its character comes
   double x_ = 0, y_ = 0;              // of the pointer, in pixels
-  double scale_x_ = 1, scale_y_ = 1;  // pixels a unit of the window's coordinates
+  double scale_x_ = 1,
+         scale_y_ = 1;  // pixels a unit of the window's coordinates
   bool pressed_in_picture_[3] = {};
+  int held_frames_ = 0;    // that keys have waited for a field to open
   bool captured_ = false;  // the pointer, which then is nowhere for ImGui
   std::string screenshot_;
 };
@@ -193,6 +196,8 @@ Window::Window(Viewer& viewer, const Script* script, const UserFiles* files, std
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   if (!player_) Listen();
+  // A script answers no questions, unless it asks for them.
+  if (player_) viewer_.Set("ask-above", "1e9");
 }
 
 Window::~Window() {
@@ -333,7 +338,7 @@ void Window::Feed(const InputEvent& event) {
         if (event.key == name) io.KeysDown[number] = down;
         ++number;
       }
-      if (!down || !Panels::Typing()) viewer_.Handle(event);
+      if (!down || !panels_.WantsKeys(viewer_)) viewer_.Handle(event);
       return;
     }
     case InputEvent::Kind::kText:
@@ -370,6 +375,10 @@ void Window::FeedEvents() {
     const InputEvent event = events_.front();
     const bool move = event.kind == InputEvent::Kind::kMove;
     const bool text = event.kind == InputEvent::Kind::kText;
+    const bool key = text || event.kind == InputEvent::Kind::kKeyDown;
+    // The field of a dialog that opens gets the keys with one of the next frames.
+    if (!panels_.IsOpening(viewer_)) held_frames_ = 0;
+    if (key && panels_.IsOpening(viewer_) && ++held_frames_ < kMostHeldFrames) return;
     if ((changed && !text) || (moved && !move)) return;
     events_.pop_front();
     try {
@@ -453,7 +462,12 @@ void Window::Remember() const {
 
 void Window::Run() {
   auto before = std::chrono::steady_clock::now();
-  while (!glfwWindowShouldClose(window_) && !viewer_.panels().quit) {
+  while (!viewer_.panels().quit) {
+    if (glfwWindowShouldClose(window_)) {
+      glfwSetWindowShouldClose(window_, GLFW_FALSE);
+      viewer_.RunMenu("File/Quit");  // which may ask
+      continue;
+    }
     if (!player_ && events_.empty() && viewer_.Idle())
       glfwWaitEventsTimeout(kRestSeconds);
     else

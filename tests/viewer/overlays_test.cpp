@@ -41,7 +41,7 @@ TEST(Overlays, AreListed) {
   AddRuler();
   const std::vector<std::string> names = Overlays().Names();
   for (const char* name : {"element-mesh", "links", "discontinuities", "triangulation", "sample-points",
-                           "graphs", "backprojection", "probe", "selection", "ruler"})
+                           "graphs", "backprojection", "probe", "line", "selection", "ruler"})
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
   for (const OverlayRegistry::Method& method : Overlays().methods()) EXPECT_FALSE(method.help.empty());
   EXPECT_THROW(Overlays().Find("guess"), InputError);

@@ -292,6 +292,56 @@ TEST(Panels, FieldsTakeWhatIsTyped) {
   EXPECT_NE(stage.viewer().message(), "");
 }
 
+// Text that a field refuses stays in it, and so do the keys: whoever types on presses no shortcuts.
+TEST(Panels, ARefusedTextKeepsTheKeys) {
+  Stage stage(1400, 1000, 1);
+  stage.viewer().Set("parameters", "on");
+  stage.Frames();
+  const Setting& setting = stage.Option("error-samples");
+  stage.DoubleClick(stage.FindField("Parameters", setting));
+  stage.Type("0");
+  const std::string before = setting.get();
+  stage.Press(Stage::kEnter);
+  EXPECT_NE(stage.viewer().message(), "");
+  EXPECT_TRUE(Panels::Typing());
+  EXPECT_EQ(setting.get(), before);
+  stage.Type("7");  // in place of what was refused
+  stage.Press(Stage::kEnter);
+  EXPECT_EQ(setting.get(), "7");
+  EXPECT_FALSE(Panels::Typing());
+}
+
+// So it is in a dialog, which tells why.
+TEST(Panels, ARefusedDialogStaysOpen) {
+  Stage stage(640, 480, 1);
+  stage.Frames();
+  stage.viewer().RunMenu("File/Open...");
+  stage.Frames();
+  stage.Type("no/such.obj");
+  stage.Press(Stage::kEnter);
+  EXPECT_EQ(stage.viewer().panels().dialog, "open");
+  EXPECT_TRUE(Panels::Typing());
+  stage.Press(Stage::kEscape);
+  EXPECT_EQ(stage.viewer().panels().dialog, "");
+  EXPECT_FALSE(Panels::Typing());
+}
+
+// Each new panel opens inside a window of any size, and draws what there is.
+TEST(Panels, LampsAndTimeLineOpenInside) {
+  for (const auto& [width, height] : {std::pair(1280.0F, 800.0F), std::pair(400.0F, 300.0F)}) {
+    Stage stage(width, height, 1);
+    stage.viewer().Set("lamps", "on");
+    stage.viewer().Set("time-line", "on");
+    for (int i = 0; i < 4; ++i) {
+      stage.viewer().RunMenu("Iteration/Step");
+      while (stage.viewer().status().busy) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      stage.Frames();
+    }
+    for (const char* panel : {"Lamps and materials", "Time line"}) ExpectInside(panel);
+    EXPECT_EQ(stage.viewer().steps()->size(), 4U);
+  }
+}
+
 // While something is being computed, the button that ends it can be reached in a window of any width, and
 // what is done and the rate stand inside where there is any room for them.
 TEST(Panels, TheStatusFitsBesideTheMenus) {
@@ -327,8 +377,12 @@ TEST(Panels, TheLegendFits) {
                                              {640.0F, 480.0F, 3.0F},
                                              {300.0F, 140.0F, 2.0F},
                                              {60.0F, 60.0F, 1.0F}}) {
-    Stage stage(width, height, scale);
+    Stage stage(width, height, scale, Options(true));
     stage.viewer().Set("false-colour", "on");
+    for (int i = 0; i < 3000 && !stage.viewer().Idle(); ++i) {
+      stage.Frames(1);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
     stage.Frames();
     const ImDrawList* drawn = ImGui::GetBackgroundDrawList();
     ASSERT_GT(drawn->VtxBuffer.Size, 300);
@@ -360,7 +414,7 @@ TEST(Panels, MenusAreReachedInNarrowWindows) {
     } else {
       float x = 0;
       for (const char* top :
-           {"File", "Viewing", "Cameras", "Drawing", "Visualisation", "Geometry", "Iteration"})
+           {"File", "Edit", "Viewing", "Cameras", "Drawing", "Visualisation", "Geometry", "Iteration"})
         x += ImGui::CalcTextSize(top).x + 2 * ImGui::GetStyle().ItemSpacing.x;
       stage.Point(x + 20, 8);
     }

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <new>
 #include <vector>
 
@@ -30,6 +31,7 @@ class PictureOfAViewer : public testing::Test {
   PictureOfAViewer() : viewer(ShadowScene(), Options(true)) { EXPECT_TRUE(Settle(viewer)); }
 
   void SelectFloor() {
+    viewer.Set("isolate", "on");
     const ScreenPoint at = PlaceOf(viewer, Vec3(-0.4, -0.3, 0));
     Click(viewer, MouseButton::kLeft, at.x, at.y);
     ASSERT_TRUE(Settle(viewer));
@@ -116,8 +118,9 @@ class CancelledMesh : public testing::Test {
 
 // It is not begun again by itself; the meshes of other modes are.
 TEST_F(CancelledMesh, LeavesTheOtherModesTheirs) {
-  EXPECT_EQ(viewer.picture().drawn_kind(), MeshKind::kFlat);
-  EXPECT_THAT(viewer.activity(), HasSubstr("no mesh was made"));
+  // Where a mesh came on the way to the last before it was cancelled, it stays.
+  const bool leaves = viewer.picture().drawn_kind() == MeshKind::kFlat;
+  EXPECT_THAT(viewer.activity(), HasSubstr(leaves ? "no mesh was made" : "not refined to its end"));
   viewer.Set("mode", "gouraud");
   ASSERT_TRUE(Settle(viewer));
   EXPECT_EQ(viewer.picture().drawn_kind(), MeshKind::kGouraud);
@@ -216,6 +219,25 @@ TEST(Deferred, WhatThereIsNoMemoryForHasNoValue) {
   EXPECT_EQ(begun, 1);
   ASSERT_TRUE(get(2));
   EXPECT_EQ(*get(2), 2);
+}
+
+// The end of the scale is a round number above what nearly all pixels show, whatever a few bright ones do;
+// and a value has the place on a scale at which the scale has the value.
+TEST(FalseColourScale, KeepsOutliersOutAndInvertsItself) {
+  RgbImage image(200, 100);
+  std::vector<PixelKind> kinds(image.PixelCount(), PixelKind::kSurface);
+  for (std::size_t i = 0; i < image.PixelCount(); ++i)
+    for (auto& channel : image.channel) channel[i] = i % 500 == 0 ? 1e6F : 3.7F;
+  EXPECT_EQ(RangeOf(image, kinds, LightUnit::kWatts), 4);
+  EXPECT_EQ(RangeOf(image, kinds, LightUnit::kLux), 800);  // 179 lm/W x 3.7 W/m^2 = 662 lux
+  std::fill(kinds.begin(), kinds.end(), PixelKind::kEmitter);
+  EXPECT_EQ(RangeOf(image, kinds, LightUnit::kWatts), 1);
+  for (const bool logarithmic : {false, true}) {
+    const FalseColourScale scale{50, LightUnit::kWatts, logarithmic};
+    for (const double place : {0.0, 0.25, 0.5, 1.0})
+      EXPECT_NEAR(scale.Place(scale.ValueAt(place)), place, 1e-12);
+    EXPECT_DOUBLE_EQ(scale.ValueAt(1), 50);
+  }
 }
 
 }  // namespace

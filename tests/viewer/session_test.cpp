@@ -3,11 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <new>
+#include <string>
 #include <thread>
 
 #include "display/viewer/leaf_mesh.h"
+#include "display/viewer/light_change.h"
+#include "display/viewer/session_progress.h"
 #include "display/viewer/solver_session.h"
 #include "tests/viewer/viewer_test_scenes.h"
 
@@ -179,6 +184,213 @@ TEST(SolverSession, MeasuringLeavesAStepAsItIs) {
   session.BuildMesh(MeshKind::kInterpolant);
   ASSERT_TRUE(Rest(session));
   EXPECT_GT(session.snapshot()->Mesh(MeshKind::kInterpolant)->mesh().triangles.size(), saved);
+}
+
+// The largest difference of two lights, relative to the largest irradiance.
+double LightDifference(const RadiositySolution& a, const RadiositySolution& b) {
+  if (a.irradiance.size() != b.irradiance.size()) return 1;
+  double worst = 0, largest = 0;
+  for (std::size_t i = 0; i < a.irradiance.size(); ++i) {
+    worst = std::max(worst, (a.irradiance[i] - b.irradiance[i]).abs().maxCoeff());
+    largest = std::max(largest, b.irradiance[i].maxCoeff());
+  }
+  return largest > 0 ? worst / largest : worst;
+}
+
+// A branch has the light of its pipeline, goes on to the same result to the last bit, and leaves the pipeline
+// where it was.
+TEST(PipelineBranch, GoesOnByItself) {
+  const auto scene = viewer_test::ShadowScene();
+  Pipeline whole(*scene, Loose());
+  whole.Link({});
+  whole.Iterate({});
+  const std::unique_ptr<Pipeline> branch = whole.Branch();
+  ASSERT_TRUE(branch);
+  const RadiositySolution before = whole.solution();
+  EXPECT_EQ(LightDifference(branch->solution(), before), 0);
+  branch->Solve({});
+  branch->RefineLight({});
+  branch->BuildMesh(MeshKind::kInterpolant, {});
+  EXPECT_EQ(LightDifference(whole.solution(), before), 0);
+  whole.Solve({});
+  whole.RefineLight({});
+  whole.BuildMesh(MeshKind::kInterpolant, {});
+  EXPECT_EQ(LightDifference(branch->solution(), whole.solution()), 0);
+  EXPECT_EQ(branch->mesh().triangles.size(), whole.mesh().triangles.size());
+  EXPECT_EQ(branch->report().iterations.size(), whole.report().iterations.size());
+}
+
+// Each sweep adds a bounce: over the same links the light of the floor never falls from sweep to sweep.
+TEST(SolverSession, SmallStepsAreBounces) {
+  const auto scene = viewer_test::ShadowScene();
+  SolverSession session(scene, Loose());
+  std::vector<std::string> names;
+  double floor_before = 0;
+  for (int i = 0; i < 200 && !session.snapshot()->complete; ++i) {
+    session.Step();
+    ASSERT_TRUE(Rest(session));
+    ASSERT_EQ(session.status().message, "");
+    const auto steps = session.steps();
+    ASSERT_EQ(steps->size(), session.place()->step);
+    if (names.size() < steps->size()) names.push_back(steps->back().name);
+    const double floor = session.snapshot()->light->solution().irradiance[0].maxCoeff();
+    if (names.back() == "sweep" && names[names.size() - 2] == "sweep") {
+      EXPECT_GE(floor, floor_before * (1 - 1e-12));
+    }
+    floor_before = floor;
+  }
+  ASSERT_TRUE(session.snapshot()->complete);
+  ASSERT_GE(names.size(), 6U);
+  EXPECT_EQ(names[0], "link");
+  EXPECT_EQ(names[1], "sweep");
+  EXPECT_NE(std::find(names.begin(), names.end(), "split"), names.end());
+  EXPECT_NE(std::find(names.begin(), names.end(), "correct"), names.end());
+  EXPECT_EQ(names.back(), "interpolants");
+  // They lead to the light of whole iterations: splitting met other light, within the error of the links.
+  Pipeline pipeline(*scene, Loose());
+  pipeline.Solve({});
+  pipeline.RefineLight({});
+  const double whole = pipeline.solution().irradiance[0].maxCoeff();
+  EXPECT_NEAR(session.snapshot()->light->solution().irradiance[0].maxCoeff(), whole, Loose().error * whole);
+}
+
+// Going back shows what was, and from there the same steps follow once more.
+TEST(SolverSession, GoesBackToAnyStepAndOn) {
+  SolverSession session(viewer_test::ShadowScene(), Loose());
+  std::vector<std::shared_ptr<const SolverPlace>> places;
+  for (int i = 0; i < 6; ++i) {
+    session.Step();
+    ASSERT_TRUE(Rest(session));
+    places.push_back(session.place());
+  }
+  const RadiositySolution last = session.snapshot()->light->solution();
+  session.Return(places[2]);
+  ASSERT_TRUE(Rest(session));
+  EXPECT_EQ(session.snapshot()->light, places[2]->snapshot->light);
+  EXPECT_EQ(session.place()->step, 3U);
+  EXPECT_EQ(session.steps()->size(), 6U);  // what follows is still there
+  for (int i = 3; i < 6; ++i) {
+    session.Step();
+    ASSERT_TRUE(Rest(session));
+  }
+  EXPECT_EQ(session.steps()->size(), 6U);
+  EXPECT_EQ(LightDifference(session.snapshot()->light->solution(), last), 0);
+}
+
+// A method without copies shows what was as of a file, and begins anew from there.
+TEST(SolverSession, GoesBackWithMethodsThatHaveNoCopies) {
+  PipelineOptions options = Loose();
+  options.solver = "progressive";
+  SolverSession session(viewer_test::ShadowScene(), options);
+  session.Iterate();
+  ASSERT_TRUE(Rest(session));
+  const auto place = session.place();
+  for (int i = 0; i < 3; ++i) session.Iterate();
+  ASSERT_TRUE(Rest(session));
+  session.Return(place);
+  ASSERT_TRUE(Rest(session));
+  EXPECT_EQ(session.status().message, "");
+  EXPECT_EQ(session.snapshot()->light, place->snapshot->light);
+  session.Iterate();
+  ASSERT_TRUE(Rest(session));
+  EXPECT_TRUE(session.snapshot()->light);
+}
+
+// The light of a lamp with a factor is the factor times its light; the light of a scene with other lamps and
+// paints is that of a solve of that scene, within the error.
+TEST(SolverSession, LightsChangedScenesOverTheKeptTransport) {
+  const auto scene = viewer_test::ShadowScene();
+  PipelineOptions options = Loose();
+  options.refine = RefineBy::kBoth;
+  options.error = 0.05;
+  SolverSession session(scene, options);
+  session.Converge();
+  session.BuildMesh(MeshKind::kInterpolant);
+  ASSERT_TRUE(Rest(session));
+  const auto before = session.snapshot();
+  LightChange change;
+  const std::string lamp = LampsOf(*scene).at(0).name;
+  change.Set(Dimming{lamp, Rgb(0.5, 0.25, 2)});
+  session.SetLight(change);
+  ASSERT_TRUE(Rest(session));
+  ASSERT_EQ(session.status().message, "");
+  const auto dimmed = session.snapshot();
+  ASSERT_NE(dimmed->light, before->light);
+  EXPECT_EQ(dimmed->opening, before->opening);
+  const double cutoff = Resolve(*scene, options).solver.relative_cutoff;
+  const IrradianceMesh &was = before->Mesh(MeshKind::kInterpolant)->mesh(),
+                       &now = dimmed->Mesh(MeshKind::kInterpolant)->mesh();
+  double largest = 0, worst = 0;
+  for (std::size_t i = 0; i < was.irradiance.size(); ++i) {
+    largest = std::max(largest, was.irradiance[i].f.maxCoeff());
+    worst = std::max(worst, (now.irradiance[i].f - Rgb(0.5, 0.25, 2) * was.irradiance[i].f).abs().maxCoeff());
+  }
+  std::printf("dimming: error %.3g of the largest irradiance\n", worst / largest);
+  EXPECT_LT(worst, (10 * cutoff + 0.5 * options.error) * largest);
+
+  // A paint as well, against a solve of the changed scene.
+  change.Set(
+      Paint{scene->materials[static_cast<std::size_t>(scene->patches[0].material)].name, Rgb(0.2, 0.5, 0.3)});
+  session.SetLight(change);
+  ASSERT_TRUE(Rest(session));
+  ASSERT_EQ(session.status().message, "");
+  const Scene other = Changed(*scene, change);
+  Pipeline fresh(other, options);
+  fresh.Solve({});
+  fresh.RefineLight({});
+  const std::vector<Rgb>& lit = session.snapshot()->light->solution().irradiance;
+  for (std::size_t p = 0; p < other.patches.size(); ++p)
+    EXPECT_LE((lit[p] - fresh.solution().irradiance[p]).abs().maxCoeff(),
+              options.error * std::max(fresh.solution().irradiance[p].maxCoeff(), 1e-9))
+        << p;
+
+  // And back, at once, to the very light of before.
+  session.SetLight({});
+  ASSERT_TRUE(Rest(session));
+  EXPECT_EQ(session.snapshot()->light, before->light);
+}
+
+// What an iteration makes after lamps were dimmed is the solution of the dimmed scene.
+TEST(SolverSession, SolvesTheChangedSceneAnew) {
+  const auto scene = viewer_test::ShadowScene();
+  SolverSession session(scene, Loose());
+  LightChange change;
+  change.Set(Dimming{LampsOf(*scene).at(0).name, Rgb(2, 1, 0.5)});
+  session.SetLight(change);  // before anything is solved
+  session.Converge();
+  ASSERT_TRUE(Rest(session));
+  const Scene other = Changed(*scene, change);
+  Pipeline fresh(other, Loose());
+  fresh.Solve({});
+  EXPECT_LT(LightDifference(session.snapshot()->light->solution(), fresh.solution()), 1e-12);
+}
+
+// One number tells how far a solve is, and never falls.
+TEST(SessionProgress, NeverFallsInASolve) {
+  SessionProgress progress;
+  double before = 0;
+  const auto grows = [&] {
+    EXPECT_GE(progress.fraction(), before);
+    EXPECT_LT(progress.fraction(), 1);
+    before = progress.fraction();
+  };
+  for (const SolveStage stage : {SolveStage::kLink, SolveStage::kIterate, SolveStage::kCorrect,
+                                 SolveStage::kLight, SolveStage::kMesh, SolveStage::kMeasure}) {
+    progress.Begin(stage);
+    grows();
+    for (int turn = 0; turn < 4; ++turn)
+      for (const char* phase : {"refine sources", "discontinuities", "triangulate", "interpolate"})
+        for (const double fraction : {0.0, 0.5, 1.0}) {
+          progress.Report(phase, fraction);
+          grows();
+        }
+  }
+  progress.Begin(SolveStage::kLight);
+  for (int i = 1; i <= 3; ++i) {
+    progress.Report("refine sources", 0);
+    progress.Report("interpolate", 0.5);
+    EXPECT_EQ(progress.turn(), i);
+  }
 }
 
 TEST(SolverSession, WhatHasConvergedStays) {

@@ -17,6 +17,7 @@
 #include "display/exr_image.h"
 #include "display/opengl_passes.h"
 #include "display/viewer/analyses.h"
+#include "display/viewer/line_plot.h"
 #include "display/viewer/script.h"
 #include "display/viewer/selection.h"
 #include "display/viewer/user_files.h"
@@ -138,6 +139,313 @@ TEST_F(SolvedViewer, EveryModeAndSizeDraws) {
     }
 }
 
+// What was done is taken back, whatever it was, and done again: the pictures are the same to the last bit.
+TEST_F(SolvedViewer, UndoTakesBackSettingsSelectionsAndSolverSteps) {
+  viewer.Set("mode", "flat");
+  viewer.Set("isolate", "off");
+  ASSERT_TRUE(Settle(viewer));
+  const Srgb8Image flat = viewer.Frame(96, 64, 0);
+  viewer.Set("element-mesh", "on");
+  viewer.Set("mesh-depth", "1");
+  const ScreenPoint at = PlaceOf(viewer, Vec3(-0.8, -0.7, 0));
+  Click(viewer, MouseButton::kLeft, at.x, at.y);
+  ASSERT_TRUE(viewer.view().selection);
+  const auto light = viewer.snapshot().light;
+  const auto mesh = viewer.snapshot().Mesh(MeshKind::kInterpolant);
+  viewer.RunMenu("Iteration/Link");  // throws away all that was solved
+  ASSERT_TRUE(Settle(viewer));
+  ASSERT_NE(viewer.snapshot().light, light);
+  const Srgb8Image last = viewer.Frame(96, 64, 0);
+  Drag(viewer, MouseButton::kMiddle, 20, 20, 60, 40);  // the camera is no part of it
+  const Vec3 eye = viewer.view().camera.eye;
+  viewer.Undo();
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.snapshot().light, light);
+  EXPECT_EQ(viewer.snapshot().Mesh(MeshKind::kInterpolant), mesh);
+  EXPECT_TRUE(viewer.snapshot().converged);
+  EXPECT_EQ(viewer.view().camera.eye, eye);
+  EXPECT_TRUE(viewer.view().selection);
+  viewer.Undo();
+  EXPECT_FALSE(viewer.view().selection);
+  viewer.Undo();
+  EXPECT_NE(viewer.view().overlays.mesh_depth, 1);
+  viewer.Undo();
+  viewer.RunMenu("Viewing/Home");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(Difference(flat, viewer.Frame(96, 64, 0)), 0U);
+  for (int i = 0; i < 4; ++i) viewer.RunMenu("Edit/Redo");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_NE(viewer.snapshot().light, light);
+  EXPECT_EQ(Difference(last, viewer.Frame(96, 64, 0)), 0U);
+  viewer.Redo();  // there is nothing more
+  EXPECT_EQ(viewer.message(), "");
+}
+
+// Options of the solve come back with undo, and the solution is still theirs: nothing is computed anew.
+TEST_F(SolvedViewer, UndoBringsOptionsOfTheSolveBack) {
+  const std::string before = viewer.settings().Find("error")->get();
+  const auto light = viewer.snapshot().light;
+  viewer.Set("error", "0.3");
+  viewer.Undo();
+  EXPECT_EQ(viewer.settings().Find("error")->get(), before);
+  viewer.RunMenu("Iteration/Iterate to convergence");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.snapshot().light, light);
+}
+
+// A scene that was opened in place of a solved one gives it back.
+TEST_F(SolvedViewer, UndoReopensTheSceneOfBefore) {
+  const auto light = viewer.snapshot().light;
+  viewer.Set("open", "furnace");
+  ASSERT_TRUE(Settle(viewer));
+  ASSERT_EQ(viewer.snapshot().scene->name, "furnace");
+  viewer.Undo();
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.snapshot().light, light);
+  EXPECT_EQ(viewer.scene_name(), "shadow");
+  viewer.Redo();
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.snapshot().scene->name, "furnace");
+}
+
+// The window asks before unsaved work is lost, and only then.
+TEST(ViewerEnds, AskFirstWhereWorkIsUnsaved) {
+  ViewerOptions options = Options(false);
+  options.files.save_solution = [](const std::string&, const Pipeline&) {};
+  Viewer viewer(ShadowScene(), options);
+  viewer.Set("ask-above", "0");
+  viewer.RunMenu("File/Quit");  // nothing is solved
+  EXPECT_TRUE(viewer.panels().quit);
+  viewer.panels().quit = false;
+  viewer.RunMenu("Iteration/Iterate to convergence");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_GT(viewer.status().unsaved_seconds, 0);
+  viewer.RunMenu("File/Quit");
+  EXPECT_FALSE(viewer.panels().quit);
+  EXPECT_THAT(viewer.panels().question, HasSubstr("not saved"));
+  viewer.panels().question.clear();
+  viewer.Set("save-solution", "a.h5");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.status().unsaved_seconds, 0);
+  viewer.Set("ask-above", "1e-9");
+  viewer.RunMenu("File/Quit");
+  EXPECT_TRUE(viewer.panels().quit);
+  EXPECT_EQ(viewer.panels().question, "");
+}
+
+// Before any light is known, every face shows its reflectance, and what emits is white: no picture is black.
+TEST(Viewer, ShowsReflectancesBeforeThereIsLight) {
+  Viewer viewer(ShadowScene(), Options(false));
+  const Srgb8Image& picture = viewer.Frame(96, 64, 0.01);
+  ASSERT_TRUE(viewer.picture().previews());
+  const ScreenPoint floor = PlaceOf(viewer, Vec3(-0.8, -0.7, 0));
+  const std::size_t i = picture.Index(static_cast<int>(floor.x), static_cast<int>(floor.y));
+  // The floor's reflectance is 0.5 in an even light of about 0.9.
+  EXPECT_NEAR(viewer.picture().linear().channel[0][i], 0.5 * 0.91, 1e-6);
+  EXPECT_GT(picture.pixels[3 * i], 150);
+  EXPECT_EQ(viewer.picture().scale(), ColourScale::kNone);
+  viewer.RunMenu("Iteration/Step");  // links, and no sweep yet
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_TRUE(viewer.picture().previews());
+  viewer.RunMenu("Iteration/Step");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_FALSE(viewer.picture().previews());
+}
+
+// Dimmed to a half, the floor shows half the light, at once and without a solve; undo gives it back.
+TEST_F(SolvedViewer, LampsAreDimmedAndBroughtBack) {
+  viewer.Set("auto-exposure", "off");
+  const auto light = viewer.snapshot().light;
+  const RgbImage before = viewer.picture().linear();
+  const std::size_t iterations = viewer.snapshot().iterations.size();
+  viewer.Set("dim", "object:all=0.5");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.message(), "");
+  EXPECT_EQ(viewer.settings().Find("dim")->get(), "object:all=0.5");
+  EXPECT_EQ(viewer.snapshot().iterations.size(), iterations);
+  const RgbImage& dimmed = viewer.picture().linear();
+  float worst = 0, largest = 0;
+  for (std::size_t i = 0; i < before.PixelCount(); ++i) {
+    worst = std::max(worst, std::abs(dimmed.channel[0][i] - 0.5F * before.channel[0][i]));
+    largest = std::max(largest, before.channel[0][i]);
+  }
+  EXPECT_LT(worst, 0.05F * largest);
+  viewer.Set("dim", "object:all=off");
+  ASSERT_TRUE(Settle(viewer));
+  for (const float value : viewer.picture().linear().channel[0]) ASSERT_LE(value, 1e-6F * largest);
+  viewer.Undo();
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.settings().Find("dim")->get(), "object:all=0.5");
+  viewer.Undo();
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.snapshot().light, light);
+  EXPECT_EQ(viewer.settings().Find("dim")->get(), "none");
+  EXPECT_THROW(viewer.Set("dim", "nobody=1"), InputError);
+  EXPECT_THROW(viewer.Set("paint", "nobody=1,1,1"), InputError);
+  EXPECT_THROW(viewer.Set("paint", "grey=1"), InputError);  // a reflectance is below 1
+}
+
+// A floor that sees little but black keeps its irradiance whatever it reflects, and sends back what its new
+// reflectance says.
+TEST_F(SolvedViewer, PaintsAreLitOverTheKeptTransport) {
+  const Rgb before = viewer.snapshot().light->solution().irradiance[0];
+  viewer.Set("paint", "grey=0.2,0.4,0.9");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.message(), "");
+  const RadiositySolution& solution = viewer.snapshot().light->solution();
+  EXPECT_LT((solution.irradiance[0] - before).abs().maxCoeff(), 0.05 * before.maxCoeff());
+  EXPECT_LT((solution.radiosity[0] - Rgb(0.2, 0.4, 0.9) * solution.irradiance[0]).abs().maxCoeff(),
+            1e-9 * before.maxCoeff());
+}
+
+// The steps of the solver one by one, back and on, from a script's point of view.
+TEST(Viewer, StepsGoBackAndOn) {
+  Viewer viewer(ShadowScene(), Options(false));
+  for (int i = 0; i < 5; ++i) {
+    viewer.RunMenu("Iteration/Step");
+    ASSERT_TRUE(Settle(viewer));
+  }
+  EXPECT_EQ(viewer.step(), 5U);
+  const auto light = viewer.snapshot().light;
+  viewer.RunMenu("Iteration/Step back");
+  viewer.RunMenu("Iteration/Step back");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.step(), 3U);
+  viewer.Set("step", "2");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.step(), 2U);
+  viewer.Set("step", "5");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(viewer.snapshot().light, light);
+  EXPECT_THROW(viewer.Set("step", "99"), InputError);
+  viewer.RunMenu("Iteration/Play");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_TRUE(viewer.snapshot().complete);
+  EXPECT_FALSE(viewer.playing());
+  EXPECT_GT(viewer.steps()->size(), 6U);
+}
+
+// Light over a line: the exact values are those of probes, and the CSV holds them.
+TEST_F(SolvedViewer, PlotsLightOverALineOfTwoClicks) {
+  ASSERT_TRUE(Settle(viewer));
+  const Vec3 a(-0.8, -0.7, 0), b(0.8, -0.7, 0);
+  viewer.RunMenu("Visualisation/Plot over a line");
+  for (const Vec3& end : {a, b}) {
+    const ScreenPoint at = PlaceOf(viewer, end);
+    Click(viewer, MouseButton::kLeft, at.x, at.y);
+  }
+  EXPECT_FALSE(viewer.view().selection);
+  ASSERT_TRUE(Settle(viewer));
+  const std::shared_ptr<const LinePlot> plot = viewer.line_plot();
+  ASSERT_TRUE(plot);
+  ASSERT_EQ(plot->samples.size(), static_cast<std::size_t>(kLineSamples));
+  EXPECT_NEAR(plot->samples.back().distance, 1.6, 0.1);  // pixels are wide here
+  const LightState& light = *viewer.snapshot().light;
+  for (const std::size_t i : {std::size_t{20}, std::size_t{100}, std::size_t{180}}) {
+    ReceiverPoint at;
+    at.position = plot->samples[i].position;
+    at.normal = Vec3::UnitZ();
+    EXPECT_EQ(plot->samples[i].exact[0], light.Exact().OnPatch(0, at).irradiance[0]);
+    ASSERT_TRUE(plot->samples[i].interpolated);
+    EXPECT_NEAR((*plot->samples[i].interpolated)[0], plot->samples[i].exact[0],
+                0.2 * plot->samples[i].exact[0]);
+  }
+  const std::string path = testing::TempDir() + "penumbra_line.csv";
+  viewer.Set("save-line", path);
+  std::ifstream file(path);
+  std::string line;
+  std::size_t rows = 0;
+  while (std::getline(file, line)) ++rows;
+  EXPECT_EQ(rows, 1U + kLineSamples);
+  std::filesystem::remove(path);
+  const std::string text = viewer.settings().Find("line")->get();
+  viewer.Undo();
+  EXPECT_EQ(viewer.settings().Find("line")->get(), "none");
+  viewer.Set("line", text);
+  EXPECT_EQ(viewer.settings().Find("line")->get(), text);
+  EXPECT_THROW(viewer.Set("line", "0,0,7 1,0,7"), InputError);
+}
+
+// Parts are selected by name, hidden, shown and framed; a plain click selects and hides nothing.
+TEST_F(SolvedViewer, PartsAreSelectedHiddenAndFramed) {
+  const auto drawn = [&] {
+    std::set<PatchId> patches;
+    for (const std::uint32_t id : viewer.picture().frame()->triangle)
+      if (id != kNoTriangle) patches.insert(viewer.picture().drawn().triangles[id].patch);
+    return patches;
+  };
+  ASSERT_TRUE(Settle(viewer));
+  const std::set<PatchId> all = drawn();
+  const ScreenPoint at = PlaceOf(viewer, Vec3(-0.8, -0.7, 0));
+  Click(viewer, MouseButton::kLeft, at.x, at.y);
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_TRUE(viewer.view().selection);
+  EXPECT_EQ(drawn(), all);
+  viewer.Set("select", "material:light");
+  EXPECT_EQ(viewer.settings().Find("select")->get(), "material:light");
+  EXPECT_THAT(viewer.Details(), testing::Contains(HasSubstr("emittance")));
+  viewer.Set("select", "object:all");
+  EXPECT_THAT(viewer.Details(), testing::Contains(HasSubstr("3 patches")));
+  // All of it fits into the picture.
+  viewer.RunMenu("Geometry/Frame");
+  for (const Patch& patch : viewer.snapshot().scene->patches)
+    for (const Vec3& v : patch.Vertices()) {
+      const ScreenPoint place = PlaceOf(viewer, v);
+      EXPECT_TRUE(place.x >= 0 && place.x <= 96 && place.y >= 0 && place.y <= 64)
+          << place.x << " " << place.y;
+    }
+  viewer.RunMenu("Geometry/Hide");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_TRUE(drawn().empty());
+  viewer.Undo();
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_FALSE(drawn().empty());
+  viewer.Set("select", "face:0");
+  EXPECT_EQ(viewer.view().selection.kind, SelectionKind::kElement);
+  viewer.Set("isolate", "on");
+  ASSERT_TRUE(Settle(viewer));
+  EXPECT_EQ(drawn(), std::set<PatchId>{0});
+  for (const char* wrong : {"object:nobody", "face:99", "face:x", "all"})
+    EXPECT_THROW(viewer.Set("select", wrong), InputError) << wrong;
+}
+
+// What was kept is on the left, and what is shown now on the right; a lamp at a half differs by a half.
+TEST_F(SolvedViewer, ComparesWithWhatWasKept) {
+  viewer.Set("auto-exposure", "off");
+  ASSERT_TRUE(Settle(viewer));
+  const Srgb8Image before = viewer.Frame(96, 64, 0);
+  viewer.RunMenu("Visualisation/Keep for comparison");
+  viewer.Set("dim", "object:all=0.5");
+  ASSERT_TRUE(Settle(viewer));
+  const Srgb8Image after = viewer.Frame(96, 64, 0);
+  viewer.Set("compare", "on");
+  viewer.Set("compare-at", "0.25");
+  const Srgb8Image both = viewer.Frame(96, 64, 0);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 96; ++x) {
+      if (x == 24) continue;  // the border
+      const Srgb8Image& wanted = x < 24 ? before : after;
+      ASSERT_EQ(both.pixels[3 * both.Index(x, y)], wanted.pixels[3 * wanted.Index(x, y)]) << x << " " << y;
+    }
+  EXPECT_THAT(viewer.Details(), testing::Contains(testing::StartsWith("differs by 0.")));
+  EXPECT_THAT(viewer.Details(), testing::Contains(HasSubstr("differs by 0.5 (median)")));
+  viewer.Set("compare", "off");
+  EXPECT_EQ(Difference(after, viewer.Frame(96, 64, 0)), 0U);
+}
+
+// The line under the pointer tells what probes tell, of the mesh that is drawn.
+TEST_F(SolvedViewer, TellsWhatIsUnderThePointer) {
+  ASSERT_TRUE(Settle(viewer));
+  const ScreenPoint at = PlaceOf(viewer, Vec3(-0.7, -0.6, 0));
+  viewer.Handle(viewer_test::Button(InputEvent::Kind::kMove, MouseButton::kLeft, at.x, at.y));
+  EXPECT_THAT(viewer.Hover(), testing::AllOf(HasSubstr("on patch 0 (all), grey, irradiance"),
+                                             HasSubstr("W/m^2"), HasSubstr("triangle")));
+  viewer.Set("unit", "lux");
+  EXPECT_THAT(viewer.Hover(), HasSubstr(" lux"));
+  viewer.Handle(viewer_test::Button(InputEvent::Kind::kMove, MouseButton::kLeft, 1, 1));
+  EXPECT_EQ(viewer.Hover(), "");
+}
+
 // Pictures by rays come beside the view: interpolants found that way are those of the passes, and what is
 // saved is what `render` draws.
 TEST_F(SolvedViewer, RaysShowWhatThePassesShow) {
@@ -206,6 +514,7 @@ TEST_F(SolvedViewer, SelectsPatchesThenTheirChildren) {
 
 TEST_F(SolvedViewer, IsolatesWhatIsSelectedAndADoubleClickBesideItEndsThat) {
   viewer.Set("mode", "flat");
+  viewer.Set("isolate", "on");
   ASSERT_TRUE(Settle(viewer));
   const Vec3 corner(-0.8, -0.7, 0);
   Click(viewer, MouseButton::kLeft, PlaceOf(viewer, corner).x, PlaceOf(viewer, corner).y);
@@ -282,6 +591,7 @@ TEST_F(SolvedViewer, SelectsLinksTubesTrianglesAndDiscontinuities) {
 // What is selected among many of its kind is alone in the picture, unless that is switched off.
 TEST_F(SolvedViewer, IsolatesALinkFromTheOthers) {
   viewer.Set("mode", "flat");
+  viewer.Set("isolate", "on");
   const auto links = [&](const char* value) {
     for (const char* kind : {"visible-links", "split-links", "partial-links"}) viewer.Set(kind, value);
   };
