@@ -43,8 +43,6 @@ nlohmann::ordered_json ProbeOptions(const ProbeArguments& arguments) {
   return {{"method", arguments.method}, {"direct", arguments.direct}, {"parts", arguments.columns.parts}};
 }
 
-constexpr const char* kFastest = "auto";
-
 std::vector<Measurement> Measure(const Prober& prober, const std::vector<ProbePoint>& points) {
   std::vector<Measurement> measurements;
   RunInterruptible([&](const ExecutionContext& context) { measurements = prober.Measure(points, context); });
@@ -67,7 +65,7 @@ std::vector<Measurement> MeasureDirect(const ProbeArguments& arguments, const Sc
 }
 
 void CheckMethod(const ProbeArguments& arguments) {
-  if (arguments.scene.solving.point.min_backprojection_segment > 0 && arguments.method != kFastest &&
+  if (arguments.scene.solving.point.min_backprojection_segment > 0 && arguments.method != kFastestOcclusion &&
       arguments.method != "backprojection")
     throw UsageError(
         fmt::format("--min-backprojection-segment is of backprojection, and --method {} is another; leave "
@@ -81,9 +79,7 @@ void Probe(ProbeArguments arguments, std::vector<ProbePoint> points) {
 
   PointIrradianceOptions how = loaded.stored ? loaded.stored->solving.point : arguments.scene.solving.point;
   const std::unique_ptr<const OcclusionMethod> method =
-      arguments.method == kFastest
-          ? nullptr
-          : OcclusionMethods().Make(arguments.method, {how.min_backprojection_segment});
+      MakeOcclusion(arguments.method, {how.min_backprojection_segment});
   how.method = method.get();
 
   std::vector<Measurement> measurements;
@@ -142,13 +138,12 @@ Command AddProbeCommand(CLI::App& program) {
       "Add the share of direct light and the gradient of the irradiance by the point's position, its "
       "normal fixed [W/m^3]");
   AddPhotometricOption(*app, &arguments->columns.unit);
-  std::vector<std::string> methods = OcclusionMethods().Names();
-  methods.insert(methods.begin(), kFastest);
   app->add_option(
          "--method", arguments->method,
-         "How occlusion is found: auto, the fastest exact one; clipping, backprojection (thesis 6.2) "
-         "and vertex-tracing (Stark and Riesenfeld 1999) are exact; sampled is what the thesis gave up")
-      ->check(CLI::IsMember(methods))
+         "How occlusion is found at the points: auto, the fastest exact one; clipping, backprojection "
+         "(thesis 6.2) and vertex-tracing (Stark and Riesenfeld 1999) are exact; sampled is what the thesis "
+         "gave up; solves use auto")
+      ->check(CLI::IsMember(OcclusionNames()))
       ->type_name("METHOD")
       ->capture_default_str();
   AddDimOption(*app, &arguments->scene);

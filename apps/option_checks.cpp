@@ -7,6 +7,7 @@
 
 #include "apps/commands.h"
 #include "mesh/pipeline/option_table.h"
+#include "solver/visibility/exact/occlusion_methods.h"
 
 namespace penumbra {
 namespace {
@@ -14,6 +15,19 @@ namespace {
 // The distances of the thesis's tricks are meant to be too small to be seen: a thousandth of the scene is a
 // hundred times what it used.
 constexpr double kMostOfDiagonal = 1e-3;
+
+void CheckOcclusion(const PipelineOptions& solving) {
+  if (solving.by_emitter && solving.method != kFastestOcclusion)
+    throw UsageError(fmt::format(
+        "--by-emitter needs rows of form factors, which --method {} does not give; leave one of them out",
+        solving.method));
+  if (solving.point.min_backprojection_segment > 0 && solving.method != kFastestOcclusion &&
+      solving.method != "backprojection")
+    throw UsageError(
+        fmt::format("--min-backprojection-segment is of backprojection, and --method {} is another; leave "
+                    "one of them out",
+                    solving.method));
+}
 
 }  // namespace
 
@@ -31,6 +45,7 @@ void CheckOptions(const SceneArguments& arguments) {
           "--by-emitter needs the same sources and exact form factors for all emitters, and {} gives others; "
           "leave one of them out",
           other));
+  CheckOcclusion(solving);
   if (IsGiven(arguments, "--source-error") && solving.max_corrections == 0)
     throw UsageError(
         "--source-error cuts sources for corrections, and --corrections 0 makes none; leave one out");

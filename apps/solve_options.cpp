@@ -57,6 +57,8 @@ void SetOption(const SolveOption& option, const OptionValue& value, PipelineOpti
 
 void AddSolveOption(CLI::App& app, const SolveOption& option, PipelineOptions* solving) {
   const std::string name = CommandLineName(option), help = OptionHelp(option);
+  // A command's own option has the name: --method of probe is about its points.
+  if (app.get_option_no_throw(name)) return;
   const std::string group = GroupTitle(option.group);
   if (option.field.kind == OptionKind::kFlag) {
     app.add_flag_callback(

@@ -65,8 +65,7 @@ SolutionPointer Solve(const PythonScene& scene, const py::kwargs& given) {
 
 std::vector<Measurement> MeasurePoints(const PythonSolution& solution, const std::vector<ProbePoint>& points,
                                        const ProbeRequest& request, const py::object& progress) {
-  std::vector<std::string> methods = OcclusionMethods().Names();
-  methods.insert(methods.begin(), "auto");
+  const std::vector<std::string> methods = OcclusionNames();
   if (std::find(methods.begin(), methods.end(), request.method) == methods.end())
     throw InputError(
         fmt::format("there is no method '{}'; give one of {}", request.method, fmt::join(methods, ", ")));

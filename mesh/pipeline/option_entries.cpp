@@ -10,6 +10,7 @@
 #include "solver/transport/form_factors/link_form_factor_methods.h"
 #include "solver/transport/links/refinement_oracles.h"
 #include "solver/transport/solvers/light_solvers.h"
+#include "solver/visibility/exact/occlusion_methods.h"
 
 namespace penumbra {
 namespace {
@@ -352,6 +353,32 @@ void AddDistances(Entries& table) {
        .label = "Shortest segment of backprojections, 0: clip"});
 }
 
+OptionField OcclusionField() {
+  OptionField field = MakeField(
+      OptionKind::kChoice, &PipelineOptions::method,
+      [](const std::string& held) { return OptionValue(held); },
+      [](const OptionValue& value) {
+        const auto& name = std::get<std::string>(value);
+        return name == kFastestOcclusion ? name : OcclusionMethods().Find(name).name;
+      });
+  field.choices = OcclusionNames;
+  return field;
+}
+
+void AddOcclusion(Entries& table) {
+  table.push_back(
+      {.name = "method",
+       .field = OcclusionField(),
+       .group = OptionGroup::kStudies,
+       .help =
+           "How a solve finds the visible part of a source, for links, corrections and the nodes of the "
+           "mesh: auto, the fastest exact way; clipping, backprojection (thesis 6.2) and vertex-tracing "
+           "(Stark and Riesenfeld 1999) are exact, too, and take up to a hundred times as long; sampled is "
+           "what the thesis gave up",
+       .in_older_files = [](const PipelineOptions&) { return OptionValue(std::string(kFastestOcclusion)); },
+       .label = "Occlusion"});
+}
+
 void AddClassicSolvers(Entries& table) {
   table.push_back({.name = "shots",
                    .field = IntegerField(&PipelineOptions::shots, {0, kMostShots}),
@@ -480,6 +507,7 @@ std::vector<SolveOption> OptionEntries() {
   AddEndsOfIteration(table);
   AddLimits(table);
   AddDistances(table);
+  AddOcclusion(table);
   AddSolvers(table);
   AddClassicSolvers(table);
   AddErrorPoints(table);

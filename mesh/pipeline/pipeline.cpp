@@ -247,6 +247,7 @@ struct Pipeline::Impl {
     if (solver && !leaves) return nullptr;
     PointIrradianceOptions how = options.point;
     if (solver) how.part_of_tolerance = solver->PartOfTolerance();
+    if (!how.method) how.method = resolved.occlusion.get();
     return std::make_unique<PointIrradiance>(solution, visibility, how, leaves);
   }
 
@@ -254,7 +255,7 @@ struct Pipeline::Impl {
   // would cut them differently for each emitter, and other occlusion methods give no rows.
   bool Splits() const {
     return options.by_emitter && solver && !options.source_error && !options.point.method &&
-           options.point.min_backprojection_segment <= 0;
+           !resolved.occlusion && options.point.min_backprojection_segment <= 0;
   }
 
   // Finds the light of each emitter on the present sources, and makes their sum the whole light.

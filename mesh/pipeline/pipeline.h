@@ -123,6 +123,10 @@ struct PipelineOptions {
   // patch.
   std::size_t shots = 0;
   bool overshoot = false, ambient = false;
+  // The name of the occlusion method, among OcclusionNames(), for everything in a solve that asks how much of
+  // a source a point sees: form factors of links by cubature, exact or disk, deferred corrections, and the
+  // nodes of the mesh. The dense and the sampled solver find visibility in ways of their own.
+  std::string method = "auto";
 };
 
 // The values of all options that a solve uses, including those that the user has omitted.
@@ -137,6 +141,8 @@ struct ResolvedOptions {
   // refine_light is false, because the solver's corrections divide the sources.
   bool refine_light = true;
   std::size_t lookouts = 0;  // number of random points at which each mesh is tested
+  // The occlusion method that PipelineOptions::method names; null for the fastest exact method.
+  std::shared_ptr<const OcclusionMethod> occlusion = {};
 };
 // Returns the name of the solver that PipelineOptions::solver names, or that is chosen for the scene. If
 // PipelineOptions::solver is omitted, the choice is `sampled` for scenes with so many polygons that pairs of

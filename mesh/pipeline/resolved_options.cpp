@@ -11,6 +11,7 @@
 #include "solver/transport/links/refinement_oracles.h"
 #include "solver/transport/solvers/light_solvers.h"
 #include "solver/transport/solvers/mean_free_path.h"
+#include "solver/visibility/exact/occlusion_methods.h"
 
 namespace penumbra {
 namespace {
@@ -163,6 +164,9 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   resolved.solver.form_factor_options.resolution = options.resolution;
   resolved.solver.form_factor_options.rays = options.rays;
   resolved.solver.form_factor_options.seed = options.seed;
+  resolved.occlusion = MakeOcclusion(options.method, {options.point.min_backprojection_segment});
+  resolved.solver.occlusion = resolved.occlusion;
+  resolved.solver.form_factor_options.occlusion = resolved.occlusion;
   resolved.solver.scheme = options.scheme;
   resolved.solver.acceleration = options.acceleration;
   resolved.solver.oracle = RefinementOracles().Find(options.oracle).name;

@@ -49,6 +49,7 @@ const std::map<std::string, std::string>& Given() {
                                                            {"nudge", "1e-06"},
                                                            {"source-push-off", "1e-06"},
                                                            {"min-backprojection-segment", "0.001"},
+                                                           {"method", "backprojection"},
                                                            {"form-factors", "exact"},
                                                            {"solver", "hierarchical"},
                                                            {"error-points", "20"}};

@@ -139,7 +139,7 @@ TEST(OptionTable, KeysAndTheirOrderStay) {
                                 "max_leaf_dsets", "keep_hidden_discontinuities", "eee", "error_samples",
                                 "refine", "corrections", "source_error", "acceleration", "scheme", "oracle",
                                 "multigrid", "relative_cutoff", "iterations", "time_limit", "memory_limit",
-                                "bounces", "nudge", "source_push_off", "min_backprojection_segment",
+                                "bounces", "nudge", "source_push_off", "min_backprojection_segment", "method",
                                 "form_factors", "solver", "rays", "resolution", "basis", "divisions", "shots",
                                 "overshoot", "ambient", "error_points", "by_emitter", "emitters"));
 }
@@ -233,6 +233,7 @@ std::map<std::string, std::string> WordsOfRanges() {
           {"nudge", from_zero},
           {"source-push-off", from_zero},
           {"min-backprojection-segment", "a number from 0 to 1"},
+          {"method", "one of auto|clipping|backprojection|vertex-tracing|sampled"},
           {"form-factors", OneOf(LinkFormFactorMethods().Names())},
           {"solver", OneOf(LightSolvers().Names())},
           {"rays", "an integer from 0 to 10000000"},
@@ -283,6 +284,7 @@ TEST(OptionTable, OlderFilesMeanWhatHeldThen) {
                                                     {"keep_hidden_discontinuities", false},
                                                     {"eee", 0.0},
                                                     {"min_backprojection_segment", 0.0},
+                                                    {"method", "auto"},
                                                     {"by_emitter", false},
                                                     {"emitters", "face"}};
   const std::set<std::string> never_needed = {"source_error", "time_limit", "memory_limit"};

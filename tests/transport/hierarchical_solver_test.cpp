@@ -13,6 +13,7 @@
 #include "solver/base/parallel.h"
 #include "solver/scene/surface_points.h"
 #include "solver/transport/solvers/energy.h"
+#include "solver/visibility/exact/occlusion_methods.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra::scene_test {
@@ -94,6 +95,39 @@ TEST(HierarchicalSolver, ValidAndTheSameForAnyThreadCount) {
       EXPECT_EQ(first.links.links[i].form_factor, solution.links.links[i].form_factor);
   }
   SetThreadCount(0);
+}
+
+// Occlusion methods that are exact lead to the same light, through links and corrections; samples do not. Two
+// exact methods differ by at most kOcclusionError in each form factor, and by rounding in the sums of some
+// thousand links and their reflections.
+TEST(HierarchicalSolver, SameLightByEveryExactOcclusionMethod) {
+  constexpr double kSame = 1e-9, kOfSamples = 0.05;
+  const Scene scene = LampRoom();
+  const auto light_by = [&](std::string_view method) {
+    SolverOptions options;
+    options.eps = 5;
+    options.occlusion = MakeOcclusion(method, {});
+    options.form_factor_options.occlusion = options.occlusion;
+    const PatchVisibility visibility(scene);
+    HierarchicalSolver solver(scene, visibility, options);
+    solver.Solve(ExecutionContext());
+    return solver.solution().irradiance;
+  };
+  const std::vector<Rgb> fastest = light_by(kFastestOcclusion);
+  const auto differ = [](const Rgb& a, const Rgb& b) { return ((a - b).abs() / b).maxCoeff(); };
+  for (const std::string& method : OcclusionMethods().Names()) {
+    const std::vector<Rgb> light = light_by(method);
+    if (method == "sampled") {  // links are split in other places, but roots are the same
+      EXPECT_GT(differ(light[0], fastest[0]), kSame);
+      EXPECT_LT(differ(light[0], fastest[0]), kOfSamples);
+      continue;
+    }
+    ASSERT_EQ(light.size(), fastest.size()) << method;
+    double largest = 0;
+    for (std::size_t e = 0; e < light.size(); ++e) largest = std::max(largest, differ(light[e], fastest[e]));
+    RecordProperty(method, std::to_string(largest));
+    EXPECT_LT(largest, kSame) << method;
+  }
 }
 
 // Any two points on leaves that see each other are linked once: among the ancestors of two leaves there is

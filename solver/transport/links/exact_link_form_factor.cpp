@@ -15,10 +15,11 @@ class ExactLinkFormFactor final : public LinkFormFactorMethod {
   explicit ExactLinkFormFactor(const LinkFormFactorOptions& options) : options_(options) {}
 
   void Find(ReceiverLinks* links, const ExecutionContext& context) const override {
-    if (!options_.factors_only) FindByCubature(links, context);
+    if (!options_.factors_only) FindByCubature(links, context, options_.occlusion.get());
     AreaFormFactorOptions options;
     options.tolerance = options_.tolerance;
     options.max_points = options_.max_points;
+    options.method = options_.occlusion.get();
     options.context = &context;
     const ElementForest& forest = links->forest;
     for (Link& link : links->set.links) {

@@ -66,8 +66,9 @@ class ListedFactors {
 
 class LinkCubature {
  public:
-  LinkCubature(ReceiverLinks& links, const ExecutionContext& context)
+  LinkCubature(ReceiverLinks& links, const ExecutionContext& context, const OcclusionMethod* occlusion)
       : links_(links),
+        occlusion_(occlusion),
         forest_(links.forest),
         context_(context),
         receiver_(forest_[links.receiver]),
@@ -117,7 +118,7 @@ class LinkCubature {
       ReceiverPoint at;
       at.position = point.position;
       at.normal = patch_.normal;
-      PointView view(forest_.scene(), at);
+      PointView view(forest_.scene(), at, occlusion_ ? *occlusion_ : FastestExactMethod());
       factors_.assign(which.size(), {});
       listed_.Clear();
       for (std::size_t k = 0; k < which.size(); ++k) FindFactors(view, which[k], &factors_[k]);
@@ -166,7 +167,10 @@ class LinkCubature {
         if (clear) (*factor)[q] = FormFactor(seen[q], patch_.normal);
       }
     }
-    if (!clear)
+    if (clear) return;
+    if (occlusion_)
+      for (std::size_t q = 0; q < 4; ++q) (*factor)[q] = view.VisibleFormFactor(seen[q], occluders);
+    else
       VisibleFormFactors(view.SeeSource(source.Vertices()), seen, occluders, patch_.normal, *factor);
   }
 
@@ -189,6 +193,7 @@ class LinkCubature {
   }
 
   ReceiverLinks& links_;
+  const OcclusionMethod* occlusion_;  // null: the fastest exact method
   const ElementForest& forest_;
   const ExecutionContext& context_;
   const Element& receiver_;
@@ -202,8 +207,8 @@ class LinkCubature {
 
 }  // namespace
 
-void FindByCubature(ReceiverLinks* links, const ExecutionContext& context) {
-  LinkCubature(*links, context).Find();
+void FindByCubature(ReceiverLinks* links, const ExecutionContext& context, const OcclusionMethod* occlusion) {
+  LinkCubature(*links, context, occlusion).Find();
 }
 
 }  // namespace penumbra

@@ -13,7 +13,9 @@ namespace penumbra {
 // at the points of Cubature() on that part of the receiver that lies before the source's plane. Link::share,
 // the fractions of the form factor that the source's quarters contribute, stays 1/4 for sources that reflect
 // nothing, because the radiosity of such a source is constant. If the computation is cancelled
-// (ExecutionContext), the links' values must not be used.
-void FindByCubature(ReceiverLinks* links, const ExecutionContext& context);
+// (ExecutionContext), the links' values must not be used. `occlusion` finds the visible parts of sources;
+// null stands for the fastest exact method.
+void FindByCubature(ReceiverLinks* links, const ExecutionContext& context,
+                    const OcclusionMethod* occlusion = nullptr);
 
 }  // namespace penumbra

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "solver/base/registry.h"
 #include "solver/transport/links/solution.h"
 #include "solver/visibility/area/area_form_factor.h"
+#include "solver/visibility/point/occlusion_method.h"
 
 namespace penumbra {
 
@@ -80,6 +82,8 @@ struct LinkFormFactorOptions {
   std::uint64_t seed = 1;  // seed of random rotations of planes and of random rays
   // If true, Find() needs to compute only Link::form_factor, not Link::variation and Link::share.
   bool factors_only = false;
+  // The occlusion method of the methods `cubature`, `exact` and `disk`; null for the fastest exact method.
+  std::shared_ptr<const OcclusionMethod> occlusion = {};
 };
 
 // The type of the registry LinkFormFactorMethods(), which lists all form-factor methods.

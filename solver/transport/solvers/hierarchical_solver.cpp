@@ -98,6 +98,7 @@ double HierarchicalSolver::PartOfTolerance() const {
 PointIrradianceOptions HierarchicalSolver::HowToSample() const {
   PointIrradianceOptions options;
   options.part_of_tolerance = PartOfTolerance();
+  options.method = options_.occlusion.get();
   return options;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 
 #include "solver/transport/links/link_form_factor_method.h"
@@ -48,6 +49,8 @@ struct SolverOptions {
   // source_error requires (LeafCells), after some passes with fewer parts. If source_error is 0, leaves are
   // cut only at contacts, where other surfaces touch them.
   double source_error = 0;
+  // The occlusion method of deferred corrections; null for the fastest exact method.
+  std::shared_ptr<const OcclusionMethod> occlusion = {};
 };
 
 // Options of the sampled solver.

@@ -13,4 +13,14 @@ OcclusionRegistry& OcclusionMethods() {
   return registry;
 }
 
+std::vector<std::string> OcclusionNames() {
+  std::vector<std::string> names = OcclusionMethods().Names();
+  names.insert(names.begin(), std::string(kFastestOcclusion));
+  return names;
+}
+
+std::unique_ptr<const OcclusionMethod> MakeOcclusion(std::string_view name, const OcclusionOptions& options) {
+  return name == kFastestOcclusion ? nullptr : OcclusionMethods().Make(name, options);
+}
+
 }  // namespace penumbra
