@@ -29,7 +29,10 @@ struct ExportArguments {
   std::string output;
   std::optional<double> exposure;  // [m^2/W]; metered if not given
   int atlas = 0;                   // pixels a side of an irradiance map; 0: none is wanted
+  AtlasPlaces places = AtlasPlaces::kOwn;
 };
+
+constexpr Choice<AtlasPlaces> kPlaces[] = {{"own", AtlasPlaces::kOwn}, {"scene", AtlasPlaces::kScene}};
 
 // Where the scene alone is written, nothing can be said of a solve.
 void RefuseSolve(const ExportArguments& arguments) {
@@ -44,6 +47,8 @@ void RefuseSolve(const ExportArguments& arguments) {
 void RefuseIdle(const ExportArguments& arguments) {
   const std::string format = fmt::format(".{}", EndingOf(arguments.output));
   const bool map = arguments.atlas > 0;
+  if (IsGiven(arguments.scene, "--uv") && !map)
+    throw UsageError("--uv is of irradiance maps; give the size of one by --atlas N, or leave it out");
   if (map && !ExportsMap(arguments.output))
     throw UsageError(fmt::format("--atlas makes a map of {}, and {} is no such format; leave it out",
                                  EndingsOfMaps(), format));
@@ -80,7 +85,7 @@ void Export(ExportArguments arguments) {
   run.Run(MeshKind::kInterpolant, WantsReport(arguments.scene));
   const MeshExport from{run.pipeline().scene(), run.pipeline().mesh(), camera, arguments.exposure};
   if (map)
-    ExportMap(arguments.output, from, arguments.atlas);
+    ExportMap(arguments.output, from, arguments.atlas, arguments.places);
   else
     ExportMesh(arguments.output, from);
   run.Tell();
@@ -106,11 +111,12 @@ Command AddExportCommand(CLI::App& program) {
   AddNumber(*app, "--exposure", &arguments->exposure, kPositive,
             fmt::format("Brightness of the colours in {}, 0 to 1, per W/m^2 (default: metered from the mesh)",
                         EndingsWithColours()));
-  AddInteger(
-      *app, "--atlas", &arguments->atlas, 1, 16384,
-      fmt::format("Write an irradiance map of N x N pixels, with a chart for each patch, to {} [pixels]",
-                  EndingsOfMaps()))
+  AddInteger(*app, "--atlas", &arguments->atlas, 1, 16384,
+             fmt::format("Write an irradiance map of N x N pixels to {} [pixels]", EndingsOfMaps()))
       ->default_str("");
+  AddChoice(*app, "--uv", &arguments->places, kPlaces,
+            "Where the light of a face lies on the map: own, a chart for each patch; or scene, at the face's "
+            "texture coordinates in its file, the second set if there are two");
   AddCameraOptions(*app, &arguments->camera, &arguments->scene.reading.up);
   AddDimOption(*app, &arguments->scene);
   AddSolveOptions(*app, &arguments->scene);

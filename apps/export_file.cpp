@@ -108,8 +108,8 @@ void ExportMesh(const std::string& path, const MeshExport& from) {
   WriteResult(path, writer->Bytes(from));
 }
 
-void ExportMap(const std::string& path, const MeshExport& from, int size) {
-  WriteResult(path, AtlasBytes(EndingOf(path), from, size));
+void ExportMap(const std::string& path, const MeshExport& from, int size, AtlasPlaces places) {
+  WriteResult(path, AtlasBytes(EndingOf(path), from, size, places));
 }
 
 void ExportScene(const std::string& path, const Scene& scene, const Camera& camera) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "display/atlas/light_atlas.h"
 #include "display/mesh_writer.h"
 
 namespace penumbra {
@@ -41,8 +42,8 @@ std::string ExportFormats();
 // path is that of a known format, so that ExportFormatError(path) returns nullopt.
 void ExportMesh(const std::string& path, const MeshExport& from);
 // Writes an irradiance map of size x size pixels. Throws InputError if the file cannot be written, or if the
-// map has no room for all patches. REQUIRES: ExportsMap(path).
-void ExportMap(const std::string& path, const MeshExport& from, int size);
+// map cannot be made (MakeLightAtlas). REQUIRES: ExportsMap(path).
+void ExportMap(const std::string& path, const MeshExport& from, int size, AtlasPlaces places);
 // Writes the scene without a solution to a file, with the camera if the format stores cameras. Throws
 // InputError if the file cannot be written.
 void ExportScene(const std::string& path, const Scene& scene, const Camera& camera);

@@ -1,10 +1,10 @@
 #include "display/atlas/atlas_files.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "display/atlas/light_atlas.h"
 #include "display/glb_file.h"
 #include "display/image_writers.h"
 #include "display/mesh_bytes.h"
@@ -45,27 +45,28 @@ class AtlasBuffer {
   ordered_json views_ = ordered_json::array(), accessors_ = ordered_json::array();
 };
 
-// Adds the corners of all patches, their places on the map, and the triangles of each patch.
-void AddPatches(const Scene& scene, const ChartLayout& layout, const Vec3& centre, AtlasBuffer* buffer) {
+// Adds the corners of all polygons, their places on the map, and the triangles of each polygon.
+void AddPolygons(const LightAtlas& atlas, const Vec3& centre, AtlasBuffer* buffer) {
   constexpr int kArray = 34962, kElements = 34963, kFloat = 5126, kUint = 5125;
   std::string positions, places, indices;
   Eigen::Array3f least = Eigen::Array3f::Constant(INFINITY), most = -least;
   std::uint32_t corners = 0;
   std::size_t index_count = 0;
-  for (const Chart& chart : layout.charts) {
-    const Patch& patch = scene.patches[static_cast<std::size_t>(chart.patch)];
-    for (const Vec3& corner : patch.Vertices()) {
+  for (const AtlasPolygon& polygon : atlas.polygons) {
+    for (const Vec3& corner : polygon.corners) {
       const Eigen::Array3f position = (corner - centre).cast<float>().array();
       least = least.min(position);
       most = most.max(position);
       AppendTriple<float>(positions, position);
-      const Eigen::Vector2d place = layout.PixelOf(chart, corner) / layout.size;
-      for (int i = 0; i < 2; ++i) AppendBytes(places, static_cast<float>(place[i]));
     }
-    const auto size = static_cast<std::uint32_t>(patch.size);
-    for (std::uint32_t k = 1; k + 1 < size; ++k, index_count += 3)
-      for (const std::uint32_t corner : {0U, k, k + 1}) AppendBytes(indices, corners + corner);
-    corners += size;
+    for (const Vec2& pixel : polygon.places)
+      for (int i = 0; i < 2; ++i) AppendBytes(places, static_cast<float>(pixel[i] / atlas.irradiance.width));
+    for (const std::array<std::int32_t, 3>& triangle : polygon.triangles) {
+      for (const std::int32_t corner : triangle)
+        AppendBytes(indices, corners + static_cast<std::uint32_t>(corner));
+      index_count += 3;
+    }
+    corners += static_cast<std::uint32_t>(polygon.corners.size());
   }
   buffer->AddAccessor(buffer->AddView(positions, kArray), kFloat, corners, "VEC3",
                       {{"min", {least[0], least[1], least[2]}}, {"max", {most[0], most[1], most[2]}}});
@@ -83,7 +84,7 @@ std::string AtlasGlb(const MeshExport& from, const LightAtlas& atlas, double exp
   const auto [low, high] = from.scene.Bounds();
   const Vec3 centre = 0.5 * (low + high);  // floats keep their digits far from the origin
   AtlasBuffer buffer;
-  AddPatches(from.scene, atlas.layout, centre, &buffer);
+  AddPolygons(atlas, centre, &buffer);
   const int image =
       buffer.AddView(ImageWriters().Make("png")->Bytes(RadiosityOnScreen(from.scene, atlas, exposure)), 0);
   constexpr int kLinear = 9729, kClamp = 33071;
@@ -115,9 +116,9 @@ std::string AtlasGlb(const MeshExport& from, const LightAtlas& atlas, double exp
 
 std::vector<std::string> AtlasEndings() { return {"exr", "png", "glb"}; }
 
-std::string AtlasBytes(const std::string& ending, const MeshExport& from, int size) {
+std::string AtlasBytes(const std::string& ending, const MeshExport& from, int size, AtlasPlaces places) {
   const double exposure = ExposureOf(from);
-  const LightAtlas atlas = MakeLightAtlas(from.scene, from.mesh, size);
+  const LightAtlas atlas = MakeLightAtlas(from.scene, from.mesh, size, places);
   for (const std::vector<float>& plane : atlas.irradiance.channel)
     for (const float value : plane)
       if (!std::isfinite(value))

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "display/atlas/light_atlas.h"
 #include "display/mesh_writer.h"
 
 namespace penumbra {
@@ -20,9 +21,10 @@ std::vector<std::string> AtlasEndings();
 // for a screen. A `glb` file is a glTF 2.0 scene, y up, with one or two unlit triangles per patch; its
 // texture is the radiosity as colours for a screen. A `glb` file stores texture coordinates in TEXCOORD_0 and
 // again in TEXCOORD_1, where programs look for the coordinates of light maps. If MeshExport::exposure is not
-// set, MeterMesh() determines the exposure. Throws InputError if the picture has no room for the charts of
-// all patches (LayOutCharts), or if a value exceeds the range of floats. REQUIRES: the ending is one of
-// AtlasEndings().
-std::string AtlasBytes(const std::string& ending, const MeshExport& from, int size);
+// set, MeterMesh() determines the exposure. `places` are the texture coordinates of the map: charts of this
+// program, or those of the scene. Throws InputError if MakeLightAtlas() does, or if a value exceeds the range
+// of floats. REQUIRES: the ending is one of AtlasEndings().
+std::string AtlasBytes(const std::string& ending, const MeshExport& from, int size,
+                       AtlasPlaces places = AtlasPlaces::kOwn);
 
 }  // namespace penumbra

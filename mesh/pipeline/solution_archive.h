@@ -64,15 +64,17 @@ struct Packed<char> : PackedByte<char, 255> {
   static void Unpack(const Scalar* in, char& value) { std::memcpy(&value, in, 1); }
 };
 
-// Stores a vector as three coordinates or three channels.
+// Stores a vector as its coordinates or channels.
 template <class Vector>
 struct PackedVector {
   using Scalar = double;
-  static constexpr std::size_t kCount = 3;
+  static constexpr std::size_t kCount = Vector::SizeAtCompileTime;
   static ArrayShape Shape() { return {kCount}; }
   static void Pack(const Vector& value, Scalar* out) { std::copy_n(value.data(), kCount, out); }
   static void Unpack(const Scalar* in, Vector& value) { std::copy_n(in, kCount, value.data()); }
 };
+template <>
+struct Packed<Vec2> : PackedVector<Vec2> {};
 template <>
 struct Packed<Vec3> : PackedVector<Vec3> {};
 template <>

@@ -43,6 +43,9 @@ void CheckScene(const Scene& scene) {
     Demand(IsIndex(face.object, scene.objects.size()), "a face has no object");
     Demand(face.vertices.empty() || (face.vertices.size() >= 3 && All(face.vertices, IsFinite)),
            "a face is no polygon");
+    Demand(face.uv.empty() || (face.uv.size() == face.vertices.size() &&
+                               All(face.uv, [](const Vec2& place) { return place.allFinite(); })),
+           "a face has other texture coordinates than vertices");
   }
   for (const Object& object : scene.objects)
     Demand(AreIndices(object.faces, scene.faces.size()), "an object has faces that are not there");

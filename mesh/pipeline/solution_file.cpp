@@ -25,6 +25,8 @@ constexpr std::string_view kHdf5Magic = "\x89HDF\r\n\x1a\n";
 constexpr std::size_t kDigestSize = 64;
 // The first schema with the light of each emitter.
 constexpr int kSchemaWithEmitters = 5;
+// The first schema with the texture coordinates of faces.
+constexpr int kSchemaWithTexture = 6;
 
 // The header in front of the HDF5 image: the magic, lines of text, zeros.
 std::string Header(int schema, const std::string& version, std::size_t length, const std::string& digest) {
@@ -106,6 +108,7 @@ StoredSolution Read(const Envelope& envelope) {
 
   auto scene = std::make_unique<Scene>();
   DescribeScene(archive, *scene);
+  if (envelope.schema >= kSchemaWithTexture) DescribeTextureCoordinates(archive, scene->faces);
   CheckScene(*scene);
   for (Patch& patch : scene->patches)
     patch = MakePatch(patch.Vertices(), patch.material, patch.object, patch.faces);
@@ -168,6 +171,7 @@ std::string EncodeSolution(const Pipeline& pipeline, const std::string& options,
   archive.Text("options", options);
   archive.Text("report", report);
   DescribeScene(archive, pipeline.scene());
+  DescribeTextureCoordinates(archive, pipeline.scene().faces);
   DescribeVisibility(archive, pipeline.visibility().rows());
   const std::span<const Element> elements = pipeline.solution().forest.elements();
   const std::vector<Element> copy(elements.begin(), elements.end());

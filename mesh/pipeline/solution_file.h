@@ -22,7 +22,7 @@ namespace penumbra {
 // The version of the solution file's layout, which is incremented with every change. Solution files with an
 // older version than kOldestSolutionSchema, or a newer version than kSolutionSchema, are rejected. Solution
 // files of version 4 do not contain the light of each emitter.
-inline constexpr int kSolutionSchema = 5, kOldestSolutionSchema = 4;
+inline constexpr int kSolutionSchema = 6, kOldestSolutionSchema = 4;
 
 // The contents of a solution file.
 struct StoredSolution {

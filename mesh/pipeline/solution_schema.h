@@ -113,6 +113,12 @@ void DescribeMesh(Archive& archive, Mesh& mesh, Kind& kind) {
   Table(archive, "mesh/triangles", mesh.irradiance).Column("interpolant", std::identity());
 }
 
+// Describes the texture coordinates of faces, which are empty where the scene's file gave none.
+template <class Archive, class Faces>
+void DescribeTextureCoordinates(Archive& archive, Faces& faces) {
+  Table(archive, "scene/faces", faces).Lists("texture_coordinates", &Face::uv);
+}
+
 // Describes the light of each emitter; the table has no rows if the light of each emitter was not kept.
 template <class Archive, class Emitters>
 void DescribeEmitters(Archive& archive, Emitters& emitters) {

@@ -179,11 +179,20 @@ class Flattener {
         const Vec3 local = VecOf(mesh.mVertices[from.mIndices[i]]);
         largest = largest.cwiseMax(local.cwiseAbs());
         to_.corners.push_back(RoundedToSingle(linear * local + shift));
+        to_.places.push_back(PlaceOnPicture(mesh, from.mIndices[i]));
       }
       if (mirrored) std::reverse(to_.corners.end() - face.size, to_.corners.end());
+      if (mirrored) std::reverse(to_.places.end() - face.size, to_.places.end());
       to_.faces.push_back(face);
     }
     AddRounding(linear.cwiseAbs() * largest + shift.cwiseAbs());
+  }
+
+  // Texture coordinates of the second set, where programs keep those of light maps, or else of the first.
+  static Vec2 PlaceOnPicture(const aiMesh& mesh, unsigned vertex) {
+    const unsigned set = mesh.HasTextureCoords(1) ? 1 : 0;
+    if (!mesh.HasTextureCoords(set)) return Vec2::Constant(std::numeric_limits<double>::quiet_NaN());
+    return {mesh.mTextureCoords[set][vertex].x, mesh.mTextureCoords[set][vertex].y};
   }
 
   // -1 for the materials that Assimp makes up.

@@ -1,6 +1,7 @@
 #include "solver/scene/assimp_reader.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <filesystem>
 #include <limits>
@@ -86,6 +87,9 @@ class ForeignSceneBuilder {
       Face face;
       const auto first = corners.begin() + from.first;
       face.vertices.assign(first, first + from.size);
+      const auto place = read.places.begin() + from.first;
+      if (std::all_of(place, place + from.size, [](const Vec2& at) { return at.allFinite(); }))
+        face.uv.assign(place, place + from.size);
       face.material = from.material < 0 ? DefaultMaterial() : from.material;
       face.object = from.object;
       scene_.objects[static_cast<std::size_t>(from.object)].faces.push_back(Size(scene_.faces));

@@ -53,6 +53,11 @@ void Transfer(Archive& archive, Vec3& v) {
 }
 
 template <class Archive>
+void Transfer(Archive& archive, Vec2& v) {
+  archive.Raw(v.data(), 2 * sizeof(double));
+}
+
+template <class Archive>
 void Transfer(Archive& archive, Rgb& colour) {
   archive.Raw(colour.data(), 3 * sizeof(double));
 }
@@ -92,6 +97,7 @@ void Transfer(Archive& archive, ForeignScene& scene) {
   Transfer(archive, scene.objects);
   Transfer(archive, scene.materials);
   Transfer(archive, scene.corners);
+  Transfer(archive, scene.places);
   Transfer(archive, scene.faces);
   Transfer(archive, scene.rounding);
   Transfer(archive, scene.lights);
@@ -108,6 +114,8 @@ void CheckIndices(const ForeignScene& scene) {
   const auto in = [](std::int32_t i, const auto& list) {
     return i >= 0 && static_cast<std::size_t>(i) < list.size();
   };
+  if (scene.places.size() != scene.corners.size())
+    throw std::runtime_error("a scene has other numbers of corners and of texture coordinates");
   for (const ForeignFace& face : scene.faces) {
     const bool fine =
         face.size >= 3 && in(face.first, scene.corners) &&

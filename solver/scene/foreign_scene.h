@@ -31,6 +31,8 @@ struct ForeignScene {
   std::vector<std::string> objects;  // names of the objects, all different
   std::vector<ForeignMaterial> materials;
   std::vector<Vec3> corners;  // corners of faces, in the unit and the axes of the file
+  // Texture coordinates of the corners, v upwards, as many as corners; NaN where the file gives none.
+  std::vector<Vec2> places;
   std::vector<ForeignFace> faces;
   Vec3 rounding = Vec3::Zero();     // unit to which coordinates are rounded, for each axis
   std::vector<std::string> lights;  // names of point lights and other lights without an area

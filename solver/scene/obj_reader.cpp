@@ -63,6 +63,7 @@ class ObjParser {
  private:
   void ReadStatement();
   void ReadVertex();
+  void ReadTextureVertex();
   void ReadFace();
   void ReadCorner(std::string_view word);
   void ReadLibraries();
@@ -76,7 +77,9 @@ class ObjParser {
   std::vector<std::int32_t> ResolveMaterials();
   void CheckSize() const;
   void MakeFaces();
+  std::size_t EndOfCorners(std::size_t face) const;
   Polygon3 MakePolygon(std::size_t face) const;
+  std::vector<Vec2> TextureCoordinates(std::size_t face) const;
   void WarnOfStatements();
   // What strict reading refuses.
   void Refuse(int line, std::string_view message) const { assembler_.Refuse(line, message); }
@@ -89,6 +92,8 @@ class ObjParser {
   std::vector<Vec3> vertices_;  // [m], z up
   std::vector<FaceLine> face_lines_;
   std::vector<std::int64_t> corners_;  // of all faces: 0-based vertices
+  std::vector<Vec2> texture_vertices_;
+  std::vector<std::int64_t> texture_corners_;  // of all faces: 0-based texture vertices, negative for none
   std::vector<UsedMaterial> used_;
   std::map<std::string, std::int32_t, std::less<>> used_index_, material_index_, object_index_;
   std::map<std::string, std::string, std::less<>> defined_at_;  // FILE:LINE of each material
@@ -117,7 +122,8 @@ Scene ObjParser::Parse() {
 void ObjParser::ReadStatement() {
   const std::string_view keyword = reader_.Keyword();
   if (keyword == "v") return ReadVertex();
-  if (keyword == "vt" || keyword == "vn") return;
+  if (keyword == "vt") return ReadTextureVertex();
+  if (keyword == "vn") return;
   if (keyword == "f") return ReadFace();
   if (keyword == "o") return EnterObject();
   if (keyword == "g") return EnterGroups();
@@ -150,27 +156,49 @@ void ObjParser::ReadVertex() {
   vertices_.push_back(frame_.Position(vertex));
 }
 
-// True if the text is empty or an integer: numbers of texture vertices and normals, which are not used.
-bool IsUnusedIndex(std::string_view text) {
+// u and perhaps v; what is no number is not a number here either, and no error, since few uses need it.
+void ObjParser::ReadTextureVertex() {
+  Vec2 place(std::numeric_limits<double>::quiet_NaN(), 0);
+  const std::vector<std::string_view> words = reader_.Values();
+  for (std::size_t i = 0; i < std::min<std::size_t>(words.size(), 2); ++i) {
+    double value = 0;
+    const auto [last, error] = std::from_chars(words[i].data(), words[i].data() + words[i].size(), value);
+    const bool fine = error == std::errc() && last == words[i].data() + words[i].size();
+    place[static_cast<Eigen::Index>(i)] = fine ? value : std::numeric_limits<double>::quiet_NaN();
+  }
+  texture_vertices_.push_back(place);
+}
+
+// True if the text is empty or an integer: numbers of texture vertices and normals.
+bool IsIndex(std::string_view text) {
   if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
   return text.find_first_not_of("0123456789") == text.npos;
 }
 
-// v, v/vt, v//vn or v/vt/vn: the vertex goes to the corners.
+// The 0-based number of a texture vertex; negative for none, or one that cannot be.
+std::int64_t TextureIndex(std::string_view text, std::int64_t above) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  std::int64_t index = 0;
+  if (std::from_chars(text.data(), text.data() + text.size(), index).ec != std::errc()) return -1;
+  return index > 0 ? index - 1 : index < 0 ? above + index : -1;
+}
+
+// v, v/vt, v//vn or v/vt/vn: the vertex goes to the corners, the texture vertex to the texture corners.
 void ObjParser::ReadCorner(std::string_view word) {
   const std::size_t end = std::min(word.find('/'), word.size());
-  std::string_view unused = word.substr(end), digits = word.substr(0, end);
+  std::string_view rest = word.substr(end), digits = word.substr(0, end), texture;
   if (digits.starts_with('+')) digits.remove_prefix(1);
   std::int64_t index = 0;
   const auto [last, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
   bool fine = !digits.empty() && error == std::errc() && last == digits.data() + digits.size();
-  for (int part = 0; part < 2 && !unused.empty(); ++part) {
-    unused.remove_prefix(1);
-    const std::size_t stop = std::min(unused.find('/'), unused.size());
-    fine = fine && IsUnusedIndex(unused.substr(0, stop));
-    unused.remove_prefix(stop);
+  for (int part = 0; part < 2 && !rest.empty(); ++part) {
+    rest.remove_prefix(1);
+    const std::size_t stop = std::min(rest.find('/'), rest.size());
+    fine = fine && IsIndex(rest.substr(0, stop));
+    if (part == 0) texture = rest.substr(0, stop);
+    rest.remove_prefix(stop);
   }
-  if (!fine || !unused.empty())
+  if (!fine || !rest.empty())
     throw reader_.Error(Quoted(word) +
                         " is no vertex of a face; write v, v/vt, v//vn or v/vt/vn with integers");
   const std::int64_t above = Size64(vertices_);
@@ -180,6 +208,7 @@ void ObjParser::ReadCorner(std::string_view word) {
     throw reader_.Error("the vertex index " + std::to_string(index) + " is out of range; there are " +
                         std::to_string(above) + " vertices above to count back from -1");
   corners_.push_back(index > 0 ? index - 1 : above + index);
+  texture_corners_.push_back(TextureIndex(texture, Size64(texture_vertices_)));
 }
 
 void ObjParser::ReadFace() {
@@ -344,9 +373,24 @@ void ObjParser::CheckSize() const {
   if (!corners_.empty()) assembler_.CheckSize(low, high);
 }
 
+std::size_t ObjParser::EndOfCorners(std::size_t face) const {
+  return face + 1 < face_lines_.size() ? face_lines_[face + 1].first : corners_.size();
+}
+
+// The texture coordinates of a face's corners; none if one is missing.
+std::vector<Vec2> ObjParser::TextureCoordinates(std::size_t face) const {
+  std::vector<Vec2> places;
+  for (std::size_t i = face_lines_[face].first; i < EndOfCorners(face); ++i) {
+    const std::int64_t index = texture_corners_[i];
+    if (index < 0 || index >= Size64(texture_vertices_) || !texture_vertices_[index].allFinite()) return {};
+    places.push_back(texture_vertices_[index]);
+  }
+  return places;
+}
+
 // The vertices of a face, looked up. Throws InputError if one is not there.
 Polygon3 ObjParser::MakePolygon(std::size_t face) const {
-  const std::size_t end = face + 1 < face_lines_.size() ? face_lines_[face + 1].first : corners_.size();
+  const std::size_t end = EndOfCorners(face);
   Polygon3 polygon;
   polygon.reserve(end - face_lines_[face].first);
   for (std::size_t i = face_lines_[face].first; i < end; ++i) {
@@ -370,6 +414,7 @@ void ObjParser::MakeFaces() {
     const FaceLine& line = face_lines_[i];
     Face face;
     face.vertices = MakePolygon(i);
+    face.uv = TextureCoordinates(i);
     face.object = line.object;
     const std::int32_t material = line.material < 0 ? -1 : materials[line.material];
     if (material < 0 && without < 0) {

@@ -1,8 +1,8 @@
 // solver/scene/obj_reader.h
 //
 // Reads Wavefront OBJ files with MTL material libraries: polygons with any number of vertices, objects,
-// groups and materials. Decimal numbers are converted to the nearest binary64 numbers. Texture coordinates,
-// normals, smoothing groups, lines and points in OBJ files are ignored.
+// groups and materials. Decimal numbers are converted to the nearest binary64 numbers. Texture
+// coordinates are kept (Face::uv). Normals, smoothing groups, lines and points in OBJ files are ignored.
 
 #pragma once
 

@@ -43,6 +43,9 @@ struct Face {
   Polygon3 vertices;          // vertices as given; empty if the face was dropped
   std::int32_t material = 0;  // index in Scene::materials
   std::int32_t object = 0;    // index in Scene::objects
+  // Texture coordinates of the vertices, in the order of the vertices: u to the right and v upwards, with the
+  // picture between 0 and 1. Empty if the file gives no texture coordinates for the face.
+  std::vector<Vec2> uv = {};
 };
 
 // A named group of faces: an OBJ object or group.

@@ -19,6 +19,17 @@ namespace {
 // digits [m].
 constexpr double kSmallestScene = 1e-36;
 
+// The texture coordinates of the vertices that are left of a polygon from which vertices were removed.
+std::vector<Vec2> CoordinatesLeft(const Polygon3& given, const std::vector<Vec2>& uv, const Polygon3& left) {
+  std::vector<Vec2> kept;
+  std::size_t i = 0;
+  for (const Vec3& vertex : left) {
+    while (given[i] != vertex) ++i;
+    kept.push_back(uv[i++]);
+  }
+  return kept;
+}
+
 // Three digits of a length or a share, for messages.
 std::string ShortNumber(double value) { return fmt::format("{:.3g}", value); }
 
@@ -83,7 +94,9 @@ void SceneAssembler::Check(Polygon3& polygon, int line) {
 }
 
 void SceneAssembler::Add(Face face, int line) {
+  const Polygon3 given = face.uv.empty() ? Polygon3() : face.vertices;
   Check(face.vertices, line);
+  if (!face.uv.empty()) face.uv = CoordinatesLeft(given, face.uv, face.vertices);
   scene_.faces.push_back(std::move(face));
   lines_.push_back(line);
 }
@@ -93,6 +106,7 @@ void SceneAssembler::AddBacks() {
   for (std::int32_t i = 0; i < count; ++i) {
     Face back = scene_.faces[static_cast<std::size_t>(i)];
     std::reverse(back.vertices.begin(), back.vertices.end());
+    back.uv.clear();  // a place on a picture belongs to one side
     scene_.faces.push_back(std::move(back));
   }
   for (Object& object : scene_.objects) {
@@ -129,7 +143,10 @@ void SceneAssembler::WarnOfRepairs() {
 
 void SceneAssembler::Finish(const Vec3& coordinate_step) {
   if (options_.flip)
-    for (Face& face : scene_.faces) std::reverse(face.vertices.begin(), face.vertices.end());
+    for (Face& face : scene_.faces) {
+      std::reverse(face.vertices.begin(), face.vertices.end());
+      std::reverse(face.uv.begin(), face.uv.end());
+    }
   if (options_.two_sided) AddBacks();
   WarnOfRepairs();
   if (options_.change_materials) options_.change_materials(scene_.materials);

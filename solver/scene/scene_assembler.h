@@ -47,10 +47,11 @@ class SceneAssembler {
   // added. Unless SetRounding() is called, differences of vertices count as free of rounding errors.
   void SetRounding(double rounding) { rounding_ = rounding; }
 
-  // Appends the face to scene.faces. Repeated vertices of the face are removed; a face without area keeps its
-  // index but loses its vertices. `line` is the line of the face in the file; 0 if the file has no lines.
-  // Throws InputError if the face crosses itself or is far from planar. If SceneOptions::strict is set, Add()
-  // also throws InputError if the face needs a repair. The caller must add the face to Object::faces.
+  // Appends the face to scene.faces. Repeated vertices of the face are removed, with their texture
+  // coordinates; a face without area keeps its index but loses its vertices. `line` is the line of the face
+  // in the file; 0 if the file has no lines. Throws InputError if the face crosses itself or is far from
+  // planar. If SceneOptions::strict is set, Add() also throws InputError if the face needs a repair. The
+  // caller must add the face to Object::faces.
   void Add(Face face, int line);
 
   // Completes the scene after the last call of Add(). Finish() reverses the faces (SceneOptions::flip), adds

@@ -156,6 +156,29 @@ TEST(Export, MapCoordinatesKeepTheirDigits) {
              Vec3(at[0].get<double>(), -at[2].get<double>(), at[1].get<double>()));
 }
 
+// Maps by the scene's own texture coordinates: two squares that face each other lie side by side, and a
+// solution file keeps the coordinates.
+TEST(Export, MapsByTheSceneOwnTextureCoordinates) {
+  const Sandbox sandbox;
+  sandbox.Write("a.obj",
+                "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                "vt 0 0\nvt 0.5 0\nvt 0.5 1\nvt 0 1\nvt 1 0\nvt 1 1\n"
+                "usemtl lamp\nf 1/1 2/2 3/3 4/4\nusemtl grey\nf 5/2 8/5 7/6 6/3\n");
+  sandbox.Write("a.mtl", "newmtl lamp\nKd 0 0 0\nKe 1 1 1\nnewmtl grey\nKd 0.5 0.5 0.5\n");
+  ASSERT_EQ(sandbox.Run({"solve", "a.obj", "--error", "0.1", "-o", "a.h5"}).status, 0);
+  for (const char* scene : {"a.obj", "a.h5"}) {
+    const Outcome outcome = sandbox.Run({"export", scene, "--error", "0.1", "-o", std::string(scene) + ".exr",
+                                         "--atlas", "64", "--uv", "scene"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  }
+  EXPECT_EQ(ReadBytes(sandbox.Path("a.obj.exr")), ReadBytes(sandbox.Path("a.h5.exr")));
+  const RgbImage map = ReadExr(sandbox.Path("a.obj.exr"));
+  // The lamp receives a twelfth or so of what it sends; the grey square is lit most in the middle.
+  EXPECT_GT(map.At(48, 32).x, map.At(33, 1).x);
+  EXPECT_GT(map.At(33, 1).x, map.At(16, 32).x);
+  ASSERT_EQ(sandbox.Run({"export", "a.h5", "-o", "a.glb", "--atlas", "64", "--uv", "scene"}).status, 0);
+}
+
 // What cannot be written is bad usage, and nothing is written.
 TEST(Export, RefusesOtherEndings) {
   const Sandbox sandbox;
@@ -165,6 +188,9 @@ TEST(Export, RefusesOtherEndings) {
   EXPECT_EQ(sandbox.Run({"export", "furnace", "-o", "a.exr"}).status, 2);
   EXPECT_EQ(sandbox.Run({"export", "furnace", "-o", "a.vtu", "--atlas", "64"}).status, 2);
   EXPECT_EQ(sandbox.Run({"export", "furnace", "-o", "a.exr", "--atlas", "64", "--exposure", "1"}).status, 2);
+  EXPECT_EQ(sandbox.Run({"export", "furnace", "-o", "a.ply", "--uv", "scene"}).status, 2);
+  EXPECT_THAT(sandbox.Run({"export", "furnace", "-o", "a.exr", "--atlas", "64", "--uv", "scene"}).err,
+              HasSubstr("no texture coordinates"));
   EXPECT_EQ(sandbox.Run({"export", "furnace", "-o", "a.ply", "--eye", "1,1,1"}).status, 2);
   EXPECT_EQ(sandbox.Run({"export", "furnace", "-o", "nowhere/a.ply"}).status, 1);
   EXPECT_EQ(sandbox.Run({"diff", "a.exr"}).status, 2);

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+
 #include "display/atlas/atlas_files.h"
 #include "display/atlas/light_atlas.h"
 #include "solver/base/check.h"
@@ -79,6 +82,95 @@ TEST(LightAtlas, ChartsDoNotLeak) {
       }
     }
   }
+}
+
+// Gives each patch of the room a face with texture coordinates in a cell of its own of a grid, turned.
+void GiveTextureCoordinates(Scene* scene) {
+  constexpr int kCells = 7;
+  constexpr double kTurned = 0.4, kSide = 0.55;
+  for (std::size_t p = 0; p < scene->patches.size(); ++p) {
+    Patch& patch = scene->patches[p];
+    patch.faces = {static_cast<std::int32_t>(p)};
+    Face& face = scene->faces.emplace_back();
+    face.vertices.assign(patch.Vertices().begin(), patch.Vertices().end());
+    const Vec2 cell(static_cast<double>(p % kCells), static_cast<double>(p / kCells));
+    const std::array<Vec2, 4> unit = {Vec2(0, 0), Vec2(kSide, 0), Vec2(kSide, kSide), Vec2(0, kSide)};
+    for (const Vec2& at : unit)
+      face.uv.push_back((cell + Vec2(0.35, 0.1) + Eigen::Rotation2Dd(kTurned) * at) /
+                        static_cast<double>(kCells));
+  }
+}
+
+// By the scene's own texture coordinates, a pixel whose centre lies on a face has the light of the face at
+// the place that the coordinates tell; padding around has the light of the nearest place; the rest is dark.
+TEST(LightAtlas, FollowsTheTextureCoordinatesOfTheScene) {
+  constexpr int kSize = 700;
+  SyntheticScene room = MakeRoom(2);
+  GiveTextureCoordinates(&room.scene);
+  const LightAtlas atlas = MakeLightAtlas(room.scene, room.mesh, kSize, AtlasPlaces::kScene);
+  double worst = 0;
+  std::size_t inside = 0, padding = 0;
+  for (std::size_t f = 0; f < room.scene.faces.size(); ++f) {
+    const Face& face = room.scene.faces[f];
+    // Faces are parallelograms, so that the map from texture coordinates to places is affine.
+    Eigen::Matrix2d axes;
+    axes << face.uv[1] - face.uv[0], face.uv[3] - face.uv[0];
+    const Eigen::Matrix2d inverse = axes.inverse();
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) {
+        const std::size_t i = atlas.irradiance.Index(x, y);
+        const Vec2 st = inverse * (Vec2((x + 0.5) / kSize, 1 - (y + 0.5) / kSize) - face.uv[0]);
+        if ((st.array() < 0).any() || (st.array() > 1).any()) {
+          padding += atlas.patch[i] == static_cast<PatchId>(f) ? 1 : 0;
+          continue;
+        }
+        ++inside;
+        ASSERT_EQ(atlas.patch[i], static_cast<PatchId>(f));
+        const Vec3 point = face.vertices[0] + st.x() * (face.vertices[1] - face.vertices[0]) +
+                           st.y() * (face.vertices[3] - face.vertices[0]);
+        const Rgb field = QuadraticField(point, room.scene.patches[f].normal);
+        worst = std::max(worst, std::abs(static_cast<double>(atlas.irradiance.channel[0][i]) / field[0] - 1));
+      }
+  }
+  std::cout << "largest relative error " << worst << " at " << inside << " pixels\n";
+  EXPECT_LT(worst, 1e-6);  // the precision of floats
+  EXPECT_GT(inside, std::size_t{kSize * kSize / 8});
+  EXPECT_GT(padding, inside / 10);
+  EXPECT_EQ(std::count(atlas.patch.begin(), atlas.patch.end(), kNoPatch),
+            static_cast<std::ptrdiff_t>(kSize * kSize - inside - padding));
+}
+
+// What texture coordinates cannot do is told: a face without them, tiles beyond the picture, and faces that
+// share pixels. The backs of two-sided faces need none.
+TEST(LightAtlas, RefusesTextureCoordinatesThatAreNoMap) {
+  const auto message = [](const auto& change) -> std::string {
+    SyntheticScene room = MakeRoom(1);
+    GiveTextureCoordinates(&room.scene);
+    change(room.scene);
+    try {
+      MakeLightAtlas(room.scene, room.mesh, 256, AtlasPlaces::kScene);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  using testing::HasSubstr;
+  EXPECT_EQ(message([](Scene&) {}), "");
+  EXPECT_THAT(message([](Scene& scene) { scene.faces[3].uv.clear(); }),
+              HasSubstr("face 3 (counted from 0) has no texture coordinates"));
+  EXPECT_THAT(message([](Scene& scene) { scene.faces[4].uv[1].x() += 1; }), HasSubstr("outside of 0 to 1"));
+  EXPECT_THAT(message([](Scene& scene) { scene.faces[5].uv = scene.faces[4].uv; }),
+              HasSubstr("faces 4 and 5 (counted from 0) overlap"));
+  EXPECT_EQ(message([](Scene& scene) {
+              const std::size_t count = scene.faces.size();
+              for (std::size_t f = 0; f < count; ++f) {
+                Face back = scene.faces[f];
+                std::reverse(back.vertices.begin(), back.vertices.end());
+                back.uv.clear();
+                scene.faces.push_back(std::move(back));
+              }
+            }),
+            "");
 }
 
 // Where the charts' borders have no room, the message tells a size that has.

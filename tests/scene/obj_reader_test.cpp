@@ -143,6 +143,30 @@ TEST(ObjReader, TwoSidedRepeatsFacesReversed) {
   EXPECT_THAT(scene.warnings, testing::Contains(StartsWith("dir/scene.obj:8: warning: 1 face cut")));
 }
 
+// Texture coordinates stay with their vertices: through repeated vertices, numbers from the end and reversed
+// faces. A face has none if one of its corners has none, or one that is no number.
+TEST(ObjReader, TextureCoordinatesStayWithTheirVertices) {
+  const std::string text = std::string(kSquare) +
+                           "vt 0 0\nvt 1 0 0.5\nvt 1 1\nvt 0.25\nvt x 1\n"
+                           "f 1/1 2/2 2/3 3/3/ 4/4/1\n"  // the second of two equal vertices goes
+                           "f 1/-5 2/-4 3/-3 4/-2\n"
+                           "f 1/1 2/2 3/3 4\n"
+                           "f 1/1 2/2 3/3 4/5\n"
+                           "f 1/1 2/2 3/3 4/9\n"
+                           "f 1//1 2//1 3//1\n";
+  const std::vector<Vec2> square = {{0, 0}, {1, 0}, {1, 1}, {0.25, 0}};
+  const Scene scene = Read(text);
+  EXPECT_EQ(scene.faces[0].uv, square);
+  EXPECT_EQ(scene.faces[1].uv, square);
+  for (std::size_t f = 2; f < 6; ++f) EXPECT_THAT(scene.faces[f].uv, IsEmpty());
+  SceneOptions flip, two_sided;
+  flip.flip = two_sided.two_sided = true;
+  EXPECT_EQ(Read(text, flip).faces[0].uv, (std::vector<Vec2>(square.rbegin(), square.rend())));
+  const Scene both = Read(text, two_sided);
+  EXPECT_EQ(both.faces[0].uv, square);
+  EXPECT_THAT(both.faces[6].uv, IsEmpty());
+}
+
 TEST(ObjReader, RepairsAreCountedAndNumbersKept) {
   // Repeated vertices and flat faces are mended or dropped with one warning a kind; a dropped face keeps its
   // number.
