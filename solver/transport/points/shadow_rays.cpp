@@ -29,8 +29,8 @@ constexpr double kIfHidden = 1.0 / 8;
 constexpr double kRaysIfAlone = 4;
 // A region does not look for a luminaire that sends none of its points this times the light of all.
 constexpr double kNotLookedFor = 1e-3;
-// Fewer rays that all miss a luminaire do not tell that it is hidden: a luminaire of which a region sees a fifth
-// is missed by 12 rays in 7 of 100 cases.
+// Fewer rays that all miss a luminaire do not tell that it is hidden: a luminaire of which a region sees a
+// fifth is missed by 12 rays in 7 of 100 cases.
 constexpr std::size_t kLeastLooks = 12;
 // With fewer luminaires, looking for them does not pay.
 constexpr std::size_t kFewLuminaires = 16;
@@ -166,9 +166,10 @@ void ShadowRays::FindHidden(std::span<const ReceiverPoint> points, std::span<std
 }
 
 // Lists the luminaires that may light a point of the group, in descending order of light.
-void ShadowRays::FindSeen(Group& group, std::vector<Seen>& seen) const {
+void ShadowRays::FindSeen(Group& group, bool trusts_region, std::vector<Seen>& seen) const {
   std::array<HiddenLuminaires::Bits, kTogether> hidden;
-  for (std::size_t p = 0; p < group.size(); ++p) hidden[p] = hidden_.At(group.at[p]);
+  for (std::size_t p = 0; p < group.size(); ++p)
+    if (trusts_region) hidden[p] = hidden_.At(group.at[p]);
   const auto is_hidden = [&](std::size_t luminaire) {
     for (std::size_t p = 0; p < group.size(); ++p)
       if (!HiddenLuminaires::Has(hidden[p], luminaire)) return false;
@@ -367,7 +368,10 @@ void ShadowRays::AtAll(std::span<const ReceiverPoint> points, const ShadowRayEff
   }
   const Scratch<std::vector<Seen>> scratch;
   std::vector<Seen>& seen = *scratch;
-  FindSeen(group, seen);
+  // Exact visibility is asked for where each point counts: a hit on a luminaire that its region does not see
+  // would stand for many rays.
+  const bool is_exact = effort.rays_if_hidden == 0 && std::isfinite(effort.closer_above);
+  FindSeen(group, !is_exact, seen);
   Values rest = group.unoccluded;
   const auto is_strong = [&](const Seen& s) {
     for (std::size_t p = 0; p < points.size(); ++p)

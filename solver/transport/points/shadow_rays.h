@@ -57,9 +57,10 @@ class ShadowRays {
   ShadowRays(const Scene& scene, const RayCaster& caster, std::span<const BrightReflector> reflectors = {});
 
   // Finds out which luminaires the surfaces around the given points do not see. A point in a region (cube of
-  // the given side [m]) then sends fewer rays to the luminaires that no given point in this region sees. The
-  // expected value of the light is the same with and without Learn(). The given points are spread over all
-  // surfaces, many in each region. Learn() does nothing if the scene has few luminaires.
+  // the given side [m]) then sends fewer rays to the luminaires that no given point in this region sees,
+  // unless exact visibility is asked for (rays_if_hidden is 0 and closer_above is finite). The expected value
+  // of the light is the same with and without Learn(). The given points are spread over all surfaces, many in
+  // each region. Learn() does nothing if the scene has few luminaires.
   void Learn(std::span<const ReceiverPoint> points, double side);
 
   // The largest number of points in one call of AtAll().
@@ -112,7 +113,7 @@ class ShadowRays {
   double Estimate(const ReceiverPoint& at, const Luminaire& luminaire) const;
   bool Sees(const ReceiverPoint& at, const Luminaire& luminaire, std::size_t ray) const;
   void FindHidden(std::span<const ReceiverPoint> points, std::span<std::uint64_t> hidden) const;
-  void FindSeen(Group& group, std::vector<Seen>& seen) const;
+  void FindSeen(Group& group, bool trusts_region, std::vector<Seen>& seen) const;
   void AddPlace(const Group& group, std::uint32_t which, const Luminaire& luminaire, const Vec3& to,
                 RaySums& sums) const;
   RaySums CastRays(const Group& group, std::uint32_t which, const Luminaire& luminaire,
