@@ -33,6 +33,7 @@
 #include "display/viewer/window.h"
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
+#include "solver/base/processes.h"
 
 namespace penumbra {
 namespace {
@@ -273,6 +274,8 @@ viewer::ViewerFiles FilesOf(ViewedScene& viewed) {
 }
 
 void View(ViewArguments arguments) {
+  if (ProcessCount() > 1)
+    throw UsageError("one process shows the window; start `penumbra view` without mpirun");
   std::optional<viewer::Script> script;
   if (arguments.script) script = viewer::ReadScript(*arguments.script);
   const PipelineOptions solving = arguments.scene.solving;  // as they are without --restart

@@ -12,6 +12,7 @@
 
 #include "apps/commands.h"
 #include "apps/messages.h"
+#include "apps/mpi_processes.h"
 #include "apps/output.h"
 #include "apps/unknown_words.h"
 #include "apps/version.h"
@@ -86,6 +87,9 @@ int Main(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   penumbra::PrepareStreams();
-  const int status = penumbra::Main(argc, argv);
-  return penumbra::OutputArrived() || status != 0 ? status : penumbra::kInputStatus;
+  penumbra::MpiSession session(&argc, &argv);
+  int status = penumbra::Main(argc, argv);
+  if (!penumbra::OutputArrived() && status == 0) status = penumbra::kInputStatus;
+  session.Finish(status);
+  return status;
 }

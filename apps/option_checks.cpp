@@ -7,6 +7,7 @@
 
 #include "apps/commands.h"
 #include "mesh/pipeline/option_table.h"
+#include "solver/base/processes.h"
 #include "solver/visibility/exact/occlusion_methods.h"
 
 namespace penumbra {
@@ -46,6 +47,10 @@ void CheckOptions(const SceneArguments& arguments) {
           "leave one of them out",
           other));
   CheckOcclusion(solving);
+  if (ProcessCount() > 1 && (solving.time_limit || solving.memory_limit))
+    throw UsageError(
+        "a limit of time or memory would end each of several processes at another moment; leave it out, or "
+        "start one process");
   if (IsGiven(arguments, "--source-error") && solving.max_corrections == 0)
     throw UsageError(
         "--source-error cuts sources for corrections, and --corrections 0 makes none; leave one out");

@@ -9,9 +9,10 @@
 #include <utility>
 
 #include "solver/base/check.h"
-#include "solver/base/parallel.h"
+#include "solver/base/processes.h"
 #include "solver/geometry/polygon.h"
 #include "solver/geometry/polygon_distance.h"
+#include "solver/geometry/vec_bytes.h"
 
 namespace penumbra {
 namespace {
@@ -92,12 +93,28 @@ Measurement Prober::MeasureAt(const ProbePoint& point) const {
   return measurement;
 }
 
+// What a process has measured; the point is known to all.
+template <class Archive>
+void Transfer(Archive& archive, Measurement& measurement) {
+  Transfer(archive, measurement.footing.face);
+  Transfer(archive, measurement.footing.patch);
+  Transfer(archive, measurement.exact);
+  Transfer(archive, measurement.direct);
+  archive.Raw(measurement.gradient.data(),
+              sizeof(double) * static_cast<std::size_t>(measurement.gradient.size()));
+  Transfer(archive, measurement.interpolated);
+  Transfer(archive, measurement.place);
+  Transfer(archive, measurement.sound);
+}
+
 std::vector<Measurement> Prober::Measure(const std::vector<ProbePoint>& points,
                                          const ExecutionContext& context) const {
   std::vector<Measurement> measurements(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) measurements[i].point = points[i];
   for (std::size_t begin = 0; begin < points.size() && !context.Cancelled(); begin += kBatch) {
     const std::size_t count = std::min(kBatch, points.size() - begin);
-    ParallelFor(count, 8, [&](std::size_t i) { measurements[begin + i] = MeasureAt(points[begin + i]); });
+    DealOut(std::span(measurements).subspan(begin, count), 8,
+            [&](std::size_t i) { measurements[begin + i] = MeasureAt(points[begin + i]); });
     context.Report("probe", static_cast<double>(begin + count) / static_cast<double>(points.size()));
   }
   return measurements;

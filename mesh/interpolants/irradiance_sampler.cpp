@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "solver/base/check.h"
-#include "solver/base/parallel.h"
+#include "solver/base/processes.h"
+#include "solver/transport/points/sample_bytes.h"
 
 namespace penumbra {
 
@@ -15,8 +16,7 @@ void IrradianceSampler::SampleAll(std::span<const PatchPoint> points,
     return;
   }
   constexpr std::size_t kPointsATask = 16;
-  ParallelFor(points.size(), kPointsATask,
-              [&](std::size_t i) { results[i] = one_(points[i].patch, points[i].at); });
+  DealOut(results, kPointsATask, [&](std::size_t i) { results[i] = one_(points[i].patch, points[i].at); });
 }
 
 IrradianceSampler IrradianceSampler::OfMany(Many many) {

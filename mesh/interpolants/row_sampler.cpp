@@ -4,6 +4,8 @@
 
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
+#include "solver/base/processes.h"
+#include "solver/transport/points/sample_bytes.h"
 
 namespace penumbra {
 namespace {
@@ -19,19 +21,23 @@ RowSampler::RowSampler(const PointIrradiance& exact, double tolerance, SampleCac
 
 std::vector<PointIrradianceResult> RowSampler::At(std::span<const PatchPoint> points) const {
   std::vector<PointIrradianceResult> results(points.size());
-  std::vector<char> is_new(points.size(), 0);
-  ParallelFor(points.size(), kRowsATask, [&](std::size_t i) {
-    const auto& [patch, at] = points[i];
-    const PointIrradianceResult* known = rows_ ? rows_->Find(patch, at) : nullptr;
-    if (known && known->row) {
+  std::vector<std::size_t> without_row, is_new;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const PointIrradianceResult* known = rows_ ? rows_->Find(points[i].patch, points[i].at) : nullptr;
+    if (known && known->row)
       results[i] = *known;
-      return;
-    }
-    results[i] = exact_.RecordOnPatch(patch, at, tolerance_);
-    is_new[i] = known ? 0 : 1;
-  });
-  for (std::size_t i = 0; keep_ && i < points.size(); ++i)
-    if (is_new[i]) rows_->Insert(points[i].patch, points[i].at, results[i]);
+    else
+      without_row.push_back(i);
+    if (!known) is_new.push_back(i);
+  }
+  const auto compute = [&](std::size_t k) {
+    const PatchPoint& point = points[without_row[k]];
+    results[without_row[k]] = exact_.RecordOnPatch(point.patch, point.at, tolerance_);
+  };
+  const auto transfer = [&](std::size_t k, auto& archive) { Transfer(archive, results[without_row[k]]); };
+  DealOut({without_row.size(), kRowsATask, compute, transfer, transfer});
+  if (keep_)
+    for (const std::size_t i : is_new) rows_->Insert(points[i].patch, points[i].at, results[i]);
   return results;
 }
 

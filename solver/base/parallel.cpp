@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "solver/base/check.h"
+#include "solver/base/running_loops.h"
 
 #ifndef PENUMBRA_STD_THREADS
 #include <tbb/blocked_range.h>
@@ -27,6 +28,15 @@ namespace {
 int HardwareThreads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 std::atomic<int> thread_count{0};
+std::atomic<int> loops_running{0};
+
+class CountedLoop {
+ public:
+  CountedLoop() { ++loops_running; }
+  ~CountedLoop() { --loops_running; }
+  CountedLoop(const CountedLoop&) = delete;
+  CountedLoop& operator=(const CountedLoop&) = delete;
+};
 
 #ifdef PENUMBRA_STD_THREADS
 // Plain threads that take chunk after chunk: nothing here that the thread sanitizer cannot see into.
@@ -126,9 +136,12 @@ int ThreadCount() {
   return threads > 0 ? threads : HardwareThreads();
 }
 
+bool LoopIsRunning() { return loops_running > 0; }
+
 void ParallelForChunks(std::size_t count, std::size_t grain,
                        const std::function<void(std::size_t begin, std::size_t end)>& body) {
   PENUMBRA_CHECK(grain > 0);
+  const CountedLoop counted;
   const std::size_t chunks = (count + grain - 1) / grain;
   const auto run = [&](std::size_t chunk) { body(chunk * grain, std::min(count, (chunk + 1) * grain)); };
   const int threads =

@@ -9,6 +9,9 @@
 #include <cstring>
 #include <limits>
 #include <new>
+#include <utility>
+
+#include "solver/base/processes.h"
 
 namespace penumbra {
 namespace {
@@ -87,7 +90,10 @@ std::string ReadFileBytes(const std::string& path) {
 }
 
 std::string ReadStandardInput() {
-  return ReadUpTo(OpenFile(dup(STDIN_FILENO)), std::numeric_limits<std::size_t>::max());
+  std::string read;
+  if (ProcessRank() == 0)
+    read = ReadUpTo(OpenFile(dup(STDIN_FILENO)), std::numeric_limits<std::size_t>::max());
+  return FromFirstProcess(std::move(read));
 }
 
 std::string ReadFileStart(const std::string& path, std::size_t count) {

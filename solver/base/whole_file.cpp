@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "solver/base/check.h"
+#include "solver/base/processes.h"
 
 namespace penumbra {
 namespace {
@@ -120,6 +121,7 @@ bool IsDevice(const std::string& path) {
 }
 
 void CheckCanWrite(const std::string& path) {
+  if (ProcessRank() > 0) return;  // the first process writes for all
   if (IsDevice(path)) {
     if (access(path.c_str(), W_OK) != 0) FailToWrite(path, std::strerror(errno));
   } else {
@@ -133,6 +135,7 @@ void WriteWholeFile(const std::string& path, std::string_view bytes) {
 }
 
 void WriteWholeFiles(std::span<const FileToWrite> files) {
+  if (ProcessRank() > 0) return;
   std::vector<Staged> staged;
   for (const FileToWrite& file : files) {
     if (IsDevice(file.path)) {

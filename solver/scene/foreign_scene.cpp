@@ -1,72 +1,11 @@
 #include "solver/scene/foreign_scene.h"
 
-#include <cstring>
 #include <stdexcept>
-#include <type_traits>
+
+#include "solver/geometry/vec_bytes.h"
 
 namespace penumbra {
 namespace {
-
-// Both archives visit the members of a scene in the same order, one to append them to bytes, the other to
-// take them from bytes.
-class BytesWriter {
- public:
-  void Raw(const void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
-  std::size_t Count(std::size_t count) {
-    Raw(&count, sizeof count);
-    return count;
-  }
-  std::string Take() { return std::move(bytes_); }
-
- private:
-  std::string bytes_;
-};
-
-class BytesReader {
- public:
-  explicit BytesReader(std::string_view bytes) : rest_(bytes) {}
-
-  void Raw(void* data, std::size_t size) {
-    if (size > rest_.size()) throw std::runtime_error("the bytes of a scene end early");
-    if (size > 0) std::memcpy(data, rest_.data(), size);
-    rest_.remove_prefix(size);
-  }
-  // Every element takes at least a byte, so that a false count does not take much memory.
-  std::size_t Count(std::size_t) {
-    std::size_t count = 0;
-    Raw(&count, sizeof count);
-    if (count > rest_.size()) throw std::runtime_error("the bytes of a scene hold a false count");
-    return count;
-  }
-
- private:
-  std::string_view rest_;
-};
-
-template <class Archive, class Number>
-requires std::is_arithmetic_v<Number>
-void Transfer(Archive& archive, Number& number) { archive.Raw(&number, sizeof number); }
-
-template <class Archive>
-void Transfer(Archive& archive, Vec3& v) {
-  archive.Raw(v.data(), 3 * sizeof(double));
-}
-
-template <class Archive>
-void Transfer(Archive& archive, Vec2& v) {
-  archive.Raw(v.data(), 2 * sizeof(double));
-}
-
-template <class Archive>
-void Transfer(Archive& archive, Rgb& colour) {
-  archive.Raw(colour.data(), 3 * sizeof(double));
-}
-
-template <class Archive>
-void Transfer(Archive& archive, std::string& text) {
-  text.resize(archive.Count(text.size()));
-  archive.Raw(text.data(), text.size());
-}
 
 template <class Archive>
 void Transfer(Archive& archive, ForeignMaterial& material) {
@@ -128,14 +67,14 @@ void CheckIndices(const ForeignScene& scene) {
 }  // namespace
 
 std::string EncodeForeignScene(const ForeignScene& scene) {
-  BytesWriter writer;
+  ByteWriter writer;
   ForeignScene copy = scene;
   Transfer(writer, copy);
   return writer.Take();
 }
 
 ForeignScene DecodeForeignScene(std::string_view bytes) {
-  BytesReader reader(bytes);
+  ByteReader reader(bytes);
   ForeignScene scene;
   Transfer(reader, scene);
   CheckIndices(scene);

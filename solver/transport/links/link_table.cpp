@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "solver/base/parallel.h"
+#include "solver/base/processes.h"
+#include "solver/geometry/vec_bytes.h"
 
 namespace penumbra {
 namespace {
@@ -16,10 +17,15 @@ std::vector<LinkSet> FormLinkGroups(const ElementForest& forest, std::span<const
                                     const LinkFormFactorMethod& form_factors,
                                     const ExecutionContext& context) {
   std::vector<LinkSet> formed(groups.size());
-  ParallelFor(groups.size(), kLinkGrain, [&](std::size_t g) {
+  const auto compute = [&](std::size_t g) {
     if (!context.Cancelled())
       formed[g] = FormLinks(forest, groups[g].receiver, groups[g].candidates, form_factors, context);
-  });
+  };
+  const auto transfer = [&](std::size_t g, auto& archive) {
+    TransferPlain(archive, formed[g].links);
+    TransferPlain(archive, formed[g].blockers);
+  };
+  DealOut({groups.size(), kLinkGrain, compute, transfer, transfer});
   return formed;
 }
 

@@ -10,10 +10,12 @@
 
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
+#include "solver/base/processes.h"
 #include "solver/base/scratch.h"
 #include "solver/transport/links/solution.h"
 #include "solver/transport/points/gathering.h"
 #include "solver/transport/points/neighbour_groups.h"
+#include "solver/transport/points/sample_bytes.h"
 #include "solver/visibility/exact/backprojection.h"
 #include "solver/visibility/point/form_factor.h"
 #include "solver/visibility/point/point_view.h"
@@ -219,7 +221,7 @@ void PointIrradiance::SampleTogether(std::span<const PatchPoint> points,
   for (const PatchPoint& point : points) receivers.push_back(point.at);
   const std::vector<std::vector<std::size_t>> groups = GroupNeighbours(receivers, FinalGather::kTogether);
   constexpr std::size_t kGroupsATask = 4;
-  ParallelFor(groups.size(), kGroupsATask, [&](std::size_t g) {
+  const auto compute = [&](std::size_t g) {
     std::array<ReceiverPoint, FinalGather::kTogether> at;
     std::array<Rgb, FinalGather::kTogether> irradiance;
     const std::size_t count = groups[g].size();
@@ -229,7 +231,11 @@ void PointIrradiance::SampleTogether(std::span<const PatchPoint> points,
     const std::uint32_t one_sided = gather_->AreOneSided(together);
     for (std::size_t k = 0; k < count; ++k)
       results[groups[g][k]] = {irradiance[k], (one_sided >> k & 1) != 0, nullptr};
-  });
+  };
+  const auto transfer = [&](std::size_t g, auto& archive) {
+    for (const std::size_t k : groups[g]) Transfer(archive, results[k]);
+  };
+  DealOut({groups.size(), kGroupsATask, compute, transfer, transfer});
 }
 
 PointIrradianceResult PointIrradiance::RecordOnPatch(PatchId patch, const ReceiverPoint& given,

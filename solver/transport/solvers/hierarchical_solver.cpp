@@ -7,7 +7,9 @@
 
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
+#include "solver/base/processes.h"
 #include "solver/base/stopwatch.h"
+#include "solver/geometry/vec_bytes.h"
 #include "solver/transport/points/leaf_cells.h"
 #include "solver/transport/points/point_irradiance.h"
 #include "solver/transport/sources/error_floors.h"
@@ -315,11 +317,17 @@ std::optional<double> HierarchicalSolver::AddExact(LeafSampling sampling, const 
   if (!seen) return std::nullopt;
   const PointIrradiance irradiance(solution, visibility_, HowToSample(), seen);
   std::vector<LeafIrradiance> exact(leaves.size());
-  ParallelFor(leaves.size(), kExactGrain, [&](std::size_t i) {
+  const auto compute = [&](std::size_t i) {
     if (!context.Cancelled())
       exact[i] =
           ExactLeafIrradiance(solution, irradiance, leaves[i], sampling, options_.correction_tolerance);
-  });
+  };
+  const auto transfer = [&](std::size_t i, auto& archive) {
+    Transfer(archive, exact[i].mean);
+    exact[i].fragments.resize(archive.Count(exact[i].fragments.size()));
+    for (Rgb& fragment : exact[i].fragments) Transfer(archive, fragment);
+  };
+  DealOut({leaves.size(), kExactGrain, compute, transfer, transfer});
   if (context.Cancelled()) return std::nullopt;
 
   correction_.of_element.resize(solution.forest.size(), Rgb::Zero());

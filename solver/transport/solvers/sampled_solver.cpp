@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "solver/base/parallel.h"
+#include "solver/base/processes.h"
 #include "solver/base/stopwatch.h"
+#include "solver/geometry/vec_bytes.h"
 #include "solver/scene/surface_points.h"
 #include "solver/transport/links/element_locator.h"
 #include "solver/transport/links/fragment_locator.h"
@@ -153,10 +155,19 @@ bool SampledSolver::MustDivide(ElementId id, const Limits& limits, double least_
   return (varies > 0 && reflectance * direct.spread * element.area > least_flux).any();
 }
 
+// Deals out the computation of direct light, of which compute(i) finds light[i].
+void SampledSolver::DealDirect(std::span<Direct> light, const std::function<void(std::size_t i)>& compute) {
+  const auto transfer = [&](std::size_t i, auto& archive) {
+    Transfer(archive, light[i].mean);
+    Transfer(archive, light[i].spread);
+  };
+  DealOut({light.size(), kGrain, compute, transfer, transfer});
+}
+
 void SampledSolver::LightNewElements(const ExecutionContext& context) {
   const std::size_t first = direct_.size();
   direct_.resize(solution_.forest.size());
-  ParallelFor(direct_.size() - first, kGrain, [&](std::size_t i) {
+  DealDirect(std::span(direct_).subspan(first), [&](std::size_t i) {
     if (context.Cancelled()) return;
     const Element& element = solution_.forest.elements()[first + i];
     direct_[first + i] = DirectOn(element.patch, element.Vertices(), first + i);
@@ -165,7 +176,7 @@ void SampledSolver::LightNewElements(const ExecutionContext& context) {
 
 void SampledSolver::LightFragments(const ExecutionContext& context) {
   direct_of_fragment_.resize(solution_.fragments.size());
-  ParallelFor(direct_of_fragment_.size(), kGrain, [&](std::size_t i) {
+  DealDirect(direct_of_fragment_, [&](std::size_t i) {
     if (context.Cancelled()) return;
     const Fragment& fragment = solution_.fragments[i];
     direct_of_fragment_[i] = DirectOn(solution_.forest[fragment.leaf].patch, fragment.polygon, i);
@@ -221,7 +232,7 @@ void SampledSolver::SampleMatrix(std::size_t rays, const ExecutionContext& conte
   const double lift = RayLift(scene_);
   const ElementLocator elements(solution_.forest);
   const FragmentLocator fragments(solution_);
-  ParallelFor(cells_.size(), kGrain, [&](std::size_t i) {
+  const auto compute = [&](std::size_t i) {
     if (context.Cancelled()) return;
     const std::span<const Vec3> polygon = PolygonOf(cells_[i]);
     const PatchId patch = solution_.forest[cells_[i].leaf].patch;
@@ -236,7 +247,11 @@ void SampledSolver::SampleMatrix(std::size_t rays, const ExecutionContext& conte
       rows[i * rays + k] =
           place[static_cast<std::size_t>(leaf)] + (fragment >= 0 ? fragment - fragments.FirstOf(leaf) : 0);
     }
-  });
+  };
+  const auto transfer = [&](std::size_t i, auto& archive) {
+    archive.Raw(rows.data() + i * rays, rays * sizeof(std::int32_t));
+  };
+  DealOut({cells_.size(), kGrain, compute, transfer, transfer});
   report_.interactions.sampled = rows.size();
   rows_ = std::make_shared<const std::vector<std::int32_t>>(std::move(rows));
 }

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -84,6 +85,7 @@ class SampledSolver final : public LightSolver {
   Direct DirectOn(PatchId patch, std::span<const Vec3> polygon, std::uint64_t seed) const;
   bool MustDivide(ElementId element, const Limits& limits, double least_flux) const;
   void Divide(const Limits& limits, const ExecutionContext& context);
+  static void DealDirect(std::span<Direct> light, const std::function<void(std::size_t i)>& compute);
   void LightNewElements(const ExecutionContext& context);
   void LightFragments(const ExecutionContext& context);
   void FindCells(const ExecutionContext& context);

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "solver/base/parallel.h"
+#include "solver/base/processes.h"
 #include "solver/base/size.h"
 #include "solver/visibility/area/pair_counter.h"
 #include "solver/visibility/pair/patch_visibility.h"
@@ -96,7 +96,7 @@ class MatrixBuilder {
   void Integrate(const char* phase, std::span<const std::size_t> which,
                  const AreaFormFactorOptions& options) {
     PairCounter counter(options_.context, phase, which.size());
-    ParallelFor(which.size(), 1, [&](std::size_t i) {
+    const auto compute = [&](std::size_t i) {
       if (Cancelled()) return;
       PartExchange& pair = pairs_[which[i]];
       AreaFormFactorOptions how = options;
@@ -109,7 +109,12 @@ class MatrixBuilder {
       pair.exchange = found.factor * AreaOf(a);
       pair.error = found.error * AreaOf(a);
       counter.Add();
-    });
+    };
+    const auto transfer = [&](std::size_t i, auto& archive) {
+      Transfer(archive, pairs_[which[i]].exchange);
+      Transfer(archive, pairs_[which[i]].error);
+    };
+    DealOut({which.size(), 1, compute, transfer, transfer});
   }
 
   // Calls visit(pair, row) for both rows of each pair, in the order of the pairs.
