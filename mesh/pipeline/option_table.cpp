@@ -95,9 +95,12 @@ bool IsObeyed(const SolveOption& option, const PipelineOptions& options) {
 
 std::vector<std::pair<const SolveOption*, OptionValue>> UsedOptions(const PipelineOptions& options,
                                                                     const ResolvedOptions& resolved) {
+  // The solver may have been chosen for the scene, and a solution file names it.
+  PipelineOptions by_solver = options;
+  by_solver.solver = resolved.solver_name;
   std::vector<std::pair<const SolveOption*, OptionValue>> used;
   for (const SolveOption& option : OptionTable()) {
-    if (!IsObeyed(option, options)) continue;
+    if (!IsObeyed(option, by_solver)) continue;
     const std::optional<OptionValue> value =
         option.resolved ? option.resolved(resolved) : option.field.get(options);
     if (value) used.emplace_back(&option, *value);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "mesh/pipeline/link_options.h"
+#include "solver/scene/builtin_scenes.h"
 #include "solver/transport/form_factors/link_form_factor_methods.h"
 #include "solver/transport/solvers/light_solvers.h"
 #include "tests/mesh/mesh_test_scenes.h"
@@ -62,12 +63,16 @@ std::vector<OptionValue> Samples(const OptionField& field) {
 
 using Told = std::map<std::string, OptionValue>;
 
-Told ToldOf(const PipelineOptions& options) {
-  static const Scene scene = LitRoom();
+Told ToldOf(const PipelineOptions& options, const Scene& scene) {
   Told told;
   for (const auto& [option, value] : UsedOptions(options, Resolve(scene, options)))
     told[OptionKey(*option)] = value;
   return told;
+}
+
+Told ToldOf(const PipelineOptions& options) {
+  static const Scene scene = LitRoom();
+  return ToldOf(options, scene);
 }
 
 PipelineOptions ReadBack(const Told& told) {
@@ -128,6 +133,19 @@ TEST(OptionTable, OptionalEntriesAreLeftOut) {
   EXPECT_THAT(left_out, UnorderedElementsAre("eps", "min-area", "weight", "min-discontinuity-weight",
                                              "min-wanted-weight", "source-error", "relative-cutoff",
                                              "time-limit", "memory-limit", "solver"));
+}
+
+// Where the solver was chosen for the scene, a file tells the options of this solver, not those of the
+// default.
+TEST(OptionTable, OptionsOfASolverThatWasChosenComeBack) {
+  const Scene scene = *LoadBuiltinScene("building-2x2", {});
+  PipelineOptions options;
+  options.error = 0.1;
+  ASSERT_EQ(SolverFor(scene, options), "sampled");
+  const Told told = ToldOf(options, scene);
+  EXPECT_TRUE(told.contains("rays"));
+  EXPECT_FALSE(told.contains("eps"));
+  EXPECT_EQ(ToldOf(ReadBack(told), scene), told);
 }
 
 // The keys of reports and solution files, in order: other programs read them.
