@@ -47,11 +47,13 @@ bool IsSolution(const std::string& path) {
   }
 }
 
-// Whether the option says how a scene is solved; --restart is no entry of the table.
+// Whether the option says how a scene is solved; --restart is no entry of the table. A command's own option
+// may have the name of an entry, as --method of probe, and then stands in another group.
 bool SaysHowToSolve(const CLI::Option& option) {
   return option.get_group() == GroupTitle(OptionGroup::kSolving) ||
          std::any_of(OptionTable().begin(), OptionTable().end(), [&](const SolveOption& entry) {
-           return entry.group != OptionGroup::kRunning && CommandLineName(entry) == option.get_name();
+           return entry.group != OptionGroup::kRunning && CommandLineName(entry) == option.get_name() &&
+                  option.get_group() == GroupTitle(entry.group);
          });
 }
 

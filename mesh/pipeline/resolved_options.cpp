@@ -9,8 +9,8 @@
 #include "solver/scene/scene_parts.h"
 #include "solver/transport/form_factors/link_form_factor_methods.h"
 #include "solver/transport/links/refinement_oracles.h"
+#include "solver/transport/points/mean_free_path.h"
 #include "solver/transport/solvers/light_solvers.h"
-#include "solver/transport/solvers/mean_free_path.h"
 #include "solver/visibility/exact/occlusion_methods.h"
 
 namespace penumbra {

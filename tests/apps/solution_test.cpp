@@ -74,6 +74,9 @@ TEST(Solution, ServesLikeItsScene) {
   ASSERT_EQ(probe.status, 0) << probe.err;
   EXPECT_EQ(probe.out,
             sandbox.Run(Solving({"probe", "floating-cube", "--points", "points.csv", "--parts"})).out);
+  for (const char* method : {"clipping", "backprojection", "vertex-tracing"})
+    EXPECT_EQ(sandbox.Run({"probe", "a.h5", "--points", "points.csv", "--method", method}).status, 0)
+        << method;
   const Outcome direct = sandbox.Run({"probe", "a.h5", "--points", "points.csv", "--direct"});
   EXPECT_EQ(direct.status, 0) << direct.err;
   EXPECT_THAT(direct.out, HasSubstr("nan"));

@@ -21,10 +21,10 @@
 #include "solver/transport/links/element_locator.h"
 #include "solver/transport/links/solution.h"
 #include "solver/transport/points/final_gather.h"
+#include "solver/transport/points/mean_free_path.h"
 #include "solver/transport/points/neighbour_groups.h"
 #include "solver/transport/points/ray_ends.h"
 #include "solver/transport/points/shadow_rays.h"
-#include "solver/transport/solvers/mean_free_path.h"
 #include "tests/transport/transport_test_tools.h"
 
 namespace penumbra {

@@ -11,6 +11,7 @@
 #include "solver/base/scratch.h"
 #include "solver/geometry/polygon.h"
 #include "solver/scene/surface_points.h"
+#include "solver/transport/points/mean_free_path.h"
 #include "solver/transport/points/ray_ends.h"
 #include "solver/visibility/point/form_factor.h"
 
@@ -23,7 +24,7 @@ constexpr double kStrong = 0.05;
 constexpr double kFarFromReflector = 4;
 // A luminaire that a region seems not to see counts as much as one with this times its light: rays that find
 // a part of it after all must not weigh so much that they show as noise.
-constexpr double kIfHidden = 1.0 / 8;
+constexpr double kIfHidden = 1.0 / 4;
 // A half-hidden emitter whose light is all that a point gets, is given this times the rays of one whose light
 // is little beside that of others: its error is then the error of the whole.
 constexpr double kRaysIfAlone = 4;
@@ -32,6 +33,10 @@ constexpr double kNotLookedFor = 1e-3;
 // Fewer rays that all miss a luminaire do not tell that it is hidden: a luminaire of which a region sees a
 // fifth is missed by 12 rays in 7 of 100 cases.
 constexpr std::size_t kLeastLooks = 12;
+// A luminaire within this times the scene's mean free path of a region never counts as hidden: a part of a
+// near luminaire that no ray has found may be most of a point's light, and a rare hit on it would show as a
+// spot.
+constexpr double kNearOfFreePath = 2;
 // With fewer luminaires, looking for them does not pay.
 constexpr std::size_t kFewLuminaires = 16;
 // A luminaire a b c d is a parallelogram if |a - b + c - d| is less than this times its radius.
@@ -133,9 +138,14 @@ double ShadowRays::Estimate(const ReceiverPoint& at, const Luminaire& luminaire)
 
 void ShadowRays::Learn(std::span<const ReceiverPoint> points, double side) {
   if (luminaires_.size() < kFewLuminaires || !(side > 0)) return;
+  near_ = kNearOfFreePath * MeanFreePath(scene_);
   hidden_ = HiddenLuminaires(points, side, luminaires_.size(),
                              [this](std::span<const ReceiverPoint> of_region,
                                     std::span<std::uint64_t> hidden) { FindHidden(of_region, hidden); });
+}
+
+bool ShadowRays::IsNear(const ReceiverPoint& at, const Luminaire& luminaire) const {
+  return (luminaire.centre - at.position).norm() - luminaire.radius < near_;
 }
 
 // Whether a ray from the point reaches a place of the luminaire, another place for each number of the ray.
@@ -160,7 +170,7 @@ void ShadowRays::FindHidden(std::span<const ReceiverPoint> points, std::span<std
     }
     if (!matters || looks < kLeastLooks) continue;
     for (std::size_t k = 0; k < points.size() && !is_seen; ++k)
-      is_seen = light[k] > 0 && Sees(points[k], luminaires_[i], k);
+      is_seen = light[k] > 0 && (IsNear(points[k], luminaires_[i]) || Sees(points[k], luminaires_[i], k));
     if (!is_seen) hidden[i / 64] |= std::uint64_t{1} << (i % 64);
   }
 }

@@ -111,6 +111,7 @@ class ShadowRays {
   void AddLuminaire(PatchId patch, std::span<const Vec3> polygon, const Rgb& radiosity, bool emits);
   static std::uint32_t PointsLitBy(const Seen& seen);
   double Estimate(const ReceiverPoint& at, const Luminaire& luminaire) const;
+  bool IsNear(const ReceiverPoint& at, const Luminaire& luminaire) const;
   bool Sees(const ReceiverPoint& at, const Luminaire& luminaire, std::size_t ray) const;
   void FindHidden(std::span<const ReceiverPoint> points, std::span<std::uint64_t> hidden) const;
   void FindSeen(Group& group, bool trusts_region, std::vector<Seen>& seen) const;
@@ -132,6 +133,7 @@ class ShadowRays {
   PatchHierarchy patches_;
   std::vector<Luminaire> luminaires_;
   HiddenLuminaires hidden_;
+  double near_ = 0;  // luminaires within this distance of a region never count as hidden [m]
 };
 
 }  // namespace penumbra

@@ -7,8 +7,8 @@
 
 #include "solver/base/parallel.h"
 #include "solver/scene/tolerances.h"
+#include "solver/transport/points/diffuse_rays.h"
 #include "solver/transport/points/free_area.h"
-#include "solver/transport/solvers/diffuse_rays.h"
 #include "solver/visibility/point/ray_caster.h"
 
 namespace penumbra {

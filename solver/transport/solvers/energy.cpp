@@ -5,7 +5,7 @@
 
 #include "solver/base/parallel.h"
 #include "solver/scene/tolerances.h"
-#include "solver/transport/solvers/diffuse_rays.h"
+#include "solver/transport/points/diffuse_rays.h"
 #include "solver/transport/sources/source_set.h"
 #include "solver/visibility/point/ray_caster.h"
 

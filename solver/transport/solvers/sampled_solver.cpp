@@ -12,9 +12,9 @@
 #include "solver/scene/surface_points.h"
 #include "solver/transport/links/element_locator.h"
 #include "solver/transport/links/fragment_locator.h"
+#include "solver/transport/points/diffuse_rays.h"
 #include "solver/transport/points/ray_ends.h"
 #include "solver/transport/solvers/anderson.h"
-#include "solver/transport/solvers/diffuse_rays.h"
 #include "solver/transport/sources/leaf_fragments.h"
 
 namespace penumbra {

@@ -5,8 +5,8 @@
 
 #include "solver/base/parallel.h"
 #include "solver/base/random.h"
+#include "solver/transport/points/diffuse_rays.h"
 #include "solver/transport/points/ray_ends.h"
-#include "solver/transport/solvers/diffuse_rays.h"
 
 namespace penumbra {
 namespace {

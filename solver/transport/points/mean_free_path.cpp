@@ -1,11 +1,11 @@
-#include "solver/transport/solvers/mean_free_path.h"
+#include "solver/transport/points/mean_free_path.h"
 
 #include <vector>
 
 #include "solver/base/parallel.h"
 #include "solver/scene/surface_points.h"
 #include "solver/scene/tolerances.h"
-#include "solver/transport/solvers/diffuse_rays.h"
+#include "solver/transport/points/diffuse_rays.h"
 #include "solver/visibility/point/ray_caster.h"
 
 namespace penumbra {

@@ -1,4 +1,4 @@
-// solver/transport/solvers/diffuse_rays.h
+// solver/transport/points/diffuse_rays.h
 
 #pragma once
 

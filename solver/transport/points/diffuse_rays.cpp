@@ -1,4 +1,4 @@
-#include "solver/transport/solvers/diffuse_rays.h"
+#include "solver/transport/points/diffuse_rays.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-// solver/transport/solvers/mean_free_path.h
+// solver/transport/points/mean_free_path.h
 
 #pragma once
 
