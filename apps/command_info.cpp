@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/face_list.h"
 #include "apps/option_values.h"
 #include "apps/options_used.h"
 #include "apps/output.h"
@@ -19,7 +20,6 @@
 #include "apps/solve_run.h"
 #include "display/photometry.h"
 #include "mesh/pipeline/solution_file.h"
-#include "solver/geometry/polygon.h"
 #include "solver/scene/plane_overlaps.h"
 
 namespace penumbra {
@@ -89,25 +89,7 @@ Json MaterialsJson(const Scene& scene) {
   return materials;
 }
 
-// The faces in the order of their numbers. The area of a dropped face is 0.
-Json FacesJson(const Scene& scene) {
-  Json faces = Json::array();
-  for (std::size_t i = 0; i < scene.faces.size(); ++i) {
-    const Face& face = scene.faces[i];
-    const Vec3 area = VectorArea(face.vertices);
-    const Object* object =
-        scene.objects.empty() ? nullptr : &scene.objects[static_cast<std::size_t>(face.object)];
-    faces.push_back({{"face", i},
-                     {"object", object ? Json(object->name) : Json()},
-                     {"material", scene.materials[static_cast<std::size_t>(face.material)].name},
-                     {"vertices", face.vertices.size()},
-                     {"area", area.norm()},
-                     {"normal", ToJson(area.stableNormalized())}});
-  }
-  return faces;
-}
-
-std::string InfoJson(const LoadedScene& loaded, const SceneSummary& summary) {
+std::string InfoJson(const LoadedScene& loaded, const SceneSummary& summary, bool with_faces) {
   const Scene& scene = loaded.scene;
   const auto [low, high] = scene.Bounds();
   Json cameras = Json::array();
@@ -132,7 +114,7 @@ std::string InfoJson(const LoadedScene& loaded, const SceneSummary& summary) {
                {"emitted_lumens", Lux(summary.emitted_power)},
                {"cameras", cameras},
                {"warnings", scene.warnings},
-               {"face_list", FacesJson(scene)}};
+               {"face_list", FaceListJson(scene, with_faces)}};
   if (loaded.stored) {
     info["solution"] = SolutionJson(*loaded.stored);
   } else {
@@ -189,10 +171,17 @@ std::string InfoText(const LoadedScene& loaded, const SceneSummary& summary) {
   return text;
 }
 
-void Info(SceneArguments arguments, bool as_json) {
+struct InfoFormat {
+  bool as_json = false;     // JSON instead of text
+  bool with_faces = false;  // also the faces with their corners
+};
+
+void Info(SceneArguments arguments, const InfoFormat& format) {
   LoadedScene loaded = LoadToSolve(arguments);
   const SceneSummary summary = Summarise(loaded.scene);
-  const std::string info = as_json ? InfoJson(loaded, summary) : InfoText(loaded, summary);
+  std::string info =
+      format.as_json ? InfoJson(loaded, summary, format.with_faces) : InfoText(loaded, summary);
+  if (format.with_faces && !format.as_json) info += FaceListText(loaded.scene);
   if (arguments.report) {
     SolveRun run(arguments, loaded);
     run.Run(MeshKind::kInterpolant, true);
@@ -203,12 +192,12 @@ void Info(SceneArguments arguments, bool as_json) {
   WriteResult(std::nullopt, info);
 }
 
-void InfoOfAll(SceneArguments arguments, bool as_json) {
+void InfoOfAll(SceneArguments arguments, const InfoFormat& format) {
   RefuseForSeveralScenes(arguments, "--report", arguments.report);
   arguments.outputs.Add("--report", arguments.report);
   for (const std::string& scene : arguments.scenes) {
     arguments.scene = scene;
-    Info(arguments, as_json);
+    Info(arguments, format);
   }
 }
 
@@ -218,9 +207,11 @@ Command AddInfoCommand(CLI::App& program) {
   CLI::App* app =
       program.add_subcommand("info", "Tell what is in a scene or a solution, and what was repaired in it");
   const auto arguments = std::make_shared<SceneArguments>();
-  const auto as_json = std::make_shared<bool>(false);
+  const auto format = std::make_shared<InfoFormat>();
   AddSeveralScenesArguments(*app, arguments.get());
-  app->add_flag("--json", *as_json, "Print JSON");
+  app->add_flag("--json", format->as_json, "Print JSON");
+  app->add_flag("--faces", format->with_faces,
+                "Also print each face: object, material, area, centroid, normal, corners");
   AddSolveOptions(*app, arguments.get());
   AddRestartOption(*app, arguments.get());
   AddReportOption(*app, arguments.get());
@@ -228,7 +219,7 @@ Command AddInfoCommand(CLI::App& program) {
       "Nothing of a scene is solved, and the options of solving change nothing, unless --report asks what a "
       "solve of\n"
       "the scene takes and reaches. The report of a solution is that of the solve that made it.");
-  return {app, [arguments, as_json] { InfoOfAll(*arguments, *as_json); }};
+  return {app, [arguments, format] { InfoOfAll(*arguments, *format); }};
 }
 
 }  // namespace penumbra

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solver/base/file_endings.h"
+#include "solver/scene/ashdown_reader.h"
 #include "solver/scene/assimp_reader.h"
 #include "solver/scene/builtin_scenes.h"
 #include "solver/scene/mgf_reader.h"
@@ -15,8 +16,9 @@ namespace penumbra {
 
 SceneReaderRegistry& SceneReaders() {
   static SceneReaderRegistry registry(
-      "scene reader", {ObjReaderMethod(), AssimpReaderMethod(), PlyReaderMethod(), MgfReaderMethod(),
-                       RadReaderMethod(), View3dReaderMethod(), BuiltinSceneReaderMethod()});
+      "scene reader",
+      {ObjReaderMethod(), AssimpReaderMethod(), PlyReaderMethod(), MgfReaderMethod(), RadReaderMethod(),
+       View3dReaderMethod(), AshdownReaderMethod(), BuiltinSceneReaderMethod()});
   return registry;
 }
 

@@ -485,6 +485,29 @@ TEST(Info, CountsAndMeasures) {
   EXPECT_EQ(two_sided.at("faces"), 4);
 }
 
+// --faces lists the corners of each face as the file has them, as text and as JSON.
+TEST(Info, ListsFaces) {
+  const Sandbox sandbox;
+  sandbox.Write("squares.obj", kParallelSquares);
+  sandbox.Write("squares.mtl", kSquaresMaterials);
+  const json plain = json::parse(sandbox.Run({"info", "squares.obj", "--json"}).out);
+  EXPECT_FALSE(plain.at("face_list")[0].contains("corners"));
+  const Outcome text = sandbox.Run({"info", "squares.obj", "--faces"});
+  ASSERT_EQ(text.status, 0) << text.err;
+  const json faces =
+      json::parse(sandbox.Run({"info", "squares.obj", "--faces", "--json"}).out).at("face_list");
+  ASSERT_THAT(faces, SizeIs(2));
+  for (const json& face : faces) {
+    EXPECT_EQ(face.at("area"), 1.0);
+    ASSERT_THAT(face.at("corners"), SizeIs(4));
+    EXPECT_EQ(face.at("centroid"), json({0.5, 0.5, face.at("corners")[0][2]}));
+  }
+  EXPECT_NE(faces[0].at("corners")[0][2], faces[1].at("corners")[0][2]);
+  for (const char* part :
+       {"face 1: object light", "centroid 0.5,0.5,0 m", "centroid 0.5,0.5,1 m", "corner 0,1,1 m"})
+    EXPECT_THAT(text.out, HasSubstr(part));
+}
+
 // F and its error, as form-factor prints them.
 std::pair<double, double> FormFactorOf(const Sandbox& sandbox, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "form-factor");

@@ -72,8 +72,8 @@ TEST_F(SceneReaderTest, ChoosesByContentEndingAndName) {
 
 // Readers and writers are listed, each with a line of help; a name that nobody has is refused.
 TEST_F(SceneReaderTest, FormatsAreListed) {
-  EXPECT_EQ(SceneReaders().Names(),
-            (std::vector<std::string>{"obj", "assimp", "ply", "mgf", "rad", "vs3", "built-in", "square"}));
+  EXPECT_EQ(SceneReaders().Names(), (std::vector<std::string>{"obj", "assimp", "ply", "mgf", "rad", "vs3",
+                                                              "wld", "built-in", "square"}));
   EXPECT_EQ(SceneWriters().Names(), (std::vector<std::string>{"obj", "pbrt", "mgf", "count"}));
   for (const auto& method : SceneReaders().methods()) EXPECT_FALSE(method.help.empty());
   for (const auto& method : SceneWriters().methods()) EXPECT_FALSE(method.help.empty());
