@@ -8,8 +8,8 @@ namespace penumbra {
 
 // Adaptive discontinuity meshing (Stuerzlinger 1994): chooses, in order of decreasing weight, the
 // discontinuities that cross a quadtree leaf from whose corners different parts of the light source are
-// visible. If a quadtree leaf has no room for a discontinuity, other leaves may still use the discontinuity
-// as an edge.
+// visible. A discontinuity may become an edge in some leaves even if other leaves already have the largest
+// number of lines.
 DiscontinuityChoiceRegistry::Method AdaptiveChoiceMethod();
 
 }  // namespace penumbra

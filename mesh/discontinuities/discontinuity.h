@@ -29,8 +29,9 @@ namespace penumbra {
 
 // A line of kind kNear is no discontinuity in the strict sense, but a line near which the irradiance varies
 // quickly. Below the edge of a source that hangs closely above the receiver, the irradiance falls steeply,
-// over a distance of a few times the edge's height above the receiver. If the triangles of the mesh are
-// larger than this distance, the mesh needs edges that follow the hanging edge.
+// over a distance of a few times the edge's height above the receiver. If the triangles of the mesh are wider
+// than the strip below a hanging edge in which the irradiance falls steeply, the mesh needs edges along this
+// strip.
 enum class DiscontinuityKind : std::uint8_t { kVE, kEV, kHorizon, kContact, kEEE, kNear };
 
 // The order of the lowest derivative of the irradiance that jumps across a discontinuity. At generic VE
@@ -46,20 +47,25 @@ enum class DiscontinuityDegree : std::uint8_t { kD0, kD1, kD2 };
 // change of the irradiance, at any distance from the discontinuity. Both bounds follow from the size of the
 // source, because a blocker hides at most the whole source.
 struct IrradianceJump {
-  double gradient = 0;          // jump of the first derivative, of D1 events [1/m]
-  double curvature = 0;         // jump of the second derivative, of D2 events; infinite for D1 [1/m^2]
-  double largest_gradient = 0;  // bound of the change of the first derivative [1/m]
-  // Bound of the change of the irradiance, relative to the source's radiosity [1].
+  // The jump of the irradiance's first derivative across a D1 discontinuity, for a source of 1 W/m^2 [1/m].
+  double gradient = 0;
+  // The jump of the irradiance's second derivative across a D2 discontinuity, for a source of 1 W/m^2;
+  // infinite for a D1 discontinuity [1/m^2].
+  double curvature = 0;
+  // An upper bound of the change of the irradiance's first derivative, for a source of 1 W/m^2 [1/m].
+  double largest_gradient = 0;
+  // An upper bound of (change of the irradiance across the discontinuity) / (radiosity of the source) [1].
   double largest_value = 0;
 };
 
 // A discontinuity is a segment of nonzero length on the receiver (thesis 5.5.3).
 struct Discontinuity {
-  std::array<Vec2, 2> end = {Vec2::Zero(), Vec2::Zero()};  // ends in the receiver's PolygonFrame() [m]
+  // End points of the segment in the receiver's PolygonFrame() [m].
+  std::array<Vec2, 2> end = {Vec2::Zero(), Vec2::Zero()};
   DiscontinuityKind kind = DiscontinuityKind::kVE;
   DiscontinuityDegree degree = DiscontinuityDegree::kD2;
   PatchId receiver = kNoPatch;
-  PatchId source = kNoPatch;  // patch that sends the light; kNoPatch for a contact
+  PatchId source = kNoPatch;  // the patch that sends the light; kNoPatch for a contact with another surface
   // The patch that blocks the light; kNoPatch for the horizon of a source and for a line of kind kNear. For a
   // contact, the blocker is the patch that touches the receiver.
   PatchId blocker = kNoPatch;
@@ -73,8 +79,8 @@ struct Discontinuity {
   // The second and third blocker edges of an EEE (three-edge) event. A three-edge event has a third blocker
   // edge only if no edge of the event belongs to the source.
   PatchEdge second_blocker_edge, third_blocker_edge;
-  // The source edge and the blocker edge that lie in one plane, for an event where the first derivative of
-  // the irradiance therefore jumps (D1).
+  // If a source edge and a blocker edge lie in one plane, so that the first derivative of the irradiance
+  // jumps (D1), shared_source_edge and shared_blocker_edge hold the two edges.
   std::int32_t shared_source_edge = -1;
   PatchEdge shared_blocker_edge;
   // The geometric weight is the ratio d_sb / d_sr <= 1 of the distances source-blocker and source-receiver,
@@ -84,9 +90,10 @@ struct Discontinuity {
   static constexpr int kJumps = 3;
   // The jumps of the irradiance's derivatives at three points of the segment.
   std::array<IrradianceJump, kJumps> jump;
-  double strength = 0;  // largest radiosity of the source [W/m^2]
-  double weight = 0;    // result of Weight() for the whole receiver [W/m^2]
-  bool wanted = false;  // true if refinement has requested an edge here, even if `weight` is small
+  double strength = 0;  // largest radiosity anywhere on the source [W/m^2]
+  double weight = 0;    // result of Weight() for the discontinuity on the whole receiver [W/m^2]
+  // True if mesh refinement has requested a mesh edge along this discontinuity, even if `weight` is small.
+  bool wanted = false;
 };
 
 // True if `a` and `b` are the same segment of the receiver, with the same source and of the same kind, even
@@ -99,7 +106,7 @@ inline constexpr double kInfiniteWeight = std::numeric_limits<double>::infinity(
 
 // Returns the weight [W/m^2] of the discontinuity on a piece of the mesh, such as a quadtree leaf. `size` [m]
 // is the extent of the piece of the mesh perpendicular to the discontinuity. `margin` [m] is the smallest
-// distance between the discontinuity and the borders of the piece.
+// distance between the discontinuity and the borders of this piece of the mesh.
 //  kThesis: the weight is geometric_weight * strength (thesis 5.3), independent of the piece of the mesh.
 //  kIrradiance: the weight is strength * min(largest_value, KinkError() * max(|gradient|, largest_gradient),
 //   BendError() * |curvature|), with the members of IrradianceJump. The weight kIrradiance estimates the
@@ -132,7 +139,8 @@ class DiscontinuityFinder {
   // Find() returns all contacts (lines where surfaces touch the receiver), and all other discontinuities
   // whose weight on the whole receiver is at least options.min_weight. `source_strength` [W/m^2] holds for
   // each patch the largest radiosity over the patch's quadtree leaves and the channels.
-  //  (1) Every discontinuity lies on the receiver and is longer than SnapDistance().
+  //  (1) Every discontinuity lies on the receiver and is longer than SnapDistance(), the distance within
+  //   which points of a patch count as one point.
   //  (2) The same input gives the same list of discontinuities, in the same order. Equal segments may occur
   //   several times in the list of discontinuities.
   //  (3) An edge that two patches share causes a VE (vertex-edge) event only if the edge is a silhouette: the
@@ -155,11 +163,11 @@ class DiscontinuityFinder {
                                   const DiscontinuityOptions& options,
                                   const ExecutionContext& context = ExecutionContext()) const;
 
-  // FindContacts() and FindFrom() compute the result of Find() in parts. FindContacts() returns the contacts
-  // on the receiver, the lines where other surfaces touch the receiver. FindFrom() returns the
-  // discontinuities that one source causes on the receiver; the source is an element of
-  // PatchVisibility::SourcesOf(receiver). `strength` is the largest radiosity of the source [W/m^2]. If
-  // Counts(strength, options) is false, the list of discontinuities is empty. If the computation is
+  // FindContacts() and FindFrom() together compute the result of Find(), which returns all discontinuities of
+  // a receiver. FindContacts() returns the contacts on the receiver, the lines where other surfaces touch the
+  // receiver. FindFrom() returns the discontinuities that one source causes on the receiver; the source is an
+  // element of PatchVisibility::SourcesOf(receiver). `strength` is the largest radiosity of the source
+  // [W/m^2]. FindFrom() returns an empty list if Counts(strength, options) is false. If the computation is
   // cancelled, the list of discontinuities is incomplete.
   std::vector<Discontinuity> FindContacts(PatchId receiver, const DiscontinuityOptions& options) const;
   std::vector<Discontinuity> FindFrom(PatchId receiver, const PatchPair& pair, double strength,

@@ -21,11 +21,11 @@ class DiscontinuityCache {
   DiscontinuityCache(const Scene& scene, const PatchVisibility& visibility);
 
   // DiscontinuityCache::Find() returns exactly the result of DiscontinuityFinder::Find(). The discontinuities
-  // of a source are computed when the source's largest radiosity first reaches the minimum weight. The
-  // discontinuities of a source are computed again only if the DiscontinuityOptions change, or if the source
-  // has become so bright that further discontinuities reach the minimum weight. Several threads may call
-  // Find() at once for different receivers. If the computation is cancelled, the result is incomplete, and
-  // the cache keeps the discontinuities of those sources that were completed.
+  // of a source are computed when the source's largest radiosity first reaches the minimum weight of a
+  // discontinuity. The discontinuities of a source are computed again only if the DiscontinuityOptions
+  // change, or if the source has become so bright that further discontinuities reach the minimum weight.
+  // Several threads may call Find() at once for different receivers. If the computation is cancelled, the
+  // result is incomplete, and the cache keeps the discontinuities of those sources that were completed.
   std::vector<Discontinuity> Find(PatchId receiver, std::span<const double> source_strength,
                                   const DiscontinuityOptions& options,
                                   const ExecutionContext& context = ExecutionContext());

@@ -24,8 +24,9 @@ using LeafFilter = std::function<bool(const Discontinuity&, ElementId)>;
 
 // Determines the order in which the discontinuities of a patch become edges of the mesh.
 struct DiscontinuityRanks {
-  std::vector<double> rank;  // rank of each discontinuity; the discontinuity of the highest rank comes first
-  double least = 0;          // smallest rank of a discontinuity that becomes an edge
+  // The rank of each discontinuity; the discontinuity of the highest rank is the first to become a mesh edge.
+  std::vector<double> rank;
+  double least = 0;  // smallest rank of a discontinuity that becomes a mesh edge
 };
 
 // A method that chooses the discontinuities that become edges of the mesh. By default, a
@@ -38,8 +39,9 @@ class DiscontinuityChoiceMethod {
   // discontinuities. If TakesAny() is false, no discontinuities need to be found.
   virtual bool TakesAny() const { return true; }
 
-  // True if only the weights of discontinuities determine the choice. If ByWeightAlone() is true, refinement
-  // may request discontinuities whose weight is below the minimum.
+  // True if only the weights of discontinuities determine the choice. If ByWeightAlone() is true, mesh
+  // refinement may request mesh edges along discontinuities whose weight is below
+  // DiscontinuityOptions::min_weight.
   virtual bool ByWeightAlone() const { return false; }
 
   // The largest number of discontinuity lines that may cross the interior of a quadtree leaf.
@@ -55,15 +57,16 @@ class DiscontinuityChoiceMethod {
   }
 
   // Returns a filter of discontinuities for the quadtree leaves of the patch. If FilterOf() returns an empty
-  // function, a discontinuity becomes either an edge in all leaves that it crosses, or in no leaf. The forest
-  // and the visibility outlive the filter, and only one thread calls the filter.
+  // function, a discontinuity becomes either an edge in all leaves that it crosses, or in no leaf. The
+  // ElementForest and the PatchVisibility outlive the returned filter, and only one thread calls the filter.
   virtual LeafFilter FilterOf(const ElementForest& /*forest*/, const PatchVisibility& /*visibility*/,
                               PatchId /*patch*/) const {
     return {};
   }
 };
 
-// The type of the registry that DiscontinuityChoices() returns.
+// The type of the registry of all methods that choose discontinuities; DiscontinuityChoices() returns the
+// registry.
 using DiscontinuityChoiceRegistry = Registry<const DiscontinuityChoiceMethod>;
 
 }  // namespace penumbra

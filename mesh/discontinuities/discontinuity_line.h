@@ -18,7 +18,8 @@ struct LineInterval {
 
 // A straight line with a direction.
 struct DirectedLine {
-  Vec2 origin = Vec2::Zero(), direction = Vec2::UnitX();  // `direction` has unit length
+  // The unit vector `direction` gives the line's direction.
+  Vec2 origin = Vec2::Zero(), direction = Vec2::UnitX();
 
   double Along(const Vec2& p) const { return direction.dot(p - origin); }
   // The signed distance of p from the line [m], positive to the left of the line.
@@ -28,8 +29,10 @@ struct DirectedLine {
 
 // A line of active discontinuities (edges of the mesh) that are collinear, in the frame of their patch [m].
 struct DiscontinuityLine : DirectedLine {
-  std::vector<LineInterval> cover;    // intervals covered by any discontinuity: ascending, disjoint
-  std::vector<LineInterval> contact;  // intervals covered by a contact (D0): ascending, disjoint
+  // The intervals of the line on which discontinuities lie, ascending and disjoint.
+  std::vector<LineInterval> cover;
+  // The intervals of the line on which contacts with other surfaces (D0) lie, ascending and disjoint.
+  std::vector<LineInterval> contact;
 };
 
 // True if the parameter t is within `reach` [m] of one of the intervals.

@@ -2,8 +2,8 @@
 //
 // DSets (thesis 5.5.4-5.5.7) determine which discontinuities of a patch become edges of the leaves'
 // triangulations. A DSet is a pair of a discontinuity line and a quadtree leaf. A DSet contains those
-// discontinuities on its line that meet its leaf. Each DSet contributes at most one edge to the leaf's
-// triangulation.
+// discontinuities on its line that meet its leaf. Each DSet (pair of line and leaf) contributes at most one
+// edge to the triangulation of its leaf.
 //
 // The thesis stores DSets in every node of the quadtree and passes the DSets on to the children when a node
 // is split. In this implementation, the discontinuity lines of a patch are found once, when the quadtree is
@@ -29,30 +29,38 @@ namespace penumbra {
 // A discontinuity that is no edge of the mesh because its weight is too small. An OmittedDiscontinuity lists
 // the parts of the discontinuity on leaves that have no edge along its line.
 struct OmittedDiscontinuity {
-  std::size_t number = 0;  // index in the list of discontinuities found
-  std::size_t leaves = 0;  // number of leaves whose interior the discontinuity crosses
+  std::size_t number = 0;  // index of the discontinuity in the list of discontinuities found
+  std::size_t leaves = 0;  // number of quadtree leaves whose interior the discontinuity crosses
   std::vector<OmittedPart> parts;
 };
 
 // The active DSets of one patch: the pairs of discontinuity line and quadtree leaf that give edges of the
 // mesh.
 struct PatchDSets {
-  std::vector<DiscontinuityLine> lines;  // lines with discontinuities that are edges, in the order of choice
-  std::vector<ElementId> leaves;         // quadtree leaves of the patch, depth first
-  // For each leaf, the numbers of the lines that are active in the leaf or along its border, ascending.
+  // The lines of those discontinuities that are mesh edges, in the order in which the edges were chosen.
+  std::vector<DiscontinuityLine> lines;
+  std::vector<ElementId> leaves;  // quadtree leaves of the patch, in depth-first order
+  // For each quadtree leaf, the ascending indices in `lines` of those discontinuity lines that are mesh edges
+  // in the leaf or along the border of the leaf.
   std::vector<std::vector<std::int32_t>> leaf_lines;
-  std::size_t activated = 0;         // number of active discontinuities (edges of the mesh)
-  std::size_t dsets_active = 0;      // number of DSets (line and leaf) whose line crosses the leaf's interior
-  std::size_t refused = 0;           // number of discontinuities omitted because leaves were full
-  std::size_t refused_contacts = 0;  // number of contacts omitted because leaves were full
-  std::size_t most_merged = 0;       // largest number of collinear active discontinuities in one leaf
-  // The leaves, in ascending order, that had no room for a discontinuity, which therefore became an edge in
-  // no leaf. A full leaf is listed in `crowded` only if the refused discontinuity is a contact, or if (number
-  // of leaves without room for the discontinuity) <= (number of leaves with room).
+  std::size_t activated = 0;  // number of discontinuities that are mesh edges (active)
+  // The number of DSets, pairs of line and leaf, whose line crosses the interior of the leaf.
+  std::size_t dsets_active = 0;
+  // The number of discontinuities that are no mesh edges because a leaf already had the largest number of
+  // lines.
+  std::size_t refused = 0;
+  // The number of contacts that are no mesh edges because a leaf already had the largest number of lines.
+  std::size_t refused_contacts = 0;
+  // The largest number of discontinuities that lie on one mesh edge in a leaf, because they are collinear.
+  std::size_t most_merged = 0;
+  // The quadtree leaves, in ascending order, that kept a discontinuity from becoming a mesh edge because they
+  // already had the largest allowed number of discontinuity lines. A leaf is listed in `crowded` only if the
+  // omitted discontinuity is a contact with another surface, or if at most half the leaves that the
+  // discontinuity crosses already had the largest number of lines.
   std::vector<ElementId> crowded;
-  // The omitted discontinuities that refinement may request as edges. Refinement may request a discontinuity
-  // if, on some leaf, the error of the mesh without an edge along the discontinuity (OmissionCost) is at
-  // least options.min_wanted_weight.
+  // The omitted discontinuities along which refinement may request mesh edges. Refinement may request an edge
+  // along a discontinuity if, on some leaf, the error of the mesh without an edge along the discontinuity
+  // (OmissionCost) is at least options.min_wanted_weight.
   std::vector<OmittedDiscontinuity> omitted;
 };
 
@@ -68,10 +76,11 @@ using PlaceScale = std::function<double(ElementId, const Vec2&)>;
 // Functions by which the caller modifies the choice of discontinuities. Each function in ActivationRules may
 // be empty.
 struct ActivationRules {
-  // The filter tells which discontinuities may become edges in which leaf
+  // The filter decides in which quadtree leaves a discontinuity may become a mesh edge
   // (DiscontinuityChoiceMethod::FilterOf).
   LeafFilter filter = {};
-  ErrorScale scale = {};  // factor by which errors of irradiance on a quadtree leaf are multiplied
+  // The factor by which errors of irradiance on a quadtree leaf are multiplied before they are compared.
+  ErrorScale scale = {};
   // The factor by which errors of irradiance at a point are multiplied, in place of `scale`, in leaves that
   // are crossed by more than max_leaf_dsets lines of sufficient weight.
   PlaceScale at_place = {};
@@ -80,24 +89,25 @@ struct ActivationRules {
 // Activates discontinuities, that is, makes them edges of the mesh: first the contacts, then the others in
 // order of decreasing weight. Without a filter, a discontinuity becomes active (an edge) on all quadtree
 // leaves that the discontinuity meets, or on no leaf (thesis 5.5.7).
-//  (1) Only discontinuities with weight >= options.min_weight, and those that refinement has requested,
-//   become active. If options.weight is kIrradiance, the weight of a discontinuity is the error of a mesh
-//   that has the edges chosen so far, but no edge along this discontinuity (OmissionCost). Errors of
+//  (1) Only discontinuities with weight >= options.min_weight, and those along which refinement has requested
+//   edges, become active. If options.weight is kIrradiance, the weight of a discontinuity is the error of a
+//   mesh that has the edges chosen so far, but no edge along this discontinuity (OmissionCost). Errors of
 //   irradiance on a leaf are multiplied by rules.scale. In a leaf that more than options.max_leaf_dsets lines
 //   of sufficient weight cross, errors are multiplied by rules.at_place (if not empty), so that lines in dark
 //   places become edges first. A line may become an edge if its weight is at least options.min_weight with
 //   errors multiplied by the larger of rules.scale and rules.at_place.
 //  (2) At most options.max_leaf_dsets discontinuity lines cross the interior of any quadtree leaf.
-//   Discontinuity lines along the border of a leaf add no edge and are not counted.
+//   Discontinuity lines along the border of a leaf do not count towards max_leaf_dsets, because they add no
+//   edge to the leaf.
 //  (3) The discontinuity of the largest weight becomes active (an edge) first. Discontinuities of equal
-//   weight become active in the order of `found`.
+//   weight become active (edges) in their order in the list `found`.
 // The method with the name options.choice may rank discontinuities by other numbers than their weights, and
 // may allow another number of lines in a leaf than options.max_leaf_dsets. If rules.filter is not empty, the
-// filter decides for each leaf separately. With a filter, a discontinuity becomes active (an edge) on those
-// leaves that pass the filter and have room for the discontinuity. REQUIRES: the patch's quadtree is
-// balanced, and `found` contains discontinuities on this patch. REQUIRES: rules.filter is the result of
-// FilterOf() of the method with the name options.choice. Throws InputError if there is no method with the
-// name options.choice.
+// filter decides for each quadtree leaf separately which discontinuities may become mesh edges. With a
+// filter, a discontinuity becomes active (an edge) on those leaves that pass the filter and have fewer than
+// the largest allowed number of lines. REQUIRES: the patch's quadtree is balanced, and `found` contains
+// discontinuities on this patch. REQUIRES: rules.filter is the result of FilterOf() of the method with the
+// name options.choice. Throws InputError if there is no method with the name options.choice.
 PatchDSets ActivateDiscontinuities(const ElementForest& forest, PatchId patch,
                                    std::span<const Discontinuity> found, const DiscontinuityOptions& options,
                                    const ActivationRules& rules = {});

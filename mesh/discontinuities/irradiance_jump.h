@@ -15,11 +15,11 @@
 // length of the overlap of the edges' images. For coplanar edges, the gradient of the irradiance jumps by
 // (speed w of the edge in the image) * (length of the overlap).
 //
-// In an EEE (three-edge) event, three edges meet in one point of the image. At a distance d from the
-// discontinuity of an EEE event, the three edges enclose a triangle of the area (d * sum lambda_i w_i)^2 / (2
-// |lambda_1 lambda_2 lambda_3|), where w_i is the speed of edge i in the image, and lambda_i the sine of the
-// angle between the other two edges. On one side of the discontinuity of an EEE event, the part of the source
-// in the triangle between the three edges becomes visible or hidden.
+// In an EEE (three-edge) event, three edges appear to meet in one point, as seen from a point of the
+// receiver. At a distance d from the discontinuity of an EEE event, the three edges enclose a triangle of the
+// area (d * sum lambda_i w_i)^2 / (2 |lambda_1 lambda_2 lambda_3|), where w_i is the speed of edge i in the
+// image, and lambda_i the sine of the angle between the other two edges. On one side of the discontinuity of
+// an EEE event, the part of the source in the triangle between the three edges becomes visible or hidden.
 
 #pragma once
 
@@ -38,8 +38,9 @@ IrradianceJump JumpAt(const Scene& scene, const Silhouettes& silhouettes, const 
                       const Vec3& x, const Vec3& across);
 
 // Returns the edge of the source at its vertex `k` that lies within `tolerance` [m] of the plane of the
-// vertex and the segment ab. If both edges of the source at vertex `k` lie within `tolerance`, the edge
-// closer to the plane is returned. If neither edge lies within `tolerance`, the result is -1.
+// vertex and the segment ab. If both edges of the source at vertex `k` lie within `tolerance` of the plane,
+// the edge closer to the plane is returned. CoplanarEdge() returns -1 if neither edge of the source at vertex
+// `k` lies within `tolerance` of the plane.
 std::int32_t CoplanarEdge(const Patch& source, std::int32_t k, const Vec3& a, const Vec3& b,
                           double tolerance);
 

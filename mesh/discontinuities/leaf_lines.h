@@ -39,17 +39,18 @@ class LeafLines {
   // Returns the quadtree leaves that the discontinuity meets. The result of Meet() is valid until the next
   // call of Meet().
   std::span<const Impinged> Meet(const Discontinuity& d);
-  // Adds to `cost` the parts of the discontinuity in the interiors of leaves, with their jumps of irradiance.
-  // `number` is the index of the line in the LineJumps `jumps`. In the cost, errors of irradiance on leaf i
-  // are multiplied by scale[i].
+  // Adds to the OmissionCost `cost` those segments of the discontinuity that lie in the interior of a
+  // quadtree leaf, with the jumps of irradiance across each segment. `number` is the index of the line in the
+  // LineJumps `jumps`. In the OmissionCost, errors of irradiance on leaf i are multiplied by scale[i].
   void Describe(const Discontinuity& d, const LineJumps& jumps, const DirectedLine& line, std::int32_t number,
                 std::span<const double> scale, OmissionCost* cost);
 
-  // True if the line would cross the leaf's interior, but the leaf already has the largest number of
-  // discontinuity lines.
+  // True if the discontinuity line would be a further line through the leaf's interior, but the leaf already
+  // has the largest allowed number of discontinuity lines.
   bool Full(const Impinged& i, std::int32_t line) const;
-  // True if at least one leaf that the discontinuity crosses has no room for the discontinuity's line. `line`
-  // is the number of the discontinuity's line, or -1 for a line that no leaf has yet.
+  // True if at least one quadtree leaf that the discontinuity crosses is Full(), so that the line of the
+  // discontinuity cannot be added to all leaves. `line` is the number of the discontinuity's line, or -1 if
+  // Join() has added the line to no leaf yet.
   bool Crowds(const Discontinuity& d, std::int32_t line);
   // Adds the discontinuity line to the leaf. If the leaf has the discontinuity line already, Join() counts
   // one more discontinuity on the line.
@@ -66,8 +67,8 @@ class LeafLines {
  private:
   struct Node {
     Polygon2 outline;
-    std::int32_t first_child = -1;  // index of the first child in nodes_; -1: the node is a leaf
-    std::size_t leaf = 0;           // index in leaves_ if the node is a leaf
+    std::int32_t first_child = -1;  // index in nodes_ of the node's first child; -1 if the node is a leaf
+    std::size_t leaf = 0;           // index of the leaf in leaves_, if the node is a leaf
   };
 
   void FillNode(std::int32_t index, ElementId id);
@@ -77,7 +78,7 @@ class LeafLines {
   Frame frame_;
   double snap_;
   std::size_t most_;
-  std::vector<Node> nodes_;  // quadtree of the patch, the root first
+  std::vector<Node> nodes_;  // the nodes of the patch's quadtree, the root first
   std::vector<ElementId> leaves_;
   std::vector<std::int32_t> node_of_leaf_;
   std::vector<std::vector<std::int32_t>> inside_, touching_;

@@ -26,23 +26,25 @@ struct LineJump {
 
 // Returns an estimate [W/m^2] of the error of a quadratic interpolant on a piece of the mesh that a
 // discontinuity line crosses without an edge along the line. `size` [m] is the extent of the piece of the
-// mesh across the line. `margin` [m] is the smallest distance of the line from the borders of the piece. The
-// error estimate is that of Weight() with kIrradiance, except that largest_value (bound of the change of the
-// irradiance) is multiplied by sqrt(2 margin / size). The line cuts the piece into two parts, and an edge
-// along the line improves the interpolant mainly on the smaller part, whose area is (margin / size) * (area
-// of the piece). The factor is 1 for a line through the middle of the piece.
+// mesh across the line. `margin` [m] is the smallest distance of the line from the borders of the piece of
+// the mesh. The error estimate is that of Weight() with kIrradiance, except that largest_value (bound of the
+// change of the irradiance) is multiplied by sqrt(2 margin / size). The line cuts the piece into two parts,
+// and an edge along the line improves the interpolant mainly on the smaller part, whose area is (margin /
+// size) * (area of the piece). The factor sqrt(2 margin / size) is 1 for a line through the middle of the
+// piece of the mesh.
 double ErrorWithout(const LineJump& jump, double size, double margin);
 
 class LineJumps {
  public:
-  // line_of[i] is the index in `lines` of the line on which the discontinuity found[i] lies. Contacts are
-  // ignored, because they have no jumps of derivatives.
+  // line_of[i] is the index in `lines` of the line on which the discontinuity found[i] lies. Contacts with
+  // other surfaces are ignored, because the irradiance itself jumps there.
   LineJumps(std::span<const Discontinuity> found, std::span<const std::int32_t> line_of,
             std::span<const DiscontinuityLine> lines);
 
   // Returns the sum of the jumps of derivatives across the line at parameter `t` [m]. The same D1 event of a
-  // source may have been found twice, from both ends of the segment in which the two coplanar edges overlap.
-  // At() counts a D1 event (jump of the first derivative) only once, even if the event was found twice.
+  // source may have been found twice, from both ends of the segment in which a source edge and a coplanar
+  // blocker edge overlap as seen from the line. At() counts a D1 event (jump of the first derivative) only
+  // once, even if the event was found twice.
   LineJump At(std::int32_t line, double t) const;
 
  private:

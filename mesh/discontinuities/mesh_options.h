@@ -35,10 +35,11 @@ struct DiscontinuityOptions {
   // The smallest weight of a discontinuity that becomes an edge, Tree::minDiscontWeight in the thesis
   // [W/m^2].
   double min_weight = 0;
-  // With the choice "ranked" and the weight kIrradiance, refinement may request discontinuities of weight <
-  // min_weight. Refinement may request a discontinuity only if, on some quadtree leaf, the error of the mesh
-  // without an edge along the discontinuity (OmissionCost) is at least min_wanted_weight [W/m^2]. If
-  // min_wanted_weight >= min_weight, refinement may not request any discontinuity.
+  // With the choice "ranked" and the weight kIrradiance, mesh refinement may request edges along
+  // discontinuities of weight < min_weight. Refinement may request an edge along a discontinuity only if, on
+  // some quadtree leaf, the error of the mesh without an edge along the discontinuity (OmissionCost) is at
+  // least min_wanted_weight [W/m^2]. If min_wanted_weight >= min_weight, mesh refinement may not request any
+  // edges along discontinuities.
   double min_wanted_weight = std::numeric_limits<double>::infinity();
   // The largest number of discontinuity edges in a quadtree leaf, Tree::maxLeafDSets in the thesis.
   int max_leaf_dsets = 10;
@@ -48,18 +49,19 @@ struct DiscontinuityOptions {
   // within this distance of the true curve [m]. If triple_edge_tolerance is 0, triple-edge discontinuities
   // are omitted, as in the thesis.
   double triple_edge_tolerance = 0;
-  std::uint64_t seed = 1;  // seed of the choice "random"
+  std::uint64_t seed = 1;  // seed of the random order in which the choice "random" takes discontinuities
   // Fraction of the discontinuities, apart from contacts, that the choice "random" tries to make edges of the
   // mesh.
   double random_share = 1;
-  // If a quadtree leaf has no room for a discontinuity that other leaves could use as an edge, the leaf is
-  // split, and the choice of discontinuities is repeated, at most crowded_splits times. If crowded_splits is
-  // 0, no leaf is split, as in the thesis. Splits make no leaf smaller than min_split_area [m^2].
+  // If a quadtree leaf with the largest allowed number of lines keeps a discontinuity from becoming a mesh
+  // edge (PatchDSets::crowded), the leaf is split, and the choice of discontinuities is repeated, at most
+  // crowded_splits times. If crowded_splits is 0, no leaf is split, as in the thesis. Splitting for further
+  // lines makes no leaf smaller than min_split_area [m^2].
   int crowded_splits = 0;
   double min_split_area = 0;
   // The quadtree leaf that contains the end of a contact with another surface is divided corner_divisions
-  // times in succession, because no polynomial fits the irradiance near the end. No leaf at the end of a
-  // contact with another surface becomes smaller than min_split_area.
+  // times in succession, because no polynomial fits the irradiance near the end. Divisions at the end of a
+  // contact make no quadtree leaf smaller than min_split_area [m^2].
   int corner_divisions = 0;
 
   // True if the method `choice` can make discontinuities edges of the mesh, false if the method always omits
@@ -71,7 +73,7 @@ struct DiscontinuityOptions {
   bool ranks_by_error() const;
   bool can_want() const { return ranks_by_error() && min_wanted_weight < min_weight; }
   // The smallest weight of a discontinuity that may become an edge: min_wanted_weight if refinement may
-  // request discontinuities below min_weight, otherwise min_weight.
+  // request edges along discontinuities below min_weight, otherwise min_weight.
   double LeastWeight() const { return can_want() ? min_wanted_weight : min_weight; }
 };
 
@@ -84,26 +86,37 @@ enum class InterpolantOrder : std::uint8_t {
 struct MeshOptions {
   DiscontinuityOptions discontinuities;
   InterpolantOrder order = InterpolantOrder::kQuadratic;
-  double smooth = 0;  // largest relative bend of irradiance at predicted midpoints (Interpolation::smooth)
+  // The limit, relative to the irradiance, below which the irradiance at an edge's midpoint is predicted from
+  // the vertices of the mesh instead of sampled (Interpolation::smooth).
+  double smooth = 0;
 };
 
 struct MeshReport {
   struct Counts {
-    // Number of discontinuities found with at least the minimum weight, or requested by refinement.
+    // Number of discontinuities that have at least the minimum weight, or along which refinement requested an
+    // edge.
     std::size_t discontinuities = 0;
-    std::size_t activated = 0;     // number of discontinuities that are edges of the mesh
-    std::size_t dsets_active = 0;  // number of pairs of leaf and line that give edges (active DSets)
-    std::size_t refused = 0;       // number of discontinuities omitted because a leaf was full
-    // Number of contacts omitted because a leaf was full; at these contacts, light leaks in pictures.
+    std::size_t activated = 0;  // number of discontinuities that are edges of the mesh
+    // The number of pairs of quadtree leaf and discontinuity line that give mesh edges (active DSets).
+    std::size_t dsets_active = 0;
+    // The number of discontinuities that are no mesh edges because a leaf already had the largest number of
+    // lines.
+    std::size_t refused = 0;
+    // The number of contacts between surfaces that are no mesh edges because a leaf already had the largest
+    // number of lines; pictures show light leaking through such contacts.
     std::size_t refused_contacts = 0;
-    // Number of discontinuity edges omitted because they are within rounding of a leaf's border.
+    // The number of discontinuity edges omitted because their distance from the border of a quadtree leaf is
+    // within rounding.
     std::size_t dropped_segments = 0;
-    std::size_t most_merged = 0;   // largest number of collinear discontinuities along one edge in a leaf
-    std::size_t leaves_split = 0;  // number of leaves split because they had no room for a discontinuity
+    std::size_t most_merged = 0;  // largest number of collinear discontinuities along one edge in a leaf
+    // The number of leaves split because they already had the largest allowed number of discontinuity lines.
+    std::size_t leaves_split = 0;
     std::size_t pairs_traced = 0;  // number of pairs receiver-source whose discontinuities were computed
     std::size_t pairs_kept = 0;    // number of pairs receiver-source whose discontinuities were in the cache
-    std::size_t leaves_made = 0;   // number of leaves with discontinuity lines that were triangulated anew
-    std::size_t leaves_kept = 0;   // number of leaves with discontinuity lines whose triangles were reused
+    // Number of quadtree leaves with discontinuity lines that were triangulated anew.
+    std::size_t leaves_made = 0;
+    // Number of quadtree leaves with discontinuity lines whose triangles were reused.
+    std::size_t leaves_kept = 0;
     std::size_t triangles = 0;
     std::size_t interpolants = 0;
     std::size_t point_evaluations = 0;  // number of calls of IrradianceAtPoint()

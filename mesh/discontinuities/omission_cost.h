@@ -21,7 +21,7 @@ namespace penumbra {
 // A segment of a discontinuity inside a quadtree leaf, with the jumps of irradiance across the segment.
 struct OmittedPart {
   std::size_t leaf = 0;
-  Vec2 from = Vec2::Zero(), to = Vec2::Zero();  // ends in the frame of the patch [m]
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();  // end points of the segment, in the frame of the patch [m]
   LineJump jump;
 };
 
@@ -31,10 +31,11 @@ double ErrorOnPiece(const OmittedPart& part, std::span<const Vec2> piece);
 
 class OmissionCost {
  public:
-  // Starts a new discontinuity, to which the following calls of AddPart() add segments.
+  // Starts a new discontinuity, to which subsequent calls of AddPart() add segments.
   void Begin() { first_part_.push_back(parts_.size()); }
   // Adds a segment of the current discontinuity, in a quadtree leaf with the outline `outline` and the area
-  // `area` [m^2]. In the cost, errors of irradiance on the leaf are multiplied by the factor `scale`.
+  // `area` [m^2]. In the cost of omission, errors of irradiance on the leaf are multiplied by the factor
+  // `scale`.
   void AddPart(const OmittedPart& part, const Polygon2& outline, double area, double scale) {
     parts_.push_back({part, area, scale, scale, outline, 0});
   }
@@ -45,14 +46,17 @@ class OmissionCost {
     for (Part& part : parts_) part.scale = scale(part.segment, part.leaf_scale);
   }
 
-  // In the following functions, inside[k] holds the numbers of those lines of `active` that cross leaf k.
-  // Between two calls of members of OmissionCost, lines may be added to inside[k] but not removed. `own` is
-  // the number of the line on which the discontinuity itself lies, or -1 if this line is no edge of the mesh.
-  // The line of the discontinuity itself does not bound the cell on which the cost of omission is measured.
+  // In calls of Of() and PartsWithout(), inside[k] holds the indices of those lines in `active` that cross
+  // quadtree leaf k. Between two calls of members of OmissionCost, lines may be added to inside[k] but not
+  // removed. `own` is the number of the line on which the discontinuity itself lies, or -1 if this line is no
+  // edge of the mesh. The line of the discontinuity itself does not bound the cell on which the cost of
+  // omission is measured.
 
   struct Cost {
-    double by_place = 0;  // cost with errors multiplied by the factors of Rescale() [W/m^2]
-    // Cost with errors multiplied by the larger of the factors of AddPart() and Rescale() [W/m^2].
+    // The cost of omission if errors of irradiance are multiplied by the factors that Rescale() sets [W/m^2].
+    double by_place = 0;
+    // The cost of omission if errors of irradiance are multiplied by the larger of the two factors that
+    // AddPart() and Rescale() set [W/m^2].
     double at_most = 0;
   };
 
@@ -64,7 +68,8 @@ class OmissionCost {
   // The number of quadtree leaves whose interior discontinuity i crosses.
   std::size_t LeavesOf(std::size_t i) { return PartsOf(i).size(); }
   // Returns the segments of discontinuity i in those leaves that have no edge along its line, and where the
-  // error without this edge, multiplied by its factor, is at least `least` [W/m^2].
+  // error without this edge, multiplied by the factor of the last Rescale() (without Rescale(): of
+  // AddPart()), is at least `least` [W/m^2].
   std::vector<OmittedPart> PartsWithout(std::size_t i, std::int32_t own,
                                         std::span<const std::vector<std::int32_t>> inside,
                                         std::span<const DiscontinuityLine> active, double least);
@@ -73,8 +78,8 @@ class OmissionCost {
   struct Part {
     OmittedPart segment;
     double leaf_area, leaf_scale, scale;
-    Polygon2 cell;          // part of the leaf around the segment, a convex polygon
-    std::size_t lines = 0;  // number of lines in the leaf by which the cell has been cut
+    Polygon2 cell;          // convex part of the quadtree leaf around the segment
+    std::size_t lines = 0;  // number of the leaf's discontinuity lines by which `cell` has been cut so far
   };
 
   std::span<Part> PartsOf(std::size_t i);

@@ -6,9 +6,9 @@
 
 namespace penumbra {
 
-// Chooses first the contacts with other surfaces, then other discontinuities in random order, until quadtree
-// leaves have no more room. The random choice is a baseline for comparison with RankedChoiceMethod(). Of the
-// discontinuities that are no contacts with other surfaces, only the fraction
+// Chooses first the contacts with other surfaces, then other discontinuities in random order, up to the
+// largest number of lines in a quadtree leaf. The random choice is a baseline for comparison with
+// RankedChoiceMethod(). Of the discontinuities that are no contacts with other surfaces, only the fraction
 // DiscontinuityOptions::random_share may become edges.
 DiscontinuityChoiceRegistry::Method RandomChoiceMethod();
 

@@ -6,8 +6,8 @@
 
 namespace penumbra {
 
-// Chooses discontinuities in order of decreasing weight, until quadtree leaves have no more room (thesis
-// 5.5.7).
+// Chooses discontinuities in order of decreasing weight, up to the largest number of lines in a quadtree leaf
+// (thesis 5.5.7).
 DiscontinuityChoiceRegistry::Method RankedChoiceMethod();
 
 }  // namespace penumbra

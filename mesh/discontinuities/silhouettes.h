@@ -56,7 +56,7 @@ class Silhouettes {
     std::vector<PatchId> patches;
   };
   struct Edge {
-    std::int32_t a, b;  // numbers of the end corners
+    std::int32_t a, b;  // numbers of the corners at the two ends of the edge
     std::vector<PatchEdge> sharing;
   };
 

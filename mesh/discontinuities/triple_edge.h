@@ -2,16 +2,16 @@
 //
 // Finds triple-edge (EEE) events: as seen from a point of the receiver, three edges appear to meet in one
 // point. In a triple-edge event, either one edge belongs to the source and two are silhouettes of blockers,
-// or all three are silhouettes of blockers in front of the source (thesis 5.2; Gigus and Malik 1990). The
-// lines that touch three skew edges rule a quadric. The intersection of the quadric with the receiver is a
-// piece of a conic.
+// or all three are silhouettes of blockers in front of the source (thesis 5.2; Gigus and Malik 1990). All
+// lines that touch three skew edges form a ruled quadric. The intersection of the quadric with the receiver
+// is a piece of a conic.
 //
 // The line through a point p of the first edge that meets the two other edges has the direction n2 x n3,
 // where n2 and n3 are normals of the planes through p and the second or the third edge. The normals n2 and n3
 // of the planes through p and an edge are linear in p, and the direction n2 x n3 is therefore quadratic in p.
 // The function whose sign tells on which side of another edge the line n2 x n3 through p passes is also
-// quadratic in p. A triple-edge event begins and ends at points p of the first edge that are roots of
-// quadratic functions.
+// quadratic in p. A triple-edge event begins and ends at points p of the first edge where a quadratic
+// function of p is zero.
 
 #pragma once
 
@@ -34,15 +34,17 @@ struct Transversal {
 
 // One triple-edge event of a receiver and a source, with its trace on the receiver as a polyline.
 struct TripleEdgeTrace {
-  std::array<PatchEdge, 3> edge;  // the edges, of which only the first can be an edge of the source
+  // The three edges of the event, of which only the first can be an edge of the source.
+  std::array<PatchEdge, 3> edge;
   struct Piece {
     Transversal from, to;
   };
-  std::vector<Piece> pieces;  // segments of the polyline, with ends on the true curve
+  std::vector<Piece> pieces;  // segments of the polyline; the ends of each segment lie on the true curve
 };
 
 struct TripleEdgeOptions {
-  double tolerance = 0;      // largest distance between curve and polyline, apart from rounding errors [m]
+  // The largest distance between the true curve of an event and its polyline, apart from rounding errors [m].
+  double tolerance = 0;
   bool keep_hidden = false;  // if true, keeps the parts of the curve that other blockers hide
   double gap = 0;            // blockers within the distance `gap` of the receiver count as touching it [m]
   double rounding = 0;       // distances up to `rounding` count as zero [m]

@@ -16,8 +16,8 @@ namespace penumbra {
 
 struct Wedge {
   Vec3 apex;                // vertex through which all lines of the wedge pass
-  Vec3 normal;              // unit normal of the critical plane
-  std::array<Vec3, 2> end;  // ends of the trace
+  Vec3 normal;              // unit normal of the plane in which the wedge lies
+  std::array<Vec3, 2> end;  // end points of the trace on the receiver [m]
   double apex_height = 0;   // height of the apex above the receiver's plane [m]
   // True for an EV event: the lines of the wedge continue beyond the apex, to the source.
   bool through_apex = false;

@@ -25,9 +25,10 @@ namespace penumbra {
 
 struct PatchTriangulation {
   struct Triangle {
-    std::array<std::uint32_t, 3> vertex;  // vertices, counter-clockwise as seen from the patch's front
-    // Edge k of a triangle runs from vertex k to vertex (k + 1) % 3.
-    // Discontinuity line of each edge: index in PatchDSets::lines, or kNoLine.
+    // Indices of the vertices, counter-clockwise as seen from the patch's front.
+    std::array<std::uint32_t, 3> vertex;
+    // Edge k of a triangle runs from vertex k to vertex (k + 1) % 3. For each edge of the triangle, the index
+    // in PatchDSets::lines of the discontinuity line along the edge, or kNoLine.
     std::array<std::int32_t, 3> line = {kNoLine, kNoLine, kNoLine};
     // True if another surface touches the patch along edge k, where the irradiance jumps (D0).
     std::array<bool, 3> contact = {false, false, false};
@@ -36,19 +37,22 @@ struct PatchTriangulation {
   PatchId patch = kNoPatch;
   std::vector<Vec3> positions;      // positions of the vertices in space [m]
   std::vector<Vec2> in_plane;       // positions of the vertices in the patch's frame [m]
-  std::vector<Triangle> triangles;  // triangles of all leaves, in the order of `leaves`
-  std::vector<ElementId> leaves;    // quadtree leaves of the patch, depth first
-  // The index of the first triangle of each leaf, followed by the number of all triangles.
+  std::vector<Triangle> triangles;  // triangles of all quadtree leaves, in the order of `leaves`
+  std::vector<ElementId> leaves;    // quadtree leaves of the patch, in depth-first order
+  // For each quadtree leaf, the index of its first triangle in `triangles`; the last entry is the number of
+  // all triangles.
   std::vector<std::uint32_t> first_triangle;
-  // Number of discontinuity edges omitted because they are within rounding of a leaf's border.
+  // The number of discontinuity edges omitted because their distance from the border of a quadtree leaf is
+  // within rounding.
   std::size_t dropped_segments = 0;
-  std::size_t leaves_made = 0;  // number of leaves with discontinuity lines that were triangulated anew
-  // Number of leaves with discontinuity lines whose triangles came from the cache.
+  // Number of quadtree leaves with discontinuity lines that were triangulated anew.
+  std::size_t leaves_made = 0;
+  // The number of quadtree leaves with discontinuity lines whose triangles came from the cache.
   std::size_t leaves_kept = 0;
 
-  // Stops the program unless every triangle is counter-clockwise, the areas add up to the patch's area, and
-  // the mesh conforms. In a conforming mesh, each edge has one triangle on either side, or lies on the
-  // patch's outline.
+  // Stops the program unless every triangle is counter-clockwise, the areas of the triangles add up to the
+  // patch's area, and the mesh conforms. In a conforming mesh, each edge has one triangle on either side, or
+  // lies on the patch's outline.
   void Validate(const Patch& outline) const;
 };
 
@@ -56,11 +60,11 @@ struct PatchTriangulation {
 // to the byte, with or without a cache. REQUIRES: the quadtree is balanced, and has not changed since `dsets`
 // were computed.
 PatchTriangulation TriangulateLeaves(const ElementForest& forest, PatchId patch, const PatchDSets& dsets);
-// Triangulates the quadtree leaves in dsets.leaves, as the function above does, with given vertices on the
-// borders of leaves. `borders` was constructed from `forest`, `patch` and `dsets`, and may already share
-// vertices with the borders of other patches (WeldOutlines). The cached triangles of a leaf are reused if the
-// leaf's border and its discontinuity lines are unchanged. After TriangulateLeaves(), the cache contains
-// exactly the present leaves that have discontinuity lines.
+// Triangulates the quadtree leaves in dsets.leaves, with given vertices on the borders of the leaves.
+// `borders` was constructed from `forest`, `patch` and `dsets`, and may already share vertices with the
+// borders of other patches (WeldOutlines). The cached triangles of a leaf are reused if the leaf's border and
+// its discontinuity lines are unchanged. After TriangulateLeaves(), the cache contains exactly the present
+// leaves that have discontinuity lines.
 PatchTriangulation TriangulateLeaves(const ElementForest& forest, PatchId patch, const PatchDSets& dsets,
                                      PatchBorders borders, LeafMeshCache* cache = nullptr);
 

@@ -23,16 +23,16 @@ namespace penumbra {
 // All data that determine the triangles of a quadtree leaf, in coordinates of the patch's plane.
 class LeafShape {
  public:
-  // A discontinuity line, clipped to the neighbourhood of the leaf.
+  // A discontinuity line, clipped to the neighbourhood of the quadtree leaf.
   struct Line : DirectedLine {
     // The discontinuities on the line cover intervals_[first, first_contact), and the contacts on the line
     // cover intervals_[first_contact, end).
     std::size_t first = 0, first_contact = 0, end = 0;
   };
 
-  // Starts a new leaf without discontinuity lines. `border` holds the vertices around the leaf, and `outline`
-  // the corners of the leaf, both counter-clockwise. `snap` is the distance within which points on the patch
-  // count as one point [m].
+  // Replaces the contents of the LeafShape by a leaf without discontinuity lines. `border` holds the vertices
+  // around the leaf, and `outline` the corners of the leaf, both counter-clockwise. `snap` is SnapDistance(),
+  // the distance within which points on the patch count as one point [m].
   void Reset(std::span<const Vec2> border, Polygon2 outline, double snap);
   void AddLine(const DiscontinuityLine& line);
 
@@ -61,11 +61,11 @@ class LeafShape {
 inline constexpr std::int32_t kNoLine = -1;
 
 // The triangles of one quadtree leaf. A vertex number below border_size is the index of a vertex on the
-// leaf's border. The vertex number border_size + i stands for inside[i]. A discontinuity line is numbered by
-// its index in LeafShape::lines().
+// leaf's border. The vertex number border_size + i stands for inside[i], a vertex in the interior of the
+// leaf. A discontinuity line is numbered by its index in LeafShape::lines().
 struct LeafMesh {
   struct Triangle {
-    std::array<std::uint32_t, 3> vertex;  // numbers of the vertices, counter-clockwise
+    std::array<std::uint32_t, 3> vertex;  // numbers of the triangle's vertices, counter-clockwise
     // Edge k of a triangle runs from vertex k to vertex (k + 1) % 3.
     std::array<std::int32_t, 3> line = {kNoLine, kNoLine, kNoLine};
     std::array<bool, 3> contact = {false, false, false};
@@ -74,7 +74,9 @@ struct LeafMesh {
   std::uint32_t border_size = 0;
   std::vector<Vec2> inside;
   std::vector<Triangle> triangles;
-  std::size_t dropped_segments = 0;  // number of segments too close to the leaf's border to be edges
+  // The number of discontinuity segments that are no edges because they are too close to the border of the
+  // leaf.
+  std::size_t dropped_segments = 0;
 };
 
 // Triangulates quadtree leaves one after another, with the same buffers. Each thread needs its own
@@ -83,8 +85,9 @@ class LeafTriangulator {
  public:
   // Each discontinuity line becomes at most one constrained edge of the leaf's triangulation. The constrained
   // edge of a line is the shortest segment that contains all intervals that discontinuities cover on the line
-  // inside the leaf. In the result, edges on the leaf's border that lie on a discontinuity line are labelled
-  // with this line. Vertices of the leaf's border are neither added nor moved.
+  // inside the leaf. If an edge of a triangle on the leaf's border lies on a discontinuity line,
+  // LeafMesh::Triangle::line holds the number of this line. Vertices of the leaf's border are neither added
+  // nor moved.
   LeafMesh Triangulate(const LeafShape& shape);
 
  private:
@@ -104,7 +107,8 @@ class LeafTriangulator {
   void MarkBorder(std::int32_t number, LeafMesh& mesh) const;
 
   const LeafShape* shape_ = nullptr;
-  std::vector<Vec2> points_;  // vertices of the leaf's border, then the ends of segments inside the leaf
+  // The vertices of the leaf's border, followed by the ends of discontinuity segments inside the leaf.
+  std::vector<Vec2> points_;
   std::int32_t border_size_ = 0;
   std::vector<Segment> segments_;
   std::vector<Vec2> split_points_;

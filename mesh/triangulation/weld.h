@@ -14,7 +14,7 @@
 namespace penumbra {
 
 // Adds to each patch's outline the vertices of other patches that lie on this outline. If vertices of two
-// patches lie within the snap distance of each other, both vertices move to the position of the vertex of the
+// patches lie within SnapDistance() of each other, both vertices move to the position of the vertex of the
 // patch with the lower number. If the computation is cancelled, `borders` must not be used afterwards.
 // REQUIRES: borders[i] holds the borders of the leaves of patch i.
 void WeldOutlines(const Scene& scene, std::span<PatchBorders> borders,

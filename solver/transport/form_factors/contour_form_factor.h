@@ -12,7 +12,8 @@ namespace penumbra {
 // estimated by the difference between the Kronrod rule and its Gauss rule. The contour integral ignores
 // blockers. If there are blockers, F is multiplied by the ratio (mean form factor to the visible part of the
 // target) / (mean form factor to the whole target) over 16 points of the sender. The error of a form factor
-// with blockers includes |visible ratio over 16 points of the sender - visible ratio over 4 points|.
+// with blockers includes the difference between the visible fractions of the target that 16 points and 4
+// points of the sender give.
 LinkFormFactorRegistry::Method ContourFormFactorMethod();
 
 }  // namespace penumbra

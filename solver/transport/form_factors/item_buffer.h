@@ -15,12 +15,12 @@
 namespace penumbra {
 
 // A convex part of a patch (planar polygon of the scene) that is drawn into the item buffer. A drawn polygon
-// hides all that lies behind it, whichever of its sides faces the eye.
+// hides all that lies behind it, even if the eye sees the polygon's back.
 struct DrawnPolygon {
   PatchId patch = kNoPatch;
-  std::span<const Vec3> vertices;  // vertices [m], in the plane of the patch
-  // Index of the form factor to which cells that show the polygon's front are added; -1 if the polygon only
-  // hides other polygons.
+  std::span<const Vec3> vertices;  // vertices of the polygon [m], in the plane of its patch
+  // Index of the form factor to which the form factors of those cells are added that show the polygon's
+  // front; -1 if the polygon only hides other polygons.
   std::int32_t target = -1;
 };
 
@@ -34,9 +34,10 @@ struct Eye {
 class ItemBuffer {
  public:
   // Draws the polygons into the cells of the grid; polygons whose plane contains the eye are invisible. If
-  // two polygons cover a cell's sample point, the ItemBuffer stores the polygon that is nearer along the ray
-  // through the sample point. If two polygons of the same patch cover a cell's sample point, the ItemBuffer
-  // stores the polygon with a target index (target >= 0). The grid must outlive the ItemBuffer.
+  // two polygons cover a cell's sample point, the ItemBuffer stores the polygon that is nearer to the eye,
+  // along the ray through the sample point. If two polygons of the same patch cover a cell's sample point,
+  // the ItemBuffer stores the polygon with a target index (target >= 0). The grid must outlive the
+  // ItemBuffer.
   ItemBuffer(const PlaneGrid& grid, const Scene& scene, const Eye& eye,
              std::span<const DrawnPolygon> polygons);
 

@@ -19,7 +19,9 @@ struct SightedPair {
   const Scene& scene;
   PatchId sender_patch = kNoPatch, target_patch = kNoPatch;
   std::span<const Vec3> sender, target;  // vertices of the two convex polygons [m]
-  std::span<const PatchId> blockers;     // a list with at least one blocker of every blocked segment
+  // Patches that may block the sight: for every blocked segment between the two polygons, the list contains
+  // at least one patch that blocks the segment.
+  std::span<const PatchId> blockers;
   std::size_t rays = 0;
   // Two random generators: of_sender is the same for all targets of a sender, and of_pair belongs to this
   // pair of polygons only.
@@ -33,7 +35,7 @@ struct SightedPair {
 // PairRule at once.
 using PairRule = std::function<FormFactorEstimate(const SightedPair&)>;
 
-// True if no blocker of the pair intersects the segment between the two points.
+// True if no patch in pair.blockers intersects the segment between the two points.
 bool InSight(const SightedPair& pair, const Vec3& from, const Vec3& to);
 
 // Maps (s, t) in the unit square to a point of a convex polygon: uniform (s, t) give uniform points.

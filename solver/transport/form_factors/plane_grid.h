@@ -1,7 +1,7 @@
 // solver/transport/form_factors/plane_grid.h
 //
-// A plane before a point, divided into square cells. The form factor of the point to a polygon is the sum of
-// the form factors of those cells through which the point sees the polygon (Cohen and Greenberg 1985).
+// A plane in front of a point, divided into square cells. The form factor of the point to a polygon is the
+// sum of the form factors of those cells through which the point sees the polygon (Cohen and Greenberg 1985).
 
 #pragma once
 
@@ -30,7 +30,7 @@ struct PlaneGrid {
   // horizon cuts cell (columns - 1 - row, row) into halves, and the upper right half lies above the horizon.
   // In a cubic tetrahedron's face, cells to the left of the halved cell lie below the horizon.
   bool halved = false;
-  std::vector<double> delta;  // the form factor of each cell, row by row
+  std::vector<double> delta;  // the form factor of the point to each cell, row by row
 
   // The column of the first cell that lies completely above the horizon, in the given row.
   int FirstWhole(int row) const { return halved ? columns - row : 0; }

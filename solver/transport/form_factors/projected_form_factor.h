@@ -14,8 +14,8 @@
 
 namespace penumbra {
 
-// A function that makes the planes for a resolution, with the form factors of their cells; it may round the
-// resolution up.
+// A function that makes the planes for a resolution, with the form factors of their cells; the function may
+// round the resolution up.
 using PlaneMaker = std::function<std::vector<PlaneGrid>(int resolution)>;
 
 // Computes a form factor as the mean of point form factors, each of which is found by drawing the scene on
@@ -24,12 +24,12 @@ using PlaneMaker = std::function<std::vector<PlaneGrid>(int resolution)>;
 // seeded random angle (Ashdown 1994, 5.10). For a link, the scene is projected from the points of Cubature():
 // 4 points on a quadrilateral, 3 on a triangle.
 //
-// For a form factor between areas, each part of the sender has four times as many sample points as the
-// receiver of a link. The stated error of a form factor between areas is an estimate, not a bound, and is the
-// sum of three terms. The first error term is the difference from the form factor that a quarter of the
-// points and half the resolution give. The second error term is the fraction of the flux that misses all
-// planes. The third error term is (largest form factor of a cell) / sqrt(number of points), because the drawn
-// image of a target is up to one cell too large or too small.
+// For a form factor between areas, each part of the sender has 16 sample points on a quadrilateral, or 12 on
+// a triangle: four times the number for the receiver of a link. The stated error of a form factor between
+// areas is an estimate, not a bound, and is the sum of three terms. The first error term is the difference
+// from the form factor that a quarter of the points and half the resolution give. The second error term is
+// the fraction of the flux that misses all planes. The third error term is (largest form factor of a cell) /
+// sqrt(number of points), because the drawn image of a target is up to one cell too large or too small.
 class ProjectedFormFactor final : public LinkFormFactorMethod {
  public:
   // `standard` is the resolution of the planes if LinkFormFactorOptions::resolution is 0.

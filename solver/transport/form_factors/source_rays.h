@@ -9,12 +9,16 @@
 
 namespace penumbra {
 
-inline constexpr std::size_t kSourceRays = 16;  // Ashdown (1994) calls the result of 16 rays "excellent"
+// The number of rays from a point to an area; Ashdown (1994) calls the result of 16 rays "excellent".
+inline constexpr std::size_t kSourceRays = 16;
 
 // The two formulas for the form factor of a point to an area A by n rays to random points of the area.
 enum class RayFormula {
-  kUnbiased,  // (A / n) sum V cos cos / (pi r^2)
-  kDisks,  // (A / n) sum V cos cos / (pi r^2 + A / n), as printed: each ray stands for a disk of area A / n
+  // F = (A / n) sum V cos cos / (pi r^2), where V is 1 for visible points and 0 for hidden points.
+  kUnbiased,
+  // F = (A / n) sum V cos cos / (pi r^2 + A / n), as printed in the literature: each ray stands for a disk of
+  // area A / n.
+  kDisks,
 };
 
 // The form factor of a point of the sender to the target, from `rays` rays to random points of the target.

@@ -9,9 +9,9 @@
 
 namespace penumbra {
 
-// A broad plane above the point, as in SinglePlane(), with finer cells in the middle (Recker, George and
-// Greenberg 1990; Ashdown 1994, 5.21). The inner plane has a seventh of the outer plane's side; each of the
-// two planes has resolution x resolution cells. Cells of the outer plane that the inner plane covers have
+// A broad plane above the point, as in SinglePlane(), with smaller cells around its centre (Recker, George
+// and Greenberg 1990; Ashdown 1994, 5.21). The inner plane has a seventh of the outer plane's side; each of
+// the two planes has resolution x resolution cells. Cells of the outer plane that the inner plane covers have
 // form factor 0. The resolution of the two planes is rounded up to a multiple of 14.
 std::vector<PlaneGrid> TwoPlanes(int resolution, CellRule rule = CellRule::kExact);
 

@@ -6,11 +6,12 @@
 // source radiosity B and form factor F, arises because the irradiance varies over the receiver. The source
 // error, F * spread(B) * variation(F) for source radiosity B and form factor F, arises because the radiosity
 // varies within the source's quarters. The AreaWeightedOracle multiplies both errors of a link by
-// sqrt(receiver area / reference area). The product for the receiver error is compared with eps, the largest
-// allowed link error, and the product for the source error with a fraction of eps. Because of the factor
-// sqrt(receiver area / reference area), the sum of the squared link errors is proportional to the squared
-// error integrated over the scene. Because errors are multiplied by sqrt(receiver area / reference area),
-// refinement ends even along edges where walls meet, where form factors vary at every scale.
+// sqrt(receiver area / reference area). A link counts as inaccurate if (receiver error) * sqrt(receiver area
+// / reference area) exceeds eps, the largest allowed link error, or if (source error) * sqrt(receiver area /
+// reference area) exceeds a fraction of eps. Because of the factor sqrt(receiver area / reference area), the
+// sum of the squared link errors is proportional to the squared error integrated over the scene. Because
+// errors are multiplied by sqrt(receiver area / reference area), refinement ends even along edges where walls
+// meet, where form factors vary at every scale.
 
 #pragma once
 

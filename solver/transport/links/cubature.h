@@ -14,7 +14,7 @@ namespace penumbra {
 
 struct CubaturePoint {
   Vec3 position;      // position of the sample point [m]
-  double weight = 0;  // the weights of a cubature rule add up to 1
+  double weight = 0;  // weight of the sample point; the weights of all points of a rule add up to 1
 };
 
 // A cubature rule for the mean over a convex planar polygon. The cubature rule for a triangle has 3 points

@@ -57,11 +57,12 @@ struct Element {
   // The id of the first of the four children, which have consecutive ids; kNoElement if the element is a
   // leaf.
   ElementId first_child = kNoElement;
-  std::int32_t level = 0;              // 0 for the root element
-  std::int32_t size = 0;               // number of corners: 3 or 4
-  std::array<LatticePoint, 4> corner;  // corners, counter-clockwise; the fourth is unused in a triangle
-  std::array<Vec3, 4> vertex;          // positions of the corners [m]
-  double area = 0;                     // area of the element [m^2]
+  std::int32_t level = 0;  // level of the element in its quadtree: 0 for the root
+  std::int32_t size = 0;   // number of the element's corners: 3 or 4
+  // The corners of the element on the lattice, counter-clockwise; the fourth entry is unused in a triangle.
+  std::array<LatticePoint, 4> corner;
+  std::array<Vec3, 4> vertex;  // positions of the element's corners in space [m]
+  double area = 0;             // area of the element [m^2]
 
   bool IsLeaf() const { return first_child == kNoElement; }
   std::span<const Vec3> Vertices() const { return {vertex.data(), static_cast<std::size_t>(size)}; }
@@ -72,7 +73,8 @@ struct Element {
 // children exist.
 std::array<std::array<Vec3, 4>, 4> Quarters(const Element& element);
 
-// All quadtrees of a scene. ElementIds stay valid while the quadtrees grow; references to elements do not.
+// All quadtrees of a scene. While the quadtrees grow, ElementIds stay valid, but references to elements
+// become invalid.
 class ElementForest {
  public:
   ElementForest() = default;
@@ -105,7 +107,7 @@ class ElementForest {
 
   // The leaves (elements without children) of a patch's quadtree, in depth-first order.
   std::vector<ElementId> Leaves(PatchId patch) const;
-  // The leaves of all patches, patch by patch.
+  // The leaves (elements without children) of all patches, patch by patch.
   std::vector<ElementId> AllLeaves() const;
 
   // The leaf of the patch that contains the point. For a point on a border between leaves, or outside the

@@ -1,7 +1,7 @@
 // solver/transport/links/element_locator.h
 //
-// Finds the leaf of a quadtree at a point of a patch, for many points, with a table that is smaller and
-// faster than ElementForest::LeafAt().
+// Finds the leaf of a quadtree at a point of a patch, for many points, with a table that takes less memory
+// and less time than ElementForest::LeafAt().
 
 #pragma once
 
@@ -44,7 +44,7 @@ class ElementLocator {
   };
 
   std::vector<Coordinates> patch_;
-  std::vector<ElementId> first_child_;  // first child of each element
+  std::vector<ElementId> first_child_;  // id of the first child of each element; kNoElement for a leaf
 };
 
 }  // namespace penumbra

@@ -10,9 +10,9 @@
 namespace penumbra {
 
 // Sets Link::form_factor, variation, share and source_variation of each link. Samples the point form factor
-// at the points of Cubature() on that part of the receiver that lies before the source's plane. Link::share,
-// the fractions of the form factor that the source's quarters contribute, stays 1/4 for sources that reflect
-// nothing, because the radiosity of such a source is constant. If the computation is cancelled
+// at the points of Cubature() on that part of the receiver that lies in front of the source's plane.
+// Link::share, the fractions of the form factor that the source's quarters contribute, stays 1/4 for sources
+// that reflect nothing, because the radiosity of such a source is constant. If the computation is cancelled
 // (ExecutionContext), the links' values must not be used. `occlusion` finds the visible parts of sources;
 // null stands for the fastest exact method.
 void FindByCubature(ReceiverLinks* links, const ExecutionContext& context,

@@ -24,18 +24,19 @@ struct LinkView {
   // A subset of the link's blockers that contains, for every blocked segment between the ends of the link, at
   // least one patch that blocks the segment.
   std::vector<PatchId> blockers;
-  Polygon3 lit;  // the part of the receiver before the source's plane [m]; empty if it is the whole receiver
-  // (area of the receiver's part before the source's plane) / (area of the receiver)
+  // The part of the receiver in front of the source's plane [m]; empty if the whole receiver lies there.
+  Polygon3 lit;
+  // (area of the receiver's part in front of the source's plane) / (area of the receiver)
   double lit_fraction = 1;
 };
 
-// All links of one receiver, with a LinkView (blockers, and the receiver's part before the source's plane)
-// for each link.
+// All links of one receiver, with a LinkView (blockers, and the receiver's part in front of the source's
+// plane) for each link.
 struct ReceiverLinks {
   const ElementForest& forest;
   ElementId receiver = kNoElement;
   LinkSet set;
-  std::vector<LinkView> views;  // one LinkView for each link
+  std::vector<LinkView> views;  // one LinkView for each link in `set`
 };
 
 class LinkFormFactorMethod {
@@ -66,8 +67,8 @@ class LinkFormFactorMethod {
   virtual bool SeesAllAtOnce() const { return false; }
 };
 
-// The upper bound of LinkFormFactorOptions::resolution. At the upper bound, the planes of one hemicube or
-// similar view take some 600 MB.
+// The upper bound of LinkFormFactorOptions::resolution. With a resolution of 4096, the planes of one hemicube
+// or similar view take some 600 MB.
 inline constexpr std::uint64_t kMostResolution = 4096;
 
 struct LinkFormFactorOptions {
@@ -78,8 +79,9 @@ struct LinkFormFactorOptions {
   // The number of cells along a side of the projection planes, for hemicubes and similar methods; 0 selects
   // the default of the method.
   std::size_t resolution = 0;
-  std::size_t rays = 0;    // number of rays for one form factor; 0 selects the default of the method
-  std::uint64_t seed = 1;  // seed of random rotations of planes and of random rays
+  // The number of rays for one form factor, in methods that cast rays; 0 selects the default of the method.
+  std::size_t rays = 0;
+  std::uint64_t seed = 1;  // seed of the random rotations of hemicubes and similar planes, and of random rays
   // If true, Find() needs to compute only Link::form_factor, not Link::variation and Link::share.
   bool factors_only = false;
   // The occlusion method of the methods `cubature`, `exact` and `disk`; null for the fastest exact method.

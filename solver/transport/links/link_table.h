@@ -26,9 +26,9 @@ std::vector<LinkSet> FormLinkGroups(const ElementForest& forest, std::span<const
                                     const LinkFormFactorMethod& form_factors,
                                     const ExecutionContext& context);
 
-// All links l of `links` with dropped[l] == 0, and all links of `formed`, ordered by receiver, then by
-// source. If `dropped` is empty, all links are kept. If the computation is cancelled (ExecutionContext), the
-// links must not be used.
+// Returns all links l of `links` with dropped[l] == 0, and all links of `formed`, ordered by receiver, then
+// by source. If `dropped` is empty, all links of `links` are kept. If the computation is cancelled
+// (ExecutionContext), the links must not be used.
 LinkSet ReplaceLinks(const LinkSet& links, std::span<const char> dropped, std::span<const LinkSet> formed,
                      const ExecutionContext& context = ExecutionContext());
 

@@ -16,8 +16,8 @@ namespace penumbra {
 
 // The order in which a sweep (a gather over all links) updates the elements.
 enum class IterationScheme : std::uint8_t {
-  kJacobi,       // all elements gather the radiosities from before the sweep (as in the thesis)
-  kGaussSeidel,  // patch after patch gathers the newest radiosities
+  kJacobi,       // all elements gather radiosities as they were before the sweep (as in the thesis)
+  kGaussSeidel,  // the elements of one patch after another gather the newest radiosities
 };
 
 class PushPull {
@@ -74,7 +74,7 @@ class PushPull {
   Rgb LightPatch(std::size_t patch, std::span<Rgb> pushed, std::span<const Rgb> correction);
 
   RadiositySolution& solution_;
-  std::vector<std::size_t> first_link_;      // index of each element's first link
+  std::vector<std::size_t> first_link_;  // index of each element's first link, in the links of the solution
   std::vector<std::size_t> first_of_patch_;  // index of each patch's first element in order_
   std::vector<ElementId> order_;             // all elements, patch by patch, parents before children
   std::vector<ElementId> leaves_;

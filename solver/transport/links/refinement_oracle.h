@@ -24,8 +24,8 @@ class RefinementOracle {
 };
 
 struct OracleOptions {
-  double eps = 0.1;  // largest error of a link between elements [W/m^2]
-  // smallest area of an element [m^2]; an element with less than 4 * min_area is not split
+  double eps = 0.1;  // largest allowed error of a link between elements [W/m^2]
+  // The smallest allowed area of an element [m^2]; an element whose area is below 4 * min_area is not split.
   double min_area = 1e-5;
   // The oracle compares (link error) * sqrt((receiver area) / reference_area) with eps; reference_area is an
   // area [m^2].

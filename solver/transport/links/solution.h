@@ -50,7 +50,7 @@ struct LinkSet {
 // irradiance.
 struct Fragment {
   ElementId leaf = kNoElement;
-  Polygon3 polygon;  // vertices [m], counter-clockwise as seen from the front
+  Polygon3 polygon;  // vertices of the fragment [m], counter-clockwise as seen from the patch's front
   double area = 0;   // area of the fragment [m^2]
   Rgb irradiance = Rgb::Zero(), radiosity = Rgb::Zero();  // irradiance and radiosity of the fragment [W/m^2]
 };

@@ -14,8 +14,8 @@ struct DiffuseRay {
 };
 
 // Ray i of a low-discrepancy sequence of rays that start uniformly distributed over a convex polygon and have
-// cosine-distributed directions about the unit vector `normal`. The rays start at a distance `lift` [m]
-// before the polygon, so that no ray hits a coincident polygon that faces the opposite way.
+// cosine-distributed directions about the unit vector `normal`. The rays start at a distance `lift` [m] in
+// front of the polygon, so that no ray hits a coincident polygon that faces the opposite way.
 DiffuseRay MakeDiffuseRay(std::span<const Vec3> polygon, const Vec3& normal, double lift, std::size_t i,
                           std::uint64_t seed);
 

@@ -25,13 +25,13 @@ struct FactorTerm {
   // The weight of the slope of the node's radiosity: factor * (centroid of the node's visible part - centre
   // of the node), or a first-order estimate of this product [m].
   std::array<float, 3> moment = {0, 0, 0};
-  // The relative error of the term is about by_spread * Node::spread + by_residual * Node::residual, where
-  // `spread` and `residual` describe the variation of radiosity over the source node (SourceSet::Node).
+  // The relative error of a FactorTerm is about by_spread * Node::spread + by_residual * Node::residual,
+  // where `spread` and `residual` describe the variation of radiosity over the source node (SourceSet::Node).
   float by_spread = 0, by_residual = 0;
 };
 
 struct FactorRow {
-  // The terms of one source patch in the row.
+  // The range of a FactorRow's terms that belong to one source patch.
   struct Source {
     PatchId patch = kNoPatch;
     std::uint32_t first = 0, end = 0;  // range of the source's terms in `terms`

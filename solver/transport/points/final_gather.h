@@ -1,11 +1,11 @@
 // solver/transport/points/final_gather.h
 //
-// Final gathering (Reichert 1992): the irradiance at a point from a solution whose light is known on average
-// over elements. Direct light is computed by shadow rays (ShadowRays). Reflected light is gathered by rays in
-// a fixed, cosine-distributed pattern of directions: each ray brings the reflected radiosity of the element
-// that the ray hits. All points with the same normal use the same ray directions, so that the irradiance of
-// neighbouring points varies smoothly, without noise. The time of a final gather grows only with the
-// logarithm of the number of polygons in the scene.
+// Final gathering (Reichert 1992): the irradiance at a point, from a radiosity solution that stores one mean
+// radiosity per element. Direct light is computed by shadow rays (ShadowRays). Reflected light is gathered by
+// rays in a fixed, cosine-distributed pattern of directions: each ray brings the reflected radiosity of the
+// element that the ray hits. All points with the same normal use the same ray directions, so that the
+// irradiance of neighbouring points varies smoothly, without noise. The time of a final gather grows only
+// with the logarithm of the number of polygons in the scene.
 //
 // The median relative error of a final gather with n rays is about 0.1 / sqrt(n), measured in a scene of
 // 5,802 patches.
@@ -25,14 +25,14 @@
 namespace penumbra {
 
 struct FinalGatherOptions {
-  std::size_t rays = 1024;  // number of rays for reflected light
+  std::size_t rays = 1024;  // number of rays from each point, to gather reflected light
   ShadowRayEffort shadows;
   std::uint64_t seed = 0;  // seed of the pattern of ray directions
   // If `regather` is false, a ray brings the radiosity that the solution stores for the element at the hit.
   // If `regather` is true, the irradiance at the hit is computed anew: direct light by shadow rays from the
-  // hit, reflected light by one more ray. Gathering with `regather` is much slower. With `regather`, errors
-  // of the stored radiosities affect only light that was reflected at least twice, and the light of strongly
-  // reflecting elements.
+  // hit, reflected light by one more ray. A final gather with `regather` takes much more time than without.
+  // With `regather`, errors of the stored radiosities affect only light that was reflected at least twice,
+  // and the light of strongly reflecting elements.
   bool regather = false;
 };
 

@@ -18,8 +18,8 @@ namespace penumbra {
 // One of the parts into which contacts (lines where other surfaces touch) divide a patch, with the kinds of
 // surfaces that the part's centroid sees.
 struct ContactPart {
-  Polygon3 polygon;  // convex polygon in the plane of the patch
-  double area = 0;   // area of the part [m^2]
+  Polygon3 polygon;  // the part, a convex polygon in the plane of its patch
+  double area = 0;   // area of this part of a patch [m^2]
   bool sees_fronts = false;
   bool sees_sky = false;  // true if the part's centroid sees the sky; computed only if sees_fronts is false
 };

@@ -62,10 +62,11 @@ struct IrradianceParts {
 double SentBack(const Scene& scene, PatchId patch, PatchId source, double factor);
 
 // The allowed error of the light of one source, relative to `light`, the source's irradiance without
-// blockers. The allowed error is (1 - returned)^2 * tolerance * (known / light) / 5, in the channel where it
-// is smallest; `known` is the irradiance of the point. A dim source may have a larger relative error, since a
-// point has many sources, whose errors have different signs. In a narrow slot, a large fraction `returned` of
-// the light returns to its origin (SentBack), so that errors add up.
+// blockers. The allowed error of a source's light is (1 - returned)^2 * tolerance * (known / light) / 5, in
+// the channel where it is smallest; `known` is the irradiance of the point. A dim source may have a larger
+// relative error than a bright source, since a point has many sources, whose errors have different signs. In
+// a narrow slot, a large fraction `returned` of the light returns to its origin (SentBack), so that errors
+// add up.
 double AggregateTolerance(double tolerance, double returned, const Rgb& light, const Rgb& known);
 
 // Computes the irradiance at one point, source by source. A Gathering must be a local variable, because the
@@ -81,11 +82,12 @@ class Gathering {
   Gathering(const Gathering&) = delete;
   Gathering& operator=(const Gathering&) = delete;
 
-  // Adds the light of the patch `source`. Those patches of `candidates` that lie between the point and the
-  // source block light. The patch `own`, on which the receiver point lies, does not block light.
+  // Adds the light of the patch `source` to the irradiance at the point. Those patches of `candidates` that
+  // lie between the point and the source block light. The patch `own`, on which the receiver point lies, does
+  // not block light.
   void AddSource(PatchId source, std::span<const PatchId> candidates, PatchId own);
-  // Adds the light of the patch `source`; all patches in the bounding volume hierarchy `patches` may block
-  // light. `screens` are patches that may hide large parts of the view at once.
+  // Adds the light of the patch `source` to the irradiance; all patches in the bounding volume hierarchy
+  // `patches` may block light. `screens` are patches that may hide large parts of the view at once.
   void AddSource(PatchId source, const PatchHierarchy& patches, std::span<const Screen> screens);
 
   // Makes subsequent calls of AddSource() add the form factor of each leaf l of the source set to factors[l].
@@ -96,14 +98,14 @@ class Gathering {
   void RecordRow(FactorRow& row) { row_ = &row; }
 
   // Allows subsequent calls of AddSource() to replace a subtree of a source by an aggregate, one polygon with
-  // one radiosity, for speed. Aggregates may change the light of a source by about tolerance * max(unoccluded
-  // light of the source, c * light of all sources added earlier), with a constant c < 1. Gathering multiplies
-  // the tolerance of aggregates by (1 - r)^2, where r is the largest SentBack() of the sources added so far.
-  // Because the allowed error grows with the light of earlier sources, sources should be added in order of
-  // decreasing brightness. If `known`, the approximate irradiance of the point, exceeds the light of all
-  // sources added earlier, `known` replaces this light in the allowed error. If `mostly_hidden` is true,
-  // blockers hide most of the light at the point, and the allowed error does not depend on the unoccluded
-  // light of the source. REQUIRES: the point lies on a patch.
+  // one radiosity, for speed. Aggregates (polygons that replace subtrees of a source) may change the light of
+  // the source by about tolerance * max(unoccluded light of the source, c * light of all sources added
+  // earlier), with a constant c < 1. Gathering multiplies the tolerance of aggregates by (1 - r)^2, where r
+  // is the largest SentBack() of the sources added so far. Because the allowed error grows with the light of
+  // earlier sources, sources should be added in order of decreasing brightness. If `known`, the approximate
+  // irradiance of the point, exceeds the light of all sources added earlier, `known` replaces this light in
+  // the allowed error. If `mostly_hidden` is true, blockers hide most of the light at the point, and the
+  // allowed error does not depend on the unoccluded light of the source. REQUIRES: the point lies on a patch.
   void AllowAggregates(double tolerance, const Rgb& known = Rgb::Zero(), bool mostly_hidden = false);
   // The irradiance that the sources added so far would give without blockers [W/m^2]. unhindered() excludes
   // sources that blockers hide completely. REQUIRES: AllowAggregates() was called.
@@ -154,7 +156,7 @@ class Gathering {
   const OcclusionMethod* method_;
   IrradianceParts* parts_;
   PointView view_;
-  std::vector<Occluder>& occluders_;  // occluders of the current source
+  std::vector<Occluder>& occluders_;  // blockers, as cones of directions, that may hide the current source
   Scratch<Buffers> buffers_;
   Clipper& clipper_;  // the Clipper object in buffers_
   double tolerance_ = 0;
@@ -173,7 +175,7 @@ class Gathering {
   double factor_ = 0;  // form factor to the visible part of the current source, summed up so far
   Rgb irradiance_ = Rgb::Zero();
   std::span<double> factors_;  // form factor to each leaf of the source set; empty if not recorded
-  FactorRow* row_ = nullptr;   // the row to which form factors are appended; null if none
+  FactorRow* row_ = nullptr;   // the FactorRow to which form factors are appended; null if none
 };
 
 }  // namespace penumbra

@@ -5,7 +5,7 @@
 // radiosity matters. Near an edge where two walls meet, radiosity depends on the distance d from the edge as
 // d^a with 0 < a < 1 (a = 0.763 for a right angle and reflectance 1/2). Cuts parallel to the edge where walls
 // meet repeatedly halve the cell that is nearest to the edge. The number of cells from cuts parallel to the
-// edge is O(log n), where n is the number of square cells that would give the same accuracy.
+// edge where walls meet is O(log n), where n is the number of square cells that would give the same accuracy.
 
 #pragma once
 
@@ -20,7 +20,7 @@ struct LeafCellOptions {
   // The approximate limit of e / B, where e is the error of the irradiance at other surfaces if the radiosity
   // of a cell is treated as constant, and B is the radiosity around the cell.
   double error = 1e-3;
-  // The floor of the denominator of relative errors: the denominator is max(radiosity, dark) [W/m^2].
+  // The lower bound of the denominator of relative errors: the denominator is max(radiosity, dark) [W/m^2].
   Rgb dark = Rgb::Zero();
   double min_area = 0;  // parts of leaves with at most this area are not halved [m^2]
 };
@@ -39,11 +39,11 @@ struct LeafCells {
 Rgb MeanReflected(const RadiositySolution& solution);
 
 // Computes the light that a leaf receives from the sources of the PointIrradiance `exact`. Parts of the leaf
-// are halved by lines parallel to one of their edges, until a few pieces in each direction suffice to meet
-// options.error. The error of a piece of constant radiosity is estimated by a multiple of (change of
-// radiosity over the piece) * (width of the piece) / (distance to the nearest patch that sees the piece).
-// `start` holds the initial parts of the leaf: the parts from an earlier call, or the pieces into which
-// contacts with other surfaces divide the leaf.
+// are halved by lines parallel to one of their edges, until each part needs only a few pieces of constant
+// irradiance in each direction to meet options.error. The error of a piece of constant radiosity is estimated
+// by a multiple of (change of radiosity over the piece) * (width of the piece) / (distance to the nearest
+// patch that sees the piece). `start` holds the initial parts of the leaf: the parts from an earlier call, or
+// the pieces into which contacts with other surfaces divide the leaf.
 LeafCells CutLeaf(const RadiositySolution& solution, const PointIrradiance& exact, ElementId leaf,
                   std::vector<Polygon3> start, const LeafCellOptions& options);
 

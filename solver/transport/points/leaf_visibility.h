@@ -1,9 +1,9 @@
 // solver/transport/points/leaf_visibility.h
 //
-// The source patches that each leaf (undivided quadtree element) sees, and the blockers before each source.
-// The lists of sources and blockers of a leaf are derived from the lists of the leaf's patch. Each level of
-// the quadtree removes sources and blockers that lie outside narrower tubes (convex hulls of element and
-// source), so that few blockers remain to be tested at a point of the leaf.
+// The source patches that each leaf (undivided quadtree element) sees, and the blockers between the leaf and
+// each source. The lists of sources and blockers of a leaf are derived from the lists of the leaf's patch.
+// Each level of the quadtree removes sources and blockers that lie outside narrower tubes (convex hulls of
+// element and source), so that few blockers remain to be tested at a point of the leaf.
 
 #pragma once
 

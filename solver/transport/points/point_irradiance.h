@@ -43,10 +43,11 @@ struct PointIrradianceResult {
   Rgb deviation = Rgb::Zero();
 };
 
-// Finer sources that replace the sources of some patches, for points where the finer division matters.
+// Light sources of some patches, divided into smaller polygons than the leaves of the solution, for points so
+// close to a patch that the variation of radiosity within a leaf matters.
 struct DividedSources {
   std::vector<PatchId> patches;  // patches whose sources are replaced, in ascending order
-  SourceSet sources;             // the finer sources of `patches`, and of no other patches
+  SourceSet sources;             // the divided sources of `patches`, and of no other patches
 };
 
 // A point on the front of a patch.
@@ -84,7 +85,7 @@ class PointIrradiance {
   // source by a fraction of at most about `tolerance` (Gathering::AllowAggregates).
   PointIrradianceResult NearlyOnPatch(PatchId patch, const ReceiverPoint& at, double tolerance) const;
 
-  // True if the irradiance is sampled by rays (RadiositySolution::rays_per_point > 0).
+  // True if rays sample the irradiance (RadiositySolution::rays_per_point > 0).
   bool IsSampled() const { return gather_.has_value(); }
   // Sets results[i] to the irradiance at points[i], in parallel. Rays of neighbouring points are traced
   // together, which takes less time than a call of NearlyOnPatch() for each point. Values of SampleTogether()
@@ -98,11 +99,11 @@ class PointIrradiance {
   // factors.
   PointIrradianceResult RecordOnPatch(PatchId patch, const ReceiverPoint& at, double tolerance) const;
   bool CanRecord() const { return options_.method == nullptr && forest_ != nullptr && !gather_; }
-  // Brings a row of form factors up to date with the present radiosities of sources(). Renew() replaces the
-  // terms of each source whose error would exceed a few times `tolerance`, because the radiosity varies too
-  // much over a node of the source or because a term has no node (-1). Renew() also adds the terms of
-  // `new_sources`. Renew() returns the number of sources whose form factors were computed anew. REQUIRES:
-  // CanRecord() is true.
+  // Brings a row of form factors up to date with the present radiosities of sources(). Renew() computes the
+  // form factors of a source anew if the error of the source's light would exceed a few times `tolerance`
+  // because radiosity varies too much over a node of the source, or if FactorTerm::node is -1 for a term of
+  // the source. Renew() also adds the form factors of the patches in `new_sources` to the row. Renew()
+  // returns the number of sources whose form factors were computed anew. REQUIRES: CanRecord() is true.
   std::size_t Renew(PatchId patch, const ReceiverPoint& at, double tolerance,
                     std::span<const PatchId> new_sources, FactorRow& row) const;
 
@@ -116,7 +117,7 @@ class PointIrradiance {
   std::span<const PatchPair> SeenFrom(ElementId leaf) const { return leaves_->SourcesOf(leaf); }
 
   // The irradiance at any point, also in free space. Any patch may light the point or block light; a bounding
-  // volume hierarchy finds the patches that matter. If `divided` is not null, the finer sources in `divided`
+  // volume hierarchy finds the patches that matter. If `divided` is not null, the sources in `divided`
   // replace the sources of the patches that `divided` lists. Any thread may call Anywhere().
   PointIrradianceResult Anywhere(const ReceiverPoint& at, IrradianceParts* parts = nullptr,
                                  const DividedSources* divided = nullptr) const;
@@ -145,7 +146,7 @@ class PointIrradiance {
 
   const Scene& scene_;
   const PatchVisibility& visibility_;
-  const ElementForest* forest_ = nullptr;  // the quadtrees of the solution; null without a solution
+  const ElementForest* forest_ = nullptr;  // quadtrees of the solution; null if there is no solution
   SourceSet sources_;
   std::shared_ptr<const LeafVisibility> leaves_;
   PointIrradianceOptions options_;

@@ -1,7 +1,7 @@
 // solver/transport/points/shadow_rays.h
 //
-// The light of luminaires at a point by shadow rays. Luminaires are the emitters, and small surfaces that
-// reflect so much light that rays in random directions would hit these surfaces too rarely. Shadow rays
+// Computes the light of luminaires at a point by shadow rays. Luminaires are the emitters, and small surfaces
+// that reflect so much light that rays in random directions would hit these surfaces too rarely. Shadow rays
 // estimate the visible fraction of a luminaire; the unoccluded light of the luminaire is exact. If an emitter
 // is found to be partly hidden and its light matters, more shadow rays are cast, or the blockers are cut out
 // of the emitter exactly, as in PointIrradiance.
@@ -33,13 +33,14 @@ struct ShadowRayEffort {
   int divisions = 4;
   // A partly hidden emitter gets more shadow rays, or exact visibility, if its unoccluded light exceeds
   // closer_above * (light of all visible luminaires); see rays_if_hidden. If the unoccluded light of a partly
-  // hidden emitter is smaller, the divisions^2 shadow rays alone determine the visible fraction of the
-  // emitter.
+  // hidden emitter is at most closer_above * (light of all visible luminaires), the divisions^2 shadow rays
+  // alone determine the visible fraction of the emitter.
   double closer_above = 0.02;
   // The number of shadow rays to a partly hidden emitter whose light exceeds the limit given by closer_above.
   // If rays_if_hidden is 0, the blockers are cut out of the emitter exactly.
   int rays_if_hidden = 0;
-  // Seed of the random ends of rays in the cells; with 0, rays end at the centres of the cells.
+  // Seed of the random end points of shadow rays in the cells of a luminaire; with 0, shadow rays end at the
+  // centres of the cells.
   std::uint64_t seed = 0;
 };
 
@@ -56,11 +57,12 @@ class ShadowRays {
   // `caster` must outlive the ShadowRays.
   ShadowRays(const Scene& scene, const RayCaster& caster, std::span<const BrightReflector> reflectors = {});
 
-  // Finds out which luminaires the surfaces around the given points do not see. A point in a region (cube of
-  // the given side [m]) then sends fewer rays to the luminaires that no given point in this region sees,
-  // unless exact visibility is asked for (rays_if_hidden is 0 and closer_above is finite). The expected value
-  // of the light is the same with and without Learn(). The given points are spread over all surfaces, many in
-  // each region. Learn() does nothing if the scene has few luminaires.
+  // Finds out which luminaires the surfaces around the given points do not see. After Learn(), a point in a
+  // region (cube of the given side [m]) sends fewer rays to the luminaires that no given point in this region
+  // sees, unless exact visibility is asked for (rays_if_hidden is 0 and closer_above is finite). The expected
+  // value of the light is the same with and without Learn(). The given points should be spread over all
+  // surfaces of the scene, with many points in each region. Learn() does nothing if the scene has few
+  // luminaires.
   void Learn(std::span<const ReceiverPoint> points, double side);
 
   // The largest number of points in one call of AtAll().
@@ -68,19 +70,21 @@ class ShadowRays {
   // Sets irradiance[i] to the light of the luminaires at points[i] [W/m^2]. Rays of neighbouring points are
   // traced together as a packet. If `parts` is not null, AtAll() adds the contributions of the luminaires,
   // and the direct light of emitters, at the first point to `parts`; `parts` gets no gradient. All points of
-  // a call send rays to the same places on weak luminaires, so that the value at a point depends on the other
-  // points of the call. Any thread may call AtAll(). REQUIRES: `points` has at most kTogether points, with
-  // equal normals; `irradiance` has the same size.
+  // a call of AtAll() send rays to the same places on weak luminaires, so that the value at a point depends
+  // on the other points of the call. Any thread may call AtAll(). REQUIRES: `points` has at most kTogether
+  // points, with equal normals; `irradiance` has the same size.
   void AtAll(std::span<const ReceiverPoint> points, const ShadowRayEffort& effort, std::span<Rgb> irradiance,
              IrradianceParts* parts = nullptr) const;
   // The light of the luminaires at a single point [W/m^2].
   Rgb At(const ReceiverPoint& at, const ShadowRayEffort& effort, IrradianceParts* parts = nullptr) const;
 
  private:
-  using Values = std::array<double, kTogether>;  // one value for each point of a group
+  using Values = std::array<double, kTogether>;  // one value for each point of a group of points
   // The unoccluded light of one luminaire at a group of points.
   struct Seen {
-    // Estimate of the unoccluded light in the brightest channel [W/m^2], smaller if it is known to be hidden.
+    // An estimate of the irradiance from the unoccluded luminaire, in the brightest channel [W/m^2]. The
+    // estimate is multiplied by 1/8 if the luminaire is probably hidden from all points of the group
+    // (HiddenLuminaires).
     Values light;
     double total;
     std::size_t luminaire;
@@ -89,11 +93,11 @@ class ShadowRays {
     PatchId patch;
     bool emits;
     std::array<Vec3, 4> vertex;
-    std::size_t size;  // number of vertices: 3 or 4
+    std::size_t size;  // number of the luminaire's vertices: 3 or 4
     Vec3 centre, normal;
     double radius, area;
     Rgb radiosity;      // radiosity of the luminaire [W/m^2]
-    double brightness;  // radiosity in the brightest channel [W/m^2]
+    double brightness;  // radiosity of the luminaire in the brightest channel [W/m^2]
     bool is_parallelogram;
 
     std::span<const Vec3> Vertices() const { return {vertex.data(), size}; }
@@ -128,7 +132,7 @@ class ShadowRays {
 
   const Scene& scene_;
   const RayCaster& caster_;
-  double lift_;  // distance of ray ends from surfaces [m]
+  double lift_;  // distance between the end points of rays and the surfaces [m]
   SourceSet sources_;
   PatchHierarchy patches_;
   std::vector<Luminaire> luminaires_;

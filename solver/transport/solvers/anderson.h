@@ -29,8 +29,7 @@ class AndersonAcceleration {
     // `residual` is the change of G(x) - x since the last step, and `value` is the change of G(x) since the
     // last step.
     std::vector<Rgb> residual, value;
-    // The scalar products of `residual` with the residuals of all stored steps, up to and including this
-    // step.
+    // The scalar products of `residual` with the residual of each stored step up to this step.
     std::deque<Rgb> product;
   };
 

@@ -16,8 +16,8 @@ namespace penumbra {
 // on the order of the two polygons nor on their first vertices or orientations. Pairs of polygons with equal
 // PairShape are images of each other under a rigid motion or a reflection. Without blockers, pairs of
 // polygons with equal PairShape exchange the same flux, up to rounding of the coordinates. The list of
-// distances is empty if one polygon is not completely before the plane of the other, because distances alone
-// do not distinguish front from back.
+// distances is empty if one polygon does not lie completely in front of the plane of the other, because
+// distances alone do not distinguish front from back.
 using PairShape = std::vector<double>;
 PairShape ShapeOfPair(std::span<const Vec3> a, const Patch& patch_a, std::span<const Vec3> b,
                       const Patch& patch_b);

@@ -14,7 +14,8 @@ namespace penumbra {
 // irradiance that the hierarchical links bring. DeferredCorrection holds all data of the deferred correction,
 // so that a cancelled step of the solver can restore these data.
 struct DeferredCorrection {
-  // for each leaf: (exact irradiance) - (irradiance from the links) [W/m^2]; empty before the first pass
+  // for each leaf: (exact irradiance) - (irradiance from the links) [W/m^2]; empty before the first pass of
+  // deferred correction
   std::vector<Rgb> of_element;
   // for each fragment of a leaf: (exact irradiance of the fragment) - (irradiance of the leaf) [W/m^2]
   std::vector<Rgb> of_fragment;

@@ -15,7 +15,7 @@
 
 namespace penumbra {
 
-// The light of the unknowns of a dense system.
+// The light of the unknowns of a dense radiosity system.
 struct DenseLight {
   std::vector<Rgb> irradiance, radiosity;  // irradiance and radiosity of each unknown [W/m^2]
 };
@@ -43,9 +43,9 @@ RadiositySolution ToRadiositySolution(const DenseSystem& system, const DenseLigh
 // that is factorised need 4 GB of memory.
 inline constexpr std::size_t kMostDenseUnknowns = 16'000;
 
-// The constructor of DenseSolver solves the dense system of a uniform mesh; no iterations remain. Meshing and
-// display see only the mean radiosity of linear and quadratic elements. LitAs(), which makes a solver for
-// other emittances, needs DenseOptions::keep_matrix.
+// The constructor of DenseSolver solves the dense system of a uniform mesh completely, so that the solver
+// makes no iterations. Meshing and display see only the mean radiosity of linear and quadratic elements.
+// LitAs(), which makes a solver for other emittances, needs DenseOptions::keep_matrix.
 class DenseSolver final : public LightSolver {
  public:
   // Throws InputError if the system has more than kMostDenseUnknowns unknowns. If the computation is

@@ -3,14 +3,14 @@
 // The radiosity equation as a dense matrix over the leaves of all quadtrees: the reference for the
 // hierarchical solver.
 //
-// Constant elements use the Galerkin method with form factors between areas: the light that leaves an element
-// equals the light that arrives at the others, and the mean irradiance of a closed room is correct on every
-// mesh. Linear and quadratic elements use collocation at Gauss nodes inside the elements: a row of the matrix
-// is an integral over sources only, and no node lies on an edge where walls meet. With collocation, each row
-// of the matrix of a closed room adds up to 1. At points other than the nodes, the irradiance that is
-// computed from the solved radiosity converges faster than the radiosity itself (iterated collocation;
-// Atkinson, The numerical solution of integral equations of the second kind, 1997). With collocation,
-// reciprocity holds only to the order of the method. No row of form factors is normalised to the sum 1.
+// Constant elements use the Galerkin method with form factors between areas: no light is lost between leaving
+// one element and arriving at another, and the mean irradiance of a closed room is correct on every mesh.
+// Linear and quadratic elements use collocation at Gauss nodes inside the elements: a row of the matrix is an
+// integral over sources only, and no node lies on an edge where walls meet. With collocation, each row of the
+// matrix of a closed room adds up to 1. At points other than the nodes, the irradiance that is computed from
+// the solved radiosity converges faster than the radiosity itself (iterated collocation; Atkinson, The
+// numerical solution of integral equations of the second kind, 1997). With collocation, reciprocity holds
+// only to the order of the method. No row of form factors is normalised to the sum 1.
 
 #pragma once
 
@@ -48,7 +48,7 @@ struct DenseElement {
   Polygon3 polygon;  // vertices of the element [m]
   double area = 0;   // area of the element [m^2]
   ElementBasis basis;
-  std::size_t first = 0;  // the element's first unknown; the element has basis.size() unknowns
+  std::size_t first = 0;  // number of the element's first unknown; the element has basis.size() unknowns
 };
 
 struct DenseSystem {
@@ -58,12 +58,13 @@ struct DenseSystem {
   std::vector<DenseElement> elements;
   // index of each patch's first element; the last entry is the number of elements
   std::vector<std::size_t> first_of_patch;
-  std::vector<std::size_t> element_of_unknown;  // index in `elements` of the element of each unknown
+  std::vector<std::size_t> element_of_unknown;  // for each unknown, the index of its element in `elements`
   // transport(i, j) is the irradiance of unknown i for unit radiosity of unknown j [1]. The irradiance of an
   // unknown is the mean over the element for constant elements, and the value at the node for linear and
   // quadratic elements.
   Eigen::MatrixXd transport;
-  double form_factor_error = 0;  // the largest row sum of the errors of the form factors
+  // The largest sum, over all rows of the matrix, of the errors of a row's form factors.
+  double form_factor_error = 0;
 
   std::size_t size() const { return element_of_unknown.size(); }
   PatchId PatchOf(std::size_t unknown) const {

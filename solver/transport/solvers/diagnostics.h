@@ -23,7 +23,7 @@ struct LinkDiagnostics {
   std::vector<double> closure;
   double closure_min = 0, closure_max = 0;
   double closure_mean = 0;  // mean closure of the patches, weighted by their free areas
-  double covered_area = 0;  // area of all patches that other objects cover [m^2]
+  double covered_area = 0;  // total area of the parts of patches that other objects cover [m^2]
 
   // The reciprocity error is |A1 F12 - A2 F21| / min(A1, A2) [1]. The member link_reciprocity measures the
   // reciprocity error of pairs of opposite links between the same two elements. The member patch_reciprocity
@@ -31,7 +31,8 @@ struct LinkDiagnostics {
   // sum over all links between elements of the two patches. Few links have an opposite link between the same
   // two elements, because links are split in one direction at a time.
   std::size_t link_pairs = 0, patch_pairs = 0;
-  double link_reciprocity = 0, patch_reciprocity = 0;  // the largest reciprocity errors
+  // The largest reciprocity errors of pairs of links, and of pairs of patches.
+  double link_reciprocity = 0, patch_reciprocity = 0;
 };
 // Without links, all values of LinkDiagnostics are 0. If the computation is cancelled (ExecutionContext), the
 // diagnostics must not be used.

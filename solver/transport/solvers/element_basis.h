@@ -51,7 +51,7 @@ class ElementBasis {
   Vec3 origin_, s_, t_;
   std::vector<Vec3> node_;
   std::vector<double> weight_;
-  Eigen::MatrixXd coefficient_;  // coefficient of monomial m in basis function i
+  Eigen::MatrixXd coefficient_;  // entry (m, i) is the coefficient of monomial m in basis function i
 };
 
 // True if opposite sides of the quadrilateral are equal up to rounding. `extent` [m] is an upper bound of the

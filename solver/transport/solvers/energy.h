@@ -23,8 +23,9 @@ struct EnergyBalance {
 
 // Casts cosine-distributed low-discrepancy rays from the leaves of the solution and from the parts
 // (fragments) of cut leaves. The number of rays of a leaf or part is proportional to its flux. In smooth
-// scenes, the finite number of rays causes an error of about 1 / rays. The energy balance is deterministic
-// for a given seed. If the computation is cancelled (ExecutionContext), the energy balance must not be used.
+// scenes, the finite number of rays causes a relative error of about 1 / (number of rays). The energy balance
+// is deterministic for a given seed. If the computation is cancelled (ExecutionContext), the energy balance
+// must not be used.
 EnergyBalance MeasureEnergy(const RadiositySolution& solution, std::size_t rays = std::size_t{1} << 18,
                             std::uint64_t seed = 1, const ExecutionContext& context = ExecutionContext());
 

@@ -22,7 +22,7 @@ class FullMatrixSolver final : public UniformSolver {
 
  private:
   struct Entry {
-    std::int32_t source = 0;  // index of the source in leaves()
+    std::int32_t source = 0;  // index of the source element in leaves()
     double factor = 0;
   };
   bool Assemble(const ExecutionContext& context);

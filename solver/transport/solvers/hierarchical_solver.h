@@ -4,13 +4,13 @@
 // over links between elements, pushes and pulls the light through the quadtrees, and refines links, until
 // relative changes of radiosity are below a cut-off.
 //
-// Links (hierarchical interactions between elements) control refinement and make iterations cheap. But each
-// link has a transport error of up to eps [W/m^2], and these errors add up to missing energy. The solver
-// therefore improves the converged solution by deferred correction (Stetter 1978): the solver computes the
-// exact irradiance of every leaf from all leaves and adds (exact irradiance - irradiance from the links) to
-// the irradiance of the leaf. The hierarchical solver then gathers the reflections of the added irradiance
-// over the links. Each pass of deferred correction multiplies the error of the light transport by the
-// relative error of the links, which is a few percent.
+// Links (hierarchical interactions between elements) control refinement and make iterations cheap. However,
+// each link has a transport error of up to eps [W/m^2], and the errors of many links add up to missing
+// energy. The solver therefore improves the converged solution by deferred correction (Stetter 1978): the
+// solver computes the exact irradiance of every leaf from all leaves and adds (exact irradiance - irradiance
+// from the links) to the irradiance of the leaf. After the correction of the leaves, the hierarchical solver
+// gathers the reflections of the added irradiance over the links. Each pass of deferred correction multiplies
+// the error of the light transport by the relative error of the links, which is a few percent.
 
 #pragma once
 
@@ -37,15 +37,17 @@ class HierarchicalSolver final : public LightSolver {
   HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
                      const ExecutionContext& context = ExecutionContext());
   // Continues from an earlier solution of the same scene: takes over the links, and the light with its
-  // corrections.
+  // deferred corrections.
   HierarchicalSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
                      RadiositySolution solution, const ExecutionContext& context = ExecutionContext());
 
   bool Ready() const override { return links_.Linked(); }
   std::optional<SolverStep> Next() const override;
   bool Step(SolverStep step, const ExecutionContext& context) override;
-  // Sweeps until the light has settled, then one level of splitting, and so on, to convergence; then Next().
-  // The light is that of iterations within the relative cut-off, for splitting meets other light.
+  // NextSmall() divides an iteration into small steps: kSweep until the residual is below a cut-off, then
+  // kSplit once, and so on until no link is split. When no iteration remains, NextSmall() returns Next().
+  // Because each kSplit step judges links by the latest light, small steps and whole iterations split
+  // different links; their converged light agrees up to the relative cut-off.
   std::optional<SolverStep> NextSmall() const override;
   std::unique_ptr<LightSolver> Copy(const PatchVisibility& visibility) const override;
   bool Converged() const override { return links_.Converged(); }
@@ -98,7 +100,7 @@ class HierarchicalSolver final : public LightSolver {
   IterationReport& Begun();
   void EndBegun();
 
-  // The state to which a cancelled step returns the solver.
+  // The state of the HierarchicalSolver before a step, which is restored if the step is cancelled.
   struct Snapshot {
     LinkSolver::Snapshot links;
     DeferredCorrection correction;

@@ -9,7 +9,7 @@ namespace penumbra {
 
 // The work of one iteration of a solver, and the state after the iteration.
 struct IterationReport {
-  double residual = 0;  // bound of the error of any radiosity, relative to the largest reflected radiosity
+  double residual = 0;  // bound of (error of any radiosity) / (largest reflected radiosity)
   double eps = 0;       // the link error above which links were split [W/m^2]
   std::size_t elements = 0, links = 0;
   std::size_t sweeps = 0;  // number of sweeps: gathers over all links, each followed by push-pull

@@ -28,9 +28,9 @@ namespace penumbra {
 
 // The kinds of steps of a solver.
 enum class SolverStep : std::uint8_t {
-  kIterate,  // one iteration, shot or sweep of the solver's method
+  kIterate,  // one iteration of the solver; in some methods, one shot of light or one sweep over all elements
   kCorrect,  // deferred correction by exact irradiance, after the last iteration
-  // The parts of one iteration of the hierarchical method:
+  // kSweep and kSplit are the parts of one iteration of the hierarchical solver.
   kSweep,  // one gather over all links, with push-pull
   kSplit,  // one level of link splitting: splits each link that the oracle rejects, once
 };
@@ -49,16 +49,17 @@ struct InteractionCounts {
 struct SolverReport {
   std::vector<IterationReport> iterations;
   int most_iterations = 0;  // the largest number of iterations that Next() requests; 0 if unknown
-  // true if links were not split because the number of links would have exceeded SolverOptions::max_links
+  // True if links were not split because the number of links would have exceeded SolverOptions::max_links.
   bool full = false;
-  InteractionCounts interactions;  // the interactions that are not links of the solution
+  InteractionCounts interactions;  // numbers of those interactions that are not links of the solution
   struct Dense {
     std::size_t unknowns = 0;
     DenseClosure closure;
     double form_factor_error = 0;  // the value of DenseSystem::form_factor_error
   };
   std::optional<Dense> dense;  // data of the dense system; set only by solvers that assemble one
-  // The iteration that steps of the kinds kSweep and kSplit have begun and not completed.
+  // The report of the iteration that steps of the kinds kSweep and kSplit have begun but not completed; empty
+  // if there is none.
   std::optional<IterationReport> begun = {};
 };
 
@@ -70,7 +71,7 @@ class LightSolver {
   LightSolver(const LightSolver&) = delete;
   LightSolver& operator=(const LightSolver&) = delete;
 
-  // False if the construction of the solver was cancelled: the scene is then lit by emittance only.
+  // False if the construction of the solver was cancelled, so that the solution contains only emitted light.
   virtual bool Ready() const = 0;
   // The kind of the next step towards the solution; nullopt if the light has converged, or if the options
   // allow no more steps.
@@ -79,12 +80,14 @@ class LightSolver {
   // step was cancelled or the solver makes no steps of the kind `step`. A cancelled iteration leaves the
   // light unchanged; a cancelled correction keeps its completed passes.
   virtual bool Step(SolverStep step, const ExecutionContext& context) = 0;
-  // The next of the smallest steps towards the solution: Next(), unless the method has parts of it.
+  // The kind of the next step, if the solver shall make the smallest possible steps: a part of the step that
+  // Next() returns, or Next() itself if the solver does not divide steps into parts.
   virtual std::optional<SolverStep> NextSmall() const { return Next(); }
-  // A solver in the state of this one, which goes on by itself. `visibility` must equal the one that this
-  // solver was made from, and outlive the copy; so must the scene. Null if the method has no copies.
+  // Returns a copy of the solver in its present state; the copy and the original then make steps
+  // independently. `visibility` must equal the PatchVisibility from which the original was made. `visibility`
+  // and the scene must outlive the copy. Copy() returns null if the solver does not support copies.
   virtual std::unique_ptr<LightSolver> Copy(const PatchVisibility& /*visibility*/) const { return nullptr; }
-  // True if no further iteration would change the light by more than the options allow.
+  // True if further iterations would change the light by no more than the cut-off in the solver's options.
   virtual bool Converged() const = 0;
 
   // The current solution, whose leaves and fragments (parts of leaves) are the sources of light for meshing
@@ -92,24 +95,27 @@ class LightSolver {
   virtual const RadiositySolution& solution() const = 0;
   virtual const SolverReport& report() const = 0;
 
-  // Recomputes the light after the scene's emittances or reflectances have changed, as one iteration, and
-  // drops the deferred corrections. Relight() returns false if cancelled, or if a new solver is necessary.
+  // Recomputes the light after the scene's emittances or reflectances have changed, and drops the deferred
+  // corrections. The report counts the call of Relight() as one iteration. Relight() returns false if
+  // cancelled, or if a new solver is necessary.
   virtual bool Relight(const ExecutionContext& context) = 0;
   // True if the solver supports SetLight(), by which the meshing stage replaces the light.
   virtual bool TakesLight() const = 0;
   // Replaces the irradiance of the leaves by exact values: `irradiance` is indexed by ElementId [W/m^2], and
-  // `fragments`, the parts of cut leaves, replace the solution's fragments. SetLight() then adds the further
-  // reflections of the change of irradiance. If cancelled, SetLight() returns false and leaves the light
-  // unchanged. REQUIRES: TakesLight() is true; the fragments (parts of cut leaves) are sorted by leaf and
-  // tile their leaf; the irradiance of a leaf is the area-weighted mean over its fragments.
+  // `fragments`, the parts of cut leaves, replace the solution's fragments. After replacing the irradiance,
+  // SetLight() adds the light that results from further reflections of the change of irradiance. If
+  // cancelled, SetLight() returns false and leaves the light unchanged. REQUIRES: TakesLight() is true; the
+  // fragments (parts of cut leaves) are sorted by leaf and tile their leaf; the irradiance of a leaf is the
+  // area-weighted mean over its fragments.
   virtual bool SetLight(std::span<const Rgb> irradiance, std::vector<Fragment> fragments,
                         const ExecutionContext& context) = 0;
 
   // A solver with the same elements and form factors for the scene `other`, which has the same patches but
   // other emittances or reflectances. The solver that LitAs() returns is lit by the scene `other`, as after
-  // Relight(). Deferred corrections are included unless the meshing stage makes them (TakesLight). LitAs()
-  // returns null if cancelled, or if the method does not support other emittances. The scene `other`, and all
-  // arguments of this solver's constructor, must outlive the solver that LitAs() returns.
+  // Relight(). The light of the returned solver includes deferred corrections, unless the meshing stage makes
+  // the corrections (TakesLight). LitAs() returns null if cancelled, or if the method does not support other
+  // emittances. The scene `other`, and all arguments of this solver's constructor, must outlive the solver
+  // that LitAs() returns.
   virtual std::unique_ptr<LightSolver> LitAs(const Scene& /*other*/, const ExecutionContext&) const {
     return nullptr;
   }
@@ -146,7 +152,8 @@ bool SolveStepByStep(LightSolver& solver, const ExecutionContext& context, const
 // PatchVisibility has no pairs.
 using PairFinder = std::function<const PatchVisibility&(const ExecutionContext&)>;
 
-// The input of a solver. The scene and the PatchVisibility that `pairs` returns must outlive the solver.
+// The input of a LightSolver: a scene, and the pairs of patches that may see each other. The scene and the
+// PatchVisibility that `pairs` returns must outlive the solver.
 struct SolverScene {
   const Scene& scene;
   PairFinder pairs;

@@ -26,10 +26,11 @@ namespace penumbra {
 // the links, the light, and the state of refinement.
 class LinkSolver {
  public:
-  // The state to which a cancelled step returns the LinkSolver.
+  // The state of the LinkSolver before a step, which is restored if the step is cancelled.
   struct Snapshot {
     std::size_t elements = 0;
-    std::optional<LinkSet> links;  // the links before the step; set once the step has replaced links
+    // The links before the step; empty as long as the step has not replaced links.
+    std::optional<LinkSet> links;
     std::vector<Fragment> fragments;
     std::vector<Rgb> irradiance, radiosity;
     std::vector<double> radiosity_spread, spread_below;
@@ -44,7 +45,8 @@ class LinkSolver {
   // Continues with the links and the light of a solution of the same scene.
   LinkSolver(const Scene& scene, const PatchVisibility& visibility, const SolverOptions& options,
              RadiositySolution solution, const ExecutionContext& context);
-  // A solver in the state of another. `visibility` must equal the other's, and outlive the solver.
+  // A copy of `other` in its present state. `visibility` must equal the PatchVisibility from which `other`
+  // was made, and must outlive the copy.
   LinkSolver(const LinkSolver& other, const PatchVisibility& visibility);
   LinkSolver(const LinkSolver&) = delete;
   LinkSolver& operator=(const LinkSolver&) = delete;
@@ -62,11 +64,13 @@ class LinkSolver {
   bool Settle(std::span<const Rgb> correction, IterationReport& report, const ExecutionContext& context) {
     return Settle(correction, options_.relative_cutoff, report, context);
   }
-  // Makes one plain sweep (a gather over all links), without acceleration. Returns false if cancelled.
+  // Makes one sweep (a gather over all links), without Anderson acceleration. LinkSolver::Sweep() returns
+  // false if cancelled.
   bool Sweep(std::span<const Rgb> correction, IterationReport& report, const ExecutionContext& context);
   // Splits every link that the refinement oracle rejects, and then the new links that the oracle rejects, for
-  // at most `most_levels` levels of splitting; 0: until the oracle accepts all links. If any link is split,
-  // all fragments (parts into which leaves were cut) are deleted. Split() returns false if cancelled.
+  // at most `most_levels` levels of splitting. If `most_levels` is 0, Split() splits until the oracle accepts
+  // all links. If any link is split, all fragments (parts into which leaves were cut) are deleted. Split()
+  // returns false if cancelled.
   bool Split(Snapshot& before, IterationReport& report, const ExecutionContext& context, int most_levels = 0);
   // Completes the report of an iteration, tests for convergence, and lowers eps, the largest allowed link
   // error, for the next iteration (multigridding).

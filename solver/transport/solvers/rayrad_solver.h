@@ -11,9 +11,9 @@ namespace penumbra {
 
 // Progressive refinement with light at the vertices of the elements (Wallace, Elmquist and Haines 1989;
 // RayRad in Ashdown 1994, 6.10): rays run from each vertex to random points of the shooting patch, and each
-// ray stands for a disk (RayFormula::kDisks). The irradiance of an element is the mean over its vertices. A
-// vertex receives the light of a shot once, even if several elements share the vertex; in RayRad as printed,
-// the vertex received the light once for each element.
+// ray stands for a disk (RayFormula::kDisks). The irradiance of an element is the mean of the irradiances at
+// its vertices. A vertex receives the light of a shot once, even if several elements share the vertex; in the
+// printed program RayRad, the vertex receives the light once for each element.
 class RayradSolver final : public ShootingSolver {
  public:
   RayradSolver(const Scene& scene, const PatchVisibility& visibility, const UniformOptions& options,

@@ -2,12 +2,12 @@
 //
 // A solver for scenes of many polygons. The light transport operator is a sparse matrix of form factors that
 // rays sample by Malley's method (Ashdown 1994, 4.12). A row of the matrix lists the cells that the rays of
-// one cell hit; each hit adds 1 / (number of rays) to the form factor. A cell is an element that is whole, or
-// a fragment of an element that other surfaces stand on or cross (CutLeavesAtContacts): the light on one side
-// of a wall says nothing about the light on the other side. The sampled solver makes no links and no pairs of
-// patches, so that time and memory grow in proportion to the number of elements. In closed rooms, each row of
-// the sampled matrix adds up to 1. Direct light is computed by shadow rays. The matrix is kept, so that light
-// for other emittances needs no new rays for the matrix.
+// one cell hit; each hit adds 1 / (number of rays) to the form factor. In the sampled solver, a cell is
+// either a whole leaf of a quadtree, or a fragment of a leaf that other surfaces touch or cross
+// (CutLeavesAtContacts), because the irradiances on the two sides of a wall are unrelated. The sampled solver
+// makes no links and no pairs of patches, so that time and memory grow in proportion to the number of
+// elements. In closed rooms, each row of the sampled matrix adds up to 1. Direct light is computed by shadow
+// rays. The sampled matrix is kept, so that light for other emittances needs no new rays for the matrix.
 
 #pragma once
 
@@ -54,22 +54,24 @@ class SampledSolver final : public LightSolver {
  private:
   // The direct light of an element or a fragment, from points in its four quarters [W/m^2].
   struct Direct {
-    // the mean of the direct light, and its root mean square deviation from the mean
+    // The mean of the direct light, and the root mean square deviation of the direct light from this mean.
     Rgb mean = Rgb::Zero(), spread = Rgb::Zero();
   };
   // The limits of one pass of the sampled solver.
   struct Limits {
-    double largest_area;     // largest area of an element [m^2]
-    double relative_spread;  // largest allowed ratio spread / mean of an element's direct light
-    std::size_t rays;        // number of rays from an element
+    double largest_area;  // largest allowed area of an element [m^2]
+    // Largest allowed (root mean square deviation) / mean of an element's direct light.
+    double relative_spread;
+    std::size_t rays;  // number of rays that each element casts
   };
 
-  // The whole leaf, or one of its fragments.
+  // A receiver and sender of light: a whole leaf of a quadtree, or one fragment of a cut leaf.
   struct Cell {
     ElementId leaf = kNoElement;
-    std::int32_t fragment = -1;  // in RadiositySolution::fragments; -1: the leaf is whole
+    std::int32_t fragment = -1;  // index in RadiositySolution::fragments; -1 if the cell is a whole leaf
   };
-  // What a pass replaces, but for the elements.
+  // The data, apart from the elements, that a pass of the sampled solver replaces, and that are restored if
+  // the pass is cancelled.
   struct Transport {
     std::vector<Fragment> fragments;
     std::vector<Cell> cells;
@@ -108,7 +110,7 @@ class SampledSolver final : public LightSolver {
   PushPull push_pull_;
   std::vector<Direct> direct_;              // direct light of each element
   std::vector<Direct> direct_of_fragment_;  // direct light of each fragment
-  std::vector<Cell> cells_;                 // in the order of push_pull_.leaves()
+  std::vector<Cell> cells_;                 // the cells of all leaves, in the order of push_pull_.leaves()
   // For each cell, rays_ entries, one for each ray from the cell: the index in cells_ of the cell that the
   // ray hits, or -1 if the ray hits no front.
   std::shared_ptr<const std::vector<std::int32_t>> rows_;

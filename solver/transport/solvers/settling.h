@@ -15,16 +15,16 @@
 namespace penumbra {
 
 enum class Acceleration : std::uint8_t {
-  kNone,      // plain sweeps, as in the thesis
+  kNone,      // sweeps without acceleration, as in the thesis
   kAnderson,  // extrapolates between sweeps (AndersonAcceleration)
 };
 
 // For each channel, a bound of (radiosity still missing after a sweep) / (largest change of a leaf's
 // radiosity in the sweep). LightToCome() is the largest entry of the vector M (I - M)^-1 1, where 1 is the
 // vector of ones, and M is the matrix of reflectance times form factor of the links. In closed rooms of
-// reflectance r, LightToCome() is r / (1 - r); in open rooms, LightToCome() is smaller. LightToCome() is
-// computed from partial sums of the series M + M^2 + ... and a geometric bound of the rest (a
-// Collatz-Wielandt bound of the norm of M). The bound LightToCome() holds even if the form factors of the
+// reflectance r, LightToCome() is r / (1 - r); in open rooms, LightToCome() is smaller than r / (1 - r).
+// LightToCome() is computed from partial sums of the series M + M^2 + ... and a geometric bound of the rest
+// (a Collatz-Wielandt bound of the norm of M). The bound LightToCome() holds even if the form factors of the
 // links do not add up to 1. LightToCome() is infinite if the series M + M^2 + ... diverges. If cancelled,
 // LightToCome() returns the bound computed so far.
 Rgb LightToCome(const PushPull& push_pull, const RadiositySolution& solution,
@@ -40,7 +40,7 @@ struct Settled {
 struct SettlingOptions {
   IterationScheme scheme;
   Acceleration acceleration;
-  double cutoff;                // the residual at which the sweeps end
+  double cutoff;                // the residual below which no further sweeps are made
   std::size_t most_sweeps = 0;  // the largest number of sweeps; 0: no limit
 };
 

@@ -43,8 +43,8 @@ class ShootingSolver : public UniformSolver {
   Rgb Overshoot(PatchId shooter, std::span<const double> row) const;
 
   std::vector<Rgb> irradiance_;  // irradiance of each leaf from all shots [W/m^2]
-  std::vector<Rgb> unsent_;      // radiosity of each patch that is still to be sent [W/m^2]
-  // cached form factors of patches that have shot, up to a limit of memory
+  std::vector<Rgb> unsent_;      // radiosity that each patch has not yet shot to other patches [W/m^2]
+  // Cached form factors from patches that have shot light to all leaves, up to a limit of memory.
   std::map<PatchId, std::vector<double>> rows_;
 };
 

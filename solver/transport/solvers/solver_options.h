@@ -23,7 +23,7 @@ struct SolverOptions {
   // The light has converged if |radiosity - limit| / (largest reflected radiosity) is at most relative_cutoff
   // for every element (parameter 7 of the thesis, Appendix A).
   double relative_cutoff = 1e-4;
-  // Largest number of iterations; each gathers until the light converges, then refines links.
+  // The largest number of iterations; each iteration gathers until the light converges, then refines links.
   int max_iterations = 100;
   // Refinement stops before (number of links) - (number of links between root elements) exceeds max_links.
   // The default of max_links limits the memory of links to about 800 MB.

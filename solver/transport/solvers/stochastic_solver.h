@@ -42,7 +42,8 @@ class StochasticSolver final : public UniformSolver {
   ElementLocator locator_;
   std::vector<std::int32_t> place_;  // index of each element in leaves()
   std::vector<std::size_t> used_;    // number of rays that each leaf has cast in all bundles
-  std::vector<Rgb> sum_, squares_;   // sums over the bundles of the irradiance of each leaf and of its square
+  // For each leaf, the sums over all bundles of rays of the irradiance, and of the squared irradiance.
+  std::vector<Rgb> sum_, squares_;
 };
 
 LightSolverRegistry::Method StochasticSolverMethod();

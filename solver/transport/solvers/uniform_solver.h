@@ -79,8 +79,8 @@ class UniformSolver : public LightSolver {
   LeafVisibilityCache seen_from_leaves_;
 };
 
-// Makes a solver of the class Solver. Returns null if the solver is asked to continue from another solution,
-// which solvers on uniform meshes cannot do.
+// Makes a solver of the class `Solver`, which is derived from UniformSolver. Returns null if the solver is
+// asked to continue from another solution, which solvers on uniform meshes cannot do.
 template <class Solver>
 std::unique_ptr<LightSolver> MakeUniformSolver(const SolverScene& in, const LightSolverOptions& options,
                                                const ExecutionContext& context) {

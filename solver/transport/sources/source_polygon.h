@@ -17,8 +17,9 @@
 namespace penumbra {
 
 struct SourcePolygon {
-  std::array<Vec3, 4> vertex = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  // [m]
-  std::int32_t size = 0;  // number of vertices: 3 or 4
+  // Vertices of the polygon [m]; the fourth entry is unused in a triangle.
+  std::array<Vec3, 4> vertex = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  std::int32_t size = 0;  // number of the polygon's vertices: 3 or 4
 
   SourcePolygon() = default;
   // REQUIRES: three or four vertices.

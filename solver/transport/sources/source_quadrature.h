@@ -19,7 +19,7 @@
 namespace penumbra {
 
 // An upper bound of SourceQuadratureError() for a point whose height above the source's plane is at least
-// 1e-3 * (largest coordinate).
+// 1e-3 * (largest coordinate of the point and of the source).
 inline constexpr double kSourceQuadratureError = 1e-11;
 
 // An upper bound of |sum of node weights - form factor of the point to the part of the source| [1], with and
@@ -29,7 +29,7 @@ inline constexpr double kSourceQuadratureError = 1e-11;
 double SourceQuadratureError(const ReceiverPoint& at, const Patch& source);
 
 struct SourceNode {
-  Vec3 position;      // position on the source [m]
+  Vec3 position;      // position of the quadrature node on the source [m]
   double weight = 0;  // the contribution of the node to the form factor of the point [1]
 };
 
@@ -37,13 +37,13 @@ struct SourceNode {
 // weight * f(position) is the irradiance at the point from the part. The part of the source is halved
 // repeatedly until each piece is small relative to its distance from the point; each piece then gets Gauss
 // nodes. REQUIRES: the part is convex, lies in the plane of `source`, and is above the point's horizon; the
-// point lies before the plane of `source`.
+// point lies in front of the plane of `source`.
 void AddSourceNodes(const ReceiverPoint& at, const Patch& source, std::span<const Vec3> part,
                     std::vector<SourceNode>& nodes);
 
 // Appends quadrature nodes for the visible region of a convex part of a source: the part is clipped to the
-// receiver's horizon, and blockers among the candidates are cut out exactly. `own` is the patch of the
-// receiver point. REQUIRES: the last call of view.FaceSource() was for this source and returned true.
+// receiver's horizon, and blockers among the candidates are cut out exactly. `own` is the patch on which the
+// receiver point lies. REQUIRES: the last call of view.FaceSource() was for this source and returned true.
 void AddVisibleSourceNodes(PointView& view, std::span<const Vec3> part, std::span<const PatchId> candidates,
                            PatchId own, std::vector<SourceNode>& nodes);
 

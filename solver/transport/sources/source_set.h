@@ -30,28 +30,30 @@ struct SourcePart {
 
 class SourceSet {
  public:
-  // A node of a source's quadtree, in depth-first order. A subtree whose elements all have the same radiosity
-  // becomes a single leaf, because the form factor of a polygon is exact for any size.
+  // A node of a source's quadtree; nodes are stored in depth-first order. A subtree whose elements all have
+  // the same radiosity becomes a single leaf of the SourceSet, because the form factor of a polygon is exact
+  // for any size.
   struct Node {
     // Members that a traversal of the tree reads first are declared first, so that they lie in the same cache
     // lines.
-    std::int32_t size = 0;  // number of corners: 3 or 4
-    std::int32_t skip = 1;  // number of nodes in the subtree of this node, including this node; 1 for a leaf
+    std::int32_t size = 0;  // number of corners of the node's polygon: 3 or 4
+    std::int32_t skip = 1;  // number of nodes in this node's subtree, including the node itself; 1 for a leaf
     std::int32_t first_leaf = 0, leaf_count = 1;  // range of the subtree's leaves in the SourceSet
-    std::array<std::int32_t, 4> corner = {};      // indices of the vertices in Corners()
+    std::array<std::int32_t, 4> corner = {};  // indices in Corners() of the vertices of the node's polygon
     // index of the solution's fragment (part of a cut leaf) that contains the node; -1 if none
     std::int32_t fragment = -1;
     std::int32_t element = -1;  // id of the quadtree element that equals or contains the node; -1 if none
     // For a subtree: the root mean square deviation of the leaves' radiosities B from their mean, divided by
     // max(mean, 1 % of the scene's mean reflected radiosity), for the channel with the largest quotient [1].
     double spread = 0;
-    // root mean square deviation of the leaves' radiosities from their best linear fit, with the same divisor
-    // as `spread`
+    // The root mean square deviation of the radiosities of the subtree's leaves from their best linear fit,
+    // with the same divisor as `spread`.
     double residual = 0;
-    Vec3 centre = Vec3::Zero();   // centre of the node's polygon [m]
-    double radius = 0;            // largest distance of a vertex from `centre` [m]
-    double area = 0;              // area of the node's polygon [m^2]
-    Rgb radiosity = Rgb::Zero();  // radiosity [W/m^2]; of a subtree, the area-weighted mean
+    Vec3 centre = Vec3::Zero();  // centre of the node's polygon [m]
+    double radius = 0;           // largest distance of a vertex from `centre` [m]
+    double area = 0;             // area of the node's polygon [m^2]
+    // Radiosity of the node, for a subtree the area-weighted mean over its leaves [W/m^2].
+    Rgb radiosity = Rgb::Zero();
 
     std::array<Vec3, 4> vertex;  // vertices of the node's polygon [m]
     // Row c of `moment` is the sum over the subtree's leaves of (B - mean B) * area * centre, for channel c
@@ -84,7 +86,8 @@ class SourceSet {
   // New radiosities of the elements, and of the fragments (parts of cut leaves), from which a SourceSet was
   // made.
   struct Light {
-    // radiosities [W/m^2]; if `fragment` is empty, fragments have the radiosities of their elements
+    // The radiosities of elements and fragments [W/m^2]. If `fragment` is empty, fragments have the
+    // radiosities of their elements.
     std::span<const Rgb> element, fragment;
     std::span<const Rgb> emittance;  // emittance of each patch [W/m^2]
   };
@@ -160,7 +163,7 @@ class SourceSet {
   std::vector<Vec3> corners_;
   PolygonBatch leaf_polygons_;
   std::vector<Rgb> leaf_radiosity_;
-  std::vector<std::int32_t> leaf_node_;  // index in nodes_ of each leaf
+  std::vector<std::int32_t> leaf_node_;  // index in nodes_ of each leaf's node
   std::vector<Rgb> emittance_;           // emittance of each patch
 };
 
