@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "solver/transport/solvers/diagnostics.h"
 
@@ -56,6 +57,34 @@ void AddUnits(const Scene& scene, std::vector<std::string>* warnings) {
         brightest, kBrightest));
 }
 
+// Lamps shine down, and rooms are wider than high. If nearly all light leaves along another axis, from the
+// end of the scene's shortest side, this axis is likely to point up in the file.
+void AddUpAxis(const Scene& scene, std::vector<std::string>* warnings) {
+  constexpr double kNearlyAll = 0.9, kShorter = 0.9, kAtTheTop = 0.75;
+  const auto [low, high] = scene.Bounds();
+  const Vec3 size = high - low;
+  Vec3 down = Vec3::Zero();  // for each axis, the flux that leaves against the axis, from its end [W]
+  double all = 0;
+  for (const Patch& patch : scene.patches) {
+    const double flux =
+        patch.area * scene.materials[static_cast<std::size_t>(patch.material)].emittance.maxCoeff();
+    all += flux;
+    for (int axis = 0; axis < 3; ++axis)
+      if (patch.normal[axis] < -kNearlyAll && patch.vertex[0][axis] > low[axis] + kAtTheTop * size[axis])
+        down[axis] += flux;
+  }
+  if (all <= 0) return;
+  for (const auto& [axis, name] : {std::pair(1, 'y'), std::pair(0, 'x')}) {
+    const double others = std::min(size[2], size[1 - axis]);
+    if (down[axis] >= kNearlyAll * all && size[axis] > 0 && size[axis] <= kShorter * others)
+      warnings->push_back(
+          fmt::format("nearly all light shines along -{0}, from the end of the shortest side: z is up here; "
+                      "if {0} points "
+                      "up in the file, give --up {0}",
+                      name));
+  }
+}
+
 void AddLight(const Scene& scene, std::vector<std::string>* warnings) {
   const auto emits = [&](const Patch& patch) { return Emits(scene, patch); };
   if (std::none_of(scene.patches.begin(), scene.patches.end(), emits)) {
@@ -97,6 +126,7 @@ std::vector<std::string> SceneWarnings(const Scene& scene, bool lit) {
     return warnings;
   }
   AddUnits(scene, &warnings);
+  AddUpAxis(scene, &warnings);
   if (lit) AddLight(scene, &warnings);
   return warnings;
 }

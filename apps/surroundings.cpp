@@ -9,24 +9,12 @@
 #include "solver/geometry/polygon.h"
 #include "solver/geometry/polygon_distance.h"
 #include "solver/scene/text_reader.h"
+#include "solver/visibility/point/enclosure.h"
 
 namespace penumbra {
 namespace {
 
 constexpr double kOneDegree = std::numbers::pi / 180;
-
-// Directions that look around on the side of the normal: along it, and two rings of six.
-std::vector<Vec3> LookAround(const Vec3& normal) {
-  const Frame frame = MakeFrame(Vec3::Zero(), normal);
-  std::vector<Vec3> directions = {normal};
-  for (const double from_normal : {45 * kOneDegree, 75 * kOneDegree})
-    for (int i = 0; i < 6; ++i) {
-      const double around = (60 * i + 17) * kOneDegree;  // off the axes, along which scenes have their edges
-      directions.push_back(std::sin(from_normal) * (std::cos(around) * frame.u + std::sin(around) * frame.v) +
-                           std::cos(from_normal) * normal);
-    }
-  return directions;
-}
 
 // The lowest of the faces that the patch covers within `reach` of the point.
 std::int32_t LowestFace(const Scene& scene, PatchId id, const Vec3& position, double reach) {

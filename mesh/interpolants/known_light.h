@@ -27,9 +27,9 @@ struct KnownLight {
 IrradianceSampler Remembering(IrradianceSampler sampler, std::vector<KnownLight>& known);
 
 // Raises the maximum error of each triangle that contains a point of `known` to the error of the interpolant
-// at this point, as MeasureTriangles() defines errors. `mean` is the mean irradiance of each channel [W/m^2].
-// REQUIRES: `errors` has one entry for each triangle of the mesh.
+// at this point, as MeasureTriangles() with `sampling` defines errors. REQUIRES: `errors` has one entry for
+// each triangle of the mesh.
 void RaiseErrors(const Scene& scene, const IrradianceMesh& mesh, std::span<const KnownLight> known,
-                 const Rgb& mean, std::span<TriangleError> errors);
+                 const TriangleSampling& sampling, std::span<TriangleError> errors);
 
 }  // namespace penumbra

@@ -9,6 +9,7 @@
 #include "solver/base/check.h"
 #include "solver/base/parallel.h"
 #include "solver/scene/scene_parts.h"
+#include "solver/visibility/point/enclosure.h"
 
 namespace penumbra {
 namespace {
@@ -34,6 +35,16 @@ struct Values {
   std::vector<Rgb> exact_deviation;          // of `exact`
   std::vector<std::vector<Rgb>> truths;      // from each of the better samplers
   std::vector<std::vector<Rgb>> deviations;  // of the truths
+
+  // Calls visit(list) for every list that has an entry for each point.
+  void ForEachList(const auto& visit) {
+    visit(at);
+    visit(shown);
+    visit(exact);
+    visit(exact_deviation);
+    for (std::vector<Rgb>& truth : truths) visit(truth);
+    for (std::vector<Rgb>& deviation : deviations) visit(deviation);
+  }
 };
 
 // Appends the values at additional points.
@@ -73,6 +84,20 @@ void Evaluate(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSa
     const auto place = locator.Find(at.patch, at.position);
     values.shown[i] = place ? Rgb(IrradianceAt(mesh, *place).max(0.0)) : values.exact[i];
   });
+}
+
+// Removes the values of dark points that nobody can see, from the given one on.
+void DropEnclosed(const Scene& scene, const Enclosure& enclosure, std::size_t begin, Values& values) {
+  const Rgb no_light = NoLight(scene);
+  std::size_t kept = begin;
+  for (std::size_t i = begin; i < values.at.size(); ++i) {
+    const SurfacePoint& at = values.at[i];
+    const Vec3& normal = scene.patches[static_cast<std::size_t>(at.patch)].normal;
+    if ((values.exact[i] <= no_light).all() && enclosure.Surrounds(at.position, normal)) continue;
+    values.ForEachList([&](auto& list) { list[kept] = list[i]; });
+    ++kept;
+  }
+  values.ForEachList([&](auto& list) { list.resize(kept); });
 }
 
 // Statistics of the errors of values at these points.
@@ -239,11 +264,17 @@ MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const
   MeasuredError error;
   if (scene.patches.empty() || points == 0) return error;
   const std::vector<double> areas = ReflectingAreas(scene);
+  const Enclosure enclosure(scene);
   Values values;
-  Evaluate(scene, mesh, sampler, better, SpreadPoints(scene, areas, points, seed), values);
+  const auto evaluate = [&](std::span<const SurfacePoint> at) {
+    const std::size_t before = values.at.size();
+    Evaluate(scene, mesh, sampler, better, at, values);
+    DropEnclosed(scene, enclosure, before, values);
+  };
+  evaluate(SpreadPoints(scene, areas, points, seed));
   // The first points, which are distributed uniformly, determine means and all statistics except those of
   // parts.
-  const std::span<const SurfacePoint> evenly = std::span(values.at).first(points);
+  const std::vector<SurfacePoint> evenly = values.at;
   error.interpolant = Summarise(
       scene, evenly, ErrorsBeyondNoise(scene, evenly, values.shown, values.exact, values.exact_deviation));
   if (better.empty()) return error;
@@ -258,9 +289,6 @@ MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const
   error.above = static_cast<double>(std::count_if(whole.begin(), whole.end(),
                                                   [&](const ValueError& e) { return e.error > bound; })) /
                 static_cast<double>(std::max<std::size_t>(1, whole.size()));
-  const auto evaluate = [&](std::span<const SurfacePoint> at) {
-    Evaluate(scene, mesh, sampler, better, at, values);
-  };
   error.by_part = MeasureParts(scene, evaluate, seed, kPartError * bound, values);
   return error;
 }

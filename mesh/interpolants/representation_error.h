@@ -97,8 +97,9 @@ struct ErrorMeasurement {
 
 // Measures errors at `points` random points, distributed uniformly by area over the reflecting fronts of
 // patches (ReflectingAreas). Additional random points in each part of the scene make the errors of small
-// parts reliable. The same random seed gives the same points. With probability one, none of the random points
-// is an interpolation node. If the list `better` is empty, only MeasuredError::interpolant is computed.
+// parts reliable. Points that get no light and that nobody can see (Enclosure) are left out. The same random
+// seed gives the same points. With probability one, none of the random points is an interpolation node. If
+// the list `better` is empty, only MeasuredError::interpolant is computed.
 MeasuredError MeasureError(const Scene& scene, const IrradianceMesh& mesh, const IrradianceSampler& sampler,
                            std::span<const IrradianceSampler> better, const ErrorMeasurement& measurement);
 

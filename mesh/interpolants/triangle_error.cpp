@@ -9,6 +9,7 @@
 #include "solver/base/check.h"
 #include "solver/geometry/polygon.h"
 #include "solver/scene/scene_parts.h"
+#include "solver/visibility/point/enclosure.h"
 
 namespace penumbra {
 namespace {
@@ -80,6 +81,7 @@ MeasuredTriangles MeasureTriangles(const Scene& scene, const IrradianceMesh& mes
     for (std::size_t k = 0; k < unknown.size(); ++k)
       cache->Insert(patch_of(unknown[k]), at[unknown[k]], found[k]);
 
+  const Rgb no_light = NoLight(scene);
   MeasuredTriangles measured;
   measured.point_evaluations = unknown.size();
   measured.errors.resize(mesh.triangles.size());
@@ -87,6 +89,9 @@ MeasuredTriangles MeasureTriangles(const Scene& scene, const IrradianceMesh& mes
     const std::uint32_t t = triangles[i / places.size()];
     const auto [s, u] = places[i % places.size()];
     const Rgb shown = mesh.irradiance[t].At(s, u).max(0.0);
+    if (sampling.enclosure && (truth[i] <= no_light).all() &&
+        sampling.enclosure->Surrounds(at[i].position, at[i].normal))
+      continue;
     TriangleError& error = measured.errors[t];
     for (int c = 0; c < 3; ++c) {
       const double difference = std::abs(shown[c] - truth[i][c]);

@@ -15,6 +15,8 @@
 
 namespace penumbra {
 
+class Enclosure;
+
 // Statistics of the relative error |interpolant - true| / max(true, kErrorFloor * mean of the channel), over
 // the additional points of a triangle and the channels.
 struct TriangleError {
@@ -29,6 +31,8 @@ struct MeasuredTriangles {
 struct TriangleSampling {
   int samples = 1;  // number of intervals of a side; samples^2 points per triangle
   Rgb mean;         // mean irradiance of each channel [W/m^2]
+  // If given, points that get no light and that nobody can see count as exact.
+  const Enclosure* enclosure = nullptr;
 };
 
 // Measures the listed triangles at samples^2 points each. Lines parallel to the sides cut a triangle into

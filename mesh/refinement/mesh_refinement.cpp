@@ -13,6 +13,7 @@
 #include "solver/base/check.h"
 #include "solver/base/stopwatch.h"
 #include "solver/scene/scene_parts.h"
+#include "solver/visibility/point/enclosure.h"
 
 namespace penumbra {
 namespace {
@@ -26,6 +27,7 @@ struct LightAt {
   const ExecutionContext& context;
   SampleCache& samples;
   std::span<const KnownLight> known;
+  const Enclosure& enclosure;
 };
 
 // True if the light at the vertices differs by more than the factor.
@@ -44,19 +46,21 @@ std::size_t MeasureSuspects(const Scene& scene, const MeshRefinementOptions& opt
   std::vector<std::uint32_t> suspects;
   for (std::uint32_t t = 0; t < guess.size(); ++t)
     if (guess[t] >= options.suspicion * options.error) suspects.push_back(t);
-  MeasuredTriangles measured = MeasureTriangles(scene, refined->mesh, suspects, {options.samples, mean},
-                                                light.sampler, &light.samples);
+  MeasuredTriangles measured =
+      MeasureTriangles(scene, refined->mesh, suspects, {options.samples, mean, &light.enclosure},
+                       light.sampler, &light.samples);
   refined->errors = std::move(measured.errors);
   std::vector<std::uint32_t> doubtful;
   for (const std::uint32_t t : suspects)
     if (refined->errors[t].max <= options.error &&
         (guess[t] > kDoubt * options.error || IsSteep(refined->mesh.irradiance[t], mean, options.steep)))
       doubtful.push_back(t);
-  const MeasuredTriangles finer = MeasureTriangles(
-      scene, refined->mesh, doubtful, {options.samples + 1, mean}, light.sampler, &light.samples);
+  const MeasuredTriangles finer =
+      MeasureTriangles(scene, refined->mesh, doubtful, {options.samples + 1, mean, &light.enclosure},
+                       light.sampler, &light.samples);
   for (const std::uint32_t t : doubtful)
     if (finer.errors[t].max > refined->errors[t].max) refined->errors[t] = finer.errors[t];
-  RaiseErrors(scene, refined->mesh, light.known, mean, refined->errors);
+  RaiseErrors(scene, refined->mesh, light.known, {options.samples, mean, &light.enclosure}, refined->errors);
   return measured.point_evaluations + finer.point_evaluations;
 }
 
@@ -225,6 +229,7 @@ RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options
   RefinedMesh refined, complete;  // of the present round, and of the round before
   refined.plan = memory.start ? *memory.start
                               : BeginPlan(light.visibility, light.solution, mesh_options.discontinuities);
+  const Enclosure enclosure(scene);
   MeshReport::Seconds seconds;
   std::size_t evaluations = 0;
   for (int round = 0;; ++round) {
@@ -237,7 +242,7 @@ RefinedMesh RefineMesh(const LightToShow& light, const MeshOptions& mesh_options
     const Stopwatch interpolating;
     if (!context.Cancelled())
       evaluations += Interpolate(scene, mesh_options, options,
-                                 {light.sampler, context, *samples, memory.known}, &refined);
+                                 {light.sampler, context, *samples, memory.known, enclosure}, &refined);
     seconds.interpolate += interpolating.Seconds();
     if (context.Cancelled()) {
       refined = std::move(complete);

@@ -13,6 +13,7 @@
 #include <span>
 
 #include "mesh/interpolants/mesh_locator.h"
+#include "mesh/interpolants/representation_error.h"
 #include "mesh/pipeline/pipeline.h"
 #include "mesh/refinement/local_pass.h"
 #include "mesh/refinement/mesh_refinement.h"
@@ -22,6 +23,7 @@
 #include "solver/scene/obj_reader.h"
 #include "solver/scene/scene_parts.h"
 #include "solver/scene/surface_points.h"
+#include "solver/visibility/point/enclosure.h"
 #include "test_paths.h"
 #include "tests/visibility/test_scenes.h"
 
@@ -623,6 +625,55 @@ TEST(TriangleErrors, AreThoseOfTheInterpolants) {
       }
     }
   }
+}
+
+// Half of a board is inside of a closed box. Nobody sees the dark half, where the mesh shows light: its error
+// counts neither in the measurement nor in the refinement, and errors that can be seen count as before.
+TEST(TriangleErrors, WhatNobodySeesDoesNotCount) {
+  Scene scene;
+  AddMaterial(scene, 0.5, 0);
+  AddBox(scene, {-5, -5, -5}, {5, 5, 5}, true, 0);   // a room
+  AddBox(scene, {-1, -1, -1}, {0, 1, 1}, false, 0);  // a box in the room
+  const auto board = static_cast<PatchId>(scene.patches.size());
+  Add(scene, {{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}}, 0);
+  const ElementForest forest(scene);
+  std::vector<PatchTriangulation> patches;
+  for (PatchId p = 0; p <= board; ++p)
+    patches.push_back(TriangulateLeaves(forest, p, ActivateDiscontinuities(forest, p, {}, {})));
+  const IrradianceMesh mesh = BuildIrradianceMesh(scene, patches, InterpolantOrder::kQuadratic,
+                                                  [](PatchId, const ReceiverPoint&) {
+                                                    return PointIrradianceResult{Rgb::Ones(), false};
+                                                  },
+                                                  {})
+                                  .mesh;
+  const auto light = [&](double outside) -> IrradianceSampler {
+    return [outside, board](PatchId patch, const ReceiverPoint& at) {
+      const bool inside = patch == board && at.position.x() < 0;
+      return PointIrradianceResult{Rgb::Constant(inside ? 0 : outside), false};
+    };
+  };
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) all.push_back(t);
+  const Enclosure enclosure(scene);
+  const auto largest = [&](const TriangleSampling& sampling, double outside) {
+    double error = 0;
+    for (const TriangleError& of : MeasureTriangles(scene, mesh, all, sampling, light(outside)).errors)
+      error = std::max(error, of.max);
+    return error;
+  };
+  EXPECT_EQ(largest({4, Rgb::Ones(), &enclosure}, 1), 0);
+  EXPECT_GT(largest({4, Rgb::Ones()}, 1), 10);
+  EXPECT_NEAR(largest({4, Rgb::Ones(), &enclosure}, 2), 0.5, 1e-12);
+
+  constexpr std::size_t kPoints = 4000;
+  const IrradianceSampler exact = light(1);
+  const MeasuredError error = MeasureError(scene, mesh, exact, {&exact, 1}, {kPoints, 1, 0.1});
+  EXPECT_EQ(error.whole.max, 0);
+  EXPECT_LT(error.whole.points, kPoints);
+  EXPECT_GT(error.whole.points, kPoints - 10);  // the dark half is 1 / 1200 of the fronts
+  for (const PartError& part : error.by_part) EXPECT_EQ(part.whole.max, 0) << part.name;
+  const IrradianceSampler brighter = light(2);
+  EXPECT_NEAR(MeasureError(scene, mesh, brighter, {}, {kPoints, 1, 0.1}).interpolant.p99, 0.5, 1e-12);
 }
 
 }  // namespace
