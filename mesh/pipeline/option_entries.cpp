@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "mesh/discontinuities/discontinuity_choices.h"
+#include "mesh/pipeline/thesis_options.h"
 #include "solver/base/check.h"
 #include "solver/transport/form_factors/link_form_factor_methods.h"
 #include "solver/transport/links/refinement_oracles.h"
@@ -29,7 +30,8 @@ constexpr NumberRange kPolyline{1e-9, 1e9, true};
 constexpr NumberRange kSeconds{1e-9, 1e9}, kBytes{1, 1e18};
 constexpr std::uint64_t kMostErrorSamples = 100, kMostErrorPoints = 100'000'000, kMostLines = 1'000'000,
                         kMostDivisions = 64, kMostIterations = 1'000'000, kMostCorrections = 100,
-                        kMostBounces = 1000, kMostRays = kMostRaysPerPoint, kMostShots = 1'000'000;
+                        kMostBounces = 1000, kMostRays = kMostRaysPerPoint, kMostShots = 1'000'000,
+                        kMostCrowdedSplits = 20;
 
 NamedValues<DiscontinuityWeight> WeightsOfDiscontinuities() {
   return {{"thesis", DiscontinuityWeight::kThesis}, {"irradiance", DiscontinuityWeight::kIrradiance}};
@@ -88,6 +90,16 @@ void AddErrors(Entries& table) {
                        "The relative error of what is shown that 99 points in 100 shall not exceed; all else "
                        "follows from it unless it is given",
                    .label = "Error of what is shown, relative"});
+  // Before the options that it sets, so that those given by themselves win.
+  table.push_back({.name = "as-thesis",
+                   .field = AsThesisField(),
+                   .group = OptionGroup::kSolving,
+                   .solver = "hierarchical",
+                   .help =
+                       "Everything as in the thesis, with the settings of its office; options that are given "
+                       "beside it have precedence",
+                   .in_older_files = [](const PipelineOptions&) { return OptionValue(false); },
+                   .label = "As in the thesis"});
   table.push_back({.name = "eps",
                    .field = NumberField(&PipelineOptions::eps, kPositive),
                    .unit = "W/m^2",
@@ -462,6 +474,16 @@ void AddSolvers(Entries& table) {
        .label = "Dense: divisions of a patch's side"});
 }
 
+void AddCrowdedSplits(Entries& table) {
+  table.push_back(
+      {.name = "crowded-splits",
+       .field = IntegerField(&PipelineOptions::crowded_splits, {0, kMostCrowdedSplits}),
+       .group = OptionGroup::kStudies,
+       .help = "Split leaves with no room for a discontinuity so many times; 0: none, as in the thesis",
+       .in_older_files = [](const PipelineOptions&) { return OptionValue(std::uint64_t{3}); },
+       .label = "Splits of crowded leaves"});
+}
+
 void AddErrorPoints(Entries& table) {
   table.push_back(
       {.name = "error-points",
@@ -512,6 +534,7 @@ std::vector<SolveOption> OptionEntries() {
   AddClassicSolvers(table);
   AddErrorPoints(table);
   AddEmitters(table);
+  AddCrowdedSplits(table);
   TellOwners(table);
   return table;
 }

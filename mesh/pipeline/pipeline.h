@@ -127,6 +127,10 @@ struct PipelineOptions {
   // a source a point sees: form factors of links by cubature, exact or disk, deferred corrections, and the
   // nodes of the mesh. The dense and the sampled solver find visibility in ways of their own.
   std::string method = "auto";
+  // True if the options were set to the thesis's values by SetAsThesis(). Single options may have been
+  // changed afterwards.
+  bool as_thesis = {};
+  int crowded_splits = 3;  // DiscontinuityOptions::crowded_splits
 };
 
 // The values of all options that a solve uses, including those that the user has omitted.

@@ -28,7 +28,6 @@ constexpr double kWeightOfMeanIrradiance = 0.15;
 // The weight of the lightest discontinuity that representation-based refinement may request, as the same
 // fraction.
 constexpr double kWantedWeight = 0.05;
-constexpr int kCrowdedSplits = 3;  // DiscontinuityOptions::crowded_splits
 // The area of the smallest leaf, as a fraction of the fronts' total area. Under a sky or on a plain it would
 // be larger than a table: parts of the scene (PartsOf) whose error is measured may need smaller leaves, down
 // to a fraction of the part. The last fraction, of the total area, holds for parts that are tiny.
@@ -191,7 +190,7 @@ ResolvedOptions Resolve(const Scene& scene, const PipelineOptions& options) {
   mesh.keep_hidden = options.keep_hidden_discontinuities;
   mesh.triple_edge_tolerance = options.triple_edge_tolerance;
   mesh.seed = options.seed;
-  mesh.crowded_splits = kCrowdedSplits;
+  mesh.crowded_splits = options.crowded_splits;
   mesh.min_split_area = resolved.solver.min_area;
   return resolved;
 }

@@ -23,6 +23,7 @@ using testing::HasSubstr;
 const std::map<std::string, std::string>& Given() {
   static const std::map<std::string, std::string> given = {{"seed", "7"},
                                                            {"error", "0.5"},
+                                                           {"as-thesis", ""},
                                                            {"eps", "3"},
                                                            {"min-area", "0.02"},
                                                            {"discontinuities", "adaptive"},
@@ -52,7 +53,8 @@ const std::map<std::string, std::string>& Given() {
                                                            {"method", "backprojection"},
                                                            {"form-factors", "exact"},
                                                            {"solver", "hierarchical"},
-                                                           {"error-points", "20"}};
+                                                           {"error-points", "20"},
+                                                           {"crowded-splits", "1"}};
   return given;
 }
 const std::map<std::string, std::string>& GivenToDense() {
@@ -176,6 +178,26 @@ TEST(Options, HelpListsStudiesLast) {
   }
   const std::string render = Sandbox().Run({"render", "--help"}).out;
   EXPECT_GT(render.find("--opengl-coordinates"), render.find("\nFor studies:\n"));
+}
+
+// --as-thesis sets what the thesis had; options beside it win, wherever they stand; the report tells both.
+TEST(Options, AsThesisGivesWayToOthers) {
+  const Sandbox sandbox;
+  const Outcome outcome = sandbox.Run({"solve", "floating-cube", "--eps", "0.5", "--as-thesis", "--oracle",
+                                       "transport", "--error-points", "0", "--report", "r.json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json options = Json::parse(ReadBytes(sandbox.Path("r.json")))["options"];
+  EXPECT_EQ(options["as_thesis"], true);
+  EXPECT_EQ(options["eps"], 0.5);
+  EXPECT_EQ(options["oracle"], "transport");
+  EXPECT_EQ(options["min_area"], 0.015);
+  EXPECT_EQ(options["weight"], "thesis");
+  EXPECT_EQ(options["acceleration"], false);
+  EXPECT_EQ(options["corrections"], 0);
+  EXPECT_EQ(options["crowded_splits"], 0);
+  const Outcome dense = sandbox.Run({"solve", "furnace", "--as-thesis", "--solver", "dense"});
+  EXPECT_EQ(dense.status, 2);
+  EXPECT_THAT(dense.err, HasSubstr("--as-thesis is of the hierarchical solver"));
 }
 
 // What is out of range is refused in one line that names the option and says what may be.

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "mesh/pipeline/link_options.h"
+#include "mesh/pipeline/thesis_options.h"
 #include "solver/scene/builtin_scenes.h"
 #include "solver/transport/form_factors/link_form_factor_methods.h"
 #include "solver/transport/solvers/light_solvers.h"
@@ -152,14 +153,15 @@ TEST(OptionTable, OptionsOfASolverThatWasChosenComeBack) {
 TEST(OptionTable, KeysAndTheirOrderStay) {
   std::vector<std::string> keys;
   for (const SolveOption& option : OptionTable()) keys.push_back(OptionKey(option));
-  EXPECT_THAT(keys, ElementsAre("seed", "error", "eps", "min_area", "discontinuities", "weight",
-                                "min_discontinuity_weight", "min_wanted_weight", "corner_divisions",
-                                "max_leaf_dsets", "keep_hidden_discontinuities", "eee", "error_samples",
-                                "refine", "corrections", "source_error", "acceleration", "scheme", "oracle",
-                                "multigrid", "relative_cutoff", "iterations", "time_limit", "memory_limit",
-                                "bounces", "nudge", "source_push_off", "min_backprojection_segment", "method",
-                                "form_factors", "solver", "rays", "resolution", "basis", "divisions", "shots",
-                                "overshoot", "ambient", "error_points", "by_emitter", "emitters"));
+  EXPECT_THAT(
+      keys, ElementsAre("seed", "error", "as_thesis", "eps", "min_area", "discontinuities", "weight",
+                        "min_discontinuity_weight", "min_wanted_weight", "corner_divisions", "max_leaf_dsets",
+                        "keep_hidden_discontinuities", "eee", "error_samples", "refine", "corrections",
+                        "source_error", "acceleration", "scheme", "oracle", "multigrid", "relative_cutoff",
+                        "iterations", "time_limit", "memory_limit", "bounces", "nudge", "source_push_off",
+                        "min_backprojection_segment", "method", "form_factors", "solver", "rays", "resolution",
+                        "basis", "divisions", "shots", "overshoot", "ambient", "error_points", "by_emitter",
+                        "emitters", "crowded_splits"));
 }
 
 std::vector<std::string> NamesWhere(bool (*holds)(const SolveOption&)) {
@@ -175,10 +177,10 @@ TEST(OptionTable, LinkOptionsAndSolversStay) {
               UnorderedElementsAre("eps", "iterations", "oracle", "multigrid", "form-factors", "solver",
                                    "resolution", "basis", "divisions"));
   EXPECT_FALSE(IsLinkOption("mode"));
-  EXPECT_THAT(
-      NamesWhere([](const SolveOption& option) { return option.solver == "hierarchical"; }),
-      UnorderedElementsAre("eps", "refine", "relative-cutoff", "corrections", "source-error", "acceleration",
-                           "scheme", "oracle", "multigrid", "iterations", "bounces", "form-factors"));
+  EXPECT_THAT(NamesWhere([](const SolveOption& option) { return option.solver == "hierarchical"; }),
+              UnorderedElementsAre("as-thesis", "eps", "refine", "relative-cutoff", "corrections",
+                                   "source-error", "acceleration", "scheme", "oracle", "multigrid",
+                                   "iterations", "bounces", "form-factors"));
   EXPECT_THAT(NamesWhere([](const SolveOption& option) { return option.solver == "dense"; }),
               UnorderedElementsAre("basis", "divisions"));
   EXPECT_THAT(NamesWhere([](const SolveOption& option) { return option.solver == "sampled"; }),
@@ -225,6 +227,7 @@ std::map<std::string, std::string> WordsOfRanges() {
   const std::string from_zero = "a number from 0 to 1e100", relative = "a number from 1e-6 to 10";
   return {{"seed", "an integer from 0 to 18446744073709551615"},
           {"error", relative},
+          {"as-thesis", "one of off|on"},
           {"eps", "a number from 1e-100 to 1e100"},
           {"min-area", from_zero},
           {"discontinuities", "one of ranked|adaptive|none|random|all"},
@@ -263,7 +266,8 @@ std::map<std::string, std::string> WordsOfRanges() {
           {"ambient", "one of off|on"},
           {"error-points", "an integer from 0 to 100000000"},
           {"by-emitter", "one of off|on"},
-          {"emitters", "one of face|object|material"}};
+          {"emitters", "one of face|object|material"},
+          {"crowded-splits", "an integer from 0 to 20"}};
 }
 
 // What is out of range is refused in these words.
@@ -304,7 +308,9 @@ TEST(OptionTable, OlderFilesMeanWhatHeldThen) {
                                                     {"min_backprojection_segment", 0.0},
                                                     {"method", "auto"},
                                                     {"by_emitter", false},
-                                                    {"emitters", "face"}};
+                                                    {"emitters", "face"},
+                                                    {"as_thesis", false},
+                                                    {"crowded_splits", std::uint64_t{3}}};
   const std::set<std::string> never_needed = {"source_error", "time_limit", "memory_limit"};
   PipelineOptions options;
   options.min_discontinuity_weight = 0.25;
@@ -323,6 +329,34 @@ TEST(OptionTable, OlderFilesMeanWhatHeldThen) {
   for (const auto& [key, value] : later) old.erase(key);
   const Told read = ToldOf(ReadBack(old));
   for (const auto& [key, value] : later) EXPECT_EQ(read.at(key), value) << key;
+}
+
+// as-thesis sets what the thesis had; what is set afterwards wins, also when the options are read back; and
+// what still is the thesis's is reset when as-thesis is.
+TEST(OptionTable, AsThesisSetsTheThesissOptions) {
+  const OptionField& as_thesis = FindOption("as-thesis")->field;
+  PipelineOptions options;
+  options.max_corrections = 7;
+  as_thesis.set(OptionValue(true), &options);
+  EXPECT_TRUE(options.as_thesis);
+  for (const ThesisSetting& setting : AllThesisSettings()) {
+    const SolveOption* option = FindOption(setting.option);
+    ASSERT_NE(option, nullptr) << setting.option;
+    EXPECT_EQ(option->field.get(options), ParseValue(option->field, setting.value)) << setting.option;
+  }
+  EXPECT_EQ(options.max_corrections, 0);
+  EXPECT_EQ(options.eps, 0.1);
+  options.eps = 0.2;
+  const PipelineOptions back = ReadBack(ToldOf(options));
+  EXPECT_TRUE(back.as_thesis);
+  EXPECT_EQ(back.eps, 0.2) << "an option beside as-thesis wins";
+  EXPECT_EQ(back.oracle, "thesis");
+  as_thesis.set(OptionValue(true), &options);
+  EXPECT_EQ(options.eps, 0.2) << "to set it twice changes nothing";
+  as_thesis.set(OptionValue(false), &options);
+  EXPECT_EQ(options.eps, 0.2);
+  options.eps.reset();
+  EXPECT_EQ(ToldOf(options), ToldOf(PipelineOptions()));
 }
 
 // A name that is no choice, in a damaged file, is refused.
