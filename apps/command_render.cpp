@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "apps/benchmark.h"
+#include "apps/camera_path.h"
 #include "apps/commands.h"
 #include "apps/dim_option.h"
 #include "apps/interruptible.h"
@@ -21,6 +24,7 @@
 #include "display/false_colour.h"
 #include "display/image_writers.h"
 #include "display/ray_display.h"
+#include "display/reconstruction.h"
 #include "display/split_view.h"
 #include "solver/base/check.h"
 #include "solver/base/stopwatch.h"
@@ -61,28 +65,29 @@ void PaintFalseColoursOf(const RenderArguments& arguments, const PictureSamples&
   PaintLegend(top, arguments.mode.shading == ShadingMode::kRadiosity ? "W/m^2" : "1", screen);
 }
 
-// The picture as a file, from across x down samples a pixel. An EXR holds their mean, and so do false
-// colours; for a PNG each is exposed by itself, so that the edges of lights are smooth.
-void WriteImage(const RenderArguments& arguments, const RgbImage& linear, std::span<const PixelKind> kinds,
-                int across, int down, const ToneMapping& tone) {
-  if (IsLinearImage(*arguments.output)) {
+// The picture as a file, from several samples a pixel. An EXR holds their mean, and so do false colours; for
+// a PNG each is exposed by itself, so that the edges of lights are smooth.
+void WriteImage(const RenderArguments& arguments, const PictureSamples& picture, const ToneMapping& tone,
+                const std::string& output) {
+  const auto& [linear, kinds, across, down] = picture;
+  if (IsLinearImage(output)) {
     const RgbImage means = Downsample(linear, across, down);
     for (const auto& plane : means.channel)
       if (!std::all_of(plane.begin(), plane.end(), [](float value) { return std::isfinite(value); }))
         throw InputError(
             fmt::format("{}: error: a pixel is no number that 32 bits hold, up to 3.4e38; give the "
                         "scene less light",
-                        *arguments.output));
-    WriteImageFile(*arguments.output, means);
+                        output));
+    WriteImageFile(output, means);
     return;
   }
   Srgb8Image screen;
   if (arguments.false_colour) {
-    PaintFalseColoursOf(arguments, {linear, kinds, across, down}, tone, &screen);
+    PaintFalseColoursOf(arguments, picture, tone, &screen);
   } else {
     EncodeSrgb(Expose(linear, kinds, tone.exposure, across, down), tone.dither, &screen);
   }
-  WriteImageFile(*arguments.output, screen);
+  WriteImageFile(output, screen);
 }
 
 BenchmarkSettings BenchmarkOf(const RenderArguments& arguments, const Camera& camera,
@@ -97,71 +102,119 @@ std::unique_ptr<Passes> PassesOf(const RenderArguments& arguments, const Irradia
                                                : SoftwarePasses(mesh);
 }
 
+// A picture to draw, and its file, if there is one.
+struct Shot {
+  Camera camera;
+  std::optional<std::string> output;
+};
+
+// One shot, or one for each camera of --path.
+std::vector<Shot> ShotsOf(const RenderArguments& arguments, const Scene& scene) {
+  const Camera camera = ChooseCamera(scene, arguments.camera);
+  if (!arguments.path) return {{camera, arguments.output}};
+  std::vector<Shot> shots;
+  const std::vector<Camera> cameras = ReadCameraPath(*arguments.path, camera);
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    shots.push_back({cameras[i], FramePath(*arguments.output, i, cameras.size())});
+    CheckWritable(*shots.back().output);
+  }
+  return shots;
+}
+
 // The picture in the quarter of its scratch images.
-void WriteSplit(const RenderArguments& arguments, const Camera& camera, const IrradianceMesh& mesh,
+void WriteSplit(const RenderArguments& arguments, const Shot& shot, const IrradianceMesh& mesh,
                 TwoPassDisplay& display, const ToneMapping& tone) {
   const int width = arguments.width, height = arguments.height;
   const int w = QuarterSide(width), h = QuarterSide(height);
-  const RenderedFrame& frame = display.Render(camera, w, h, arguments.mode.shading);
+  const RenderedFrame& frame = display.Render(shot.camera, w, h, arguments.mode.shading);
   Srgb8Image picture, whole;
   if (arguments.false_colour)
     PaintFalseColoursOf(arguments, {frame.linear, frame.kind}, tone, &picture);
   else
     picture = display.ToneMap(tone).screen;
   whole.Resize(width, height);
-  PaintSplit(frame, MakePixelRays(camera, w, h), mesh, picture, &whole);
-  WriteImageFile(*arguments.output, whole);
+  PaintSplit(frame, MakePixelRays(shot.camera, w, h), mesh, picture, &whole);
+  WriteImageFile(*shot.output, whole);
 }
 
-// A PNG is drawn larger by the supersampling; an EXR has one sample a pixel, at its centre.
-void RenderTwoPass(const RenderArguments& arguments, const Camera& camera, SolveRun& run) {
+// A PNG is drawn larger by the supersampling; an EXR has one sample a pixel, at its centre. All pictures of a
+// path have the exposure of the first.
+void RenderTwoPass(const RenderArguments& arguments, const std::vector<Shot>& shots, SolveRun& run) {
   const IrradianceMesh& mesh = run.pipeline().mesh();
   TwoPassDisplay display(run.pipeline().scene(), mesh, PassesOf(arguments, mesh));
   const int width = arguments.width, height = arguments.height;
   const ShadingMode shading = arguments.mode.shading;
-  const RenderedFrame& frame = display.Render(camera, width, height, shading);
-  const ToneMapping tone = ToneFor(arguments, frame.linear, frame.kind);
-  if (arguments.split) {
-    WriteSplit(arguments, camera, mesh, display, tone);
-  } else if (arguments.output) {
-    const int k = IsLinearImage(*arguments.output) || arguments.false_colour ? 1 : arguments.supersampling;
-    if (k > 1) display.Render(camera, k * width, k * height, shading);
-    WriteImage(arguments, frame.linear, frame.kind, k, k, tone);
+  std::optional<ToneMapping> tone;
+  for (const Shot& shot : shots) {
+    const RenderedFrame& frame = display.Render(shot.camera, width, height, shading);
+    if (!tone) tone = ToneFor(arguments, frame.linear, frame.kind);
+    if (arguments.split) {
+      WriteSplit(arguments, shot, mesh, display, *tone);
+    } else if (shot.output) {
+      const int k = IsLinearImage(*shot.output) || arguments.false_colour ? 1 : arguments.supersampling;
+      if (k > 1) display.Render(shot.camera, k * width, k * height, shading);
+      WriteImage(arguments, {frame.linear, frame.kind, k, k}, *tone, *shot.output);
+    }
+  }
+  run.Tell();
+  if (arguments.benchmark_frames > 0)
+    WriteResult(
+        std::nullopt,
+        RunBenchmark(BenchmarkOf(arguments, shots.front().camera, run.pipeline()), [&](const Camera& from) {
+          return display.RenderScreen(from, width, height, shading, *tone).ms;
+        }));
+}
+
+// Makes the shader of a picture from a camera.
+using ShaderOfCamera = std::function<RayShader(const Camera&)>;
+
+ShaderOfCamera ShadersOf(const RenderArguments& arguments, const Pipeline& pipeline) {
+  if (arguments.mode.method == RenderMethod::kReconstruct) {
+    std::shared_ptr<const ReconstructedLight> light;
+    RunInterruptible([&](const ExecutionContext& context) {
+      light = std::make_shared<const ReconstructedLight>(
+          ReconstructLight(arguments.mode.reconstruction, pipeline, context));
+    });
+    return [light, width = arguments.width, height = arguments.height](const Camera& camera) {
+      return light->Shade(camera, width, height);
+    };
+  }
+  const RayShader shader = arguments.mode.method == RenderMethod::kRayShade
+                               ? RayShade(pipeline.scene(), pipeline.irradiance())
+                               : LerpShade(pipeline.scene(), pipeline.mesh());
+  return [shader](const Camera&) { return shader; };
+}
+
+void RenderByRays(const RenderArguments& arguments, const std::vector<Shot>& shots, SolveRun& run) {
+  const Pipeline& pipeline = run.pipeline();
+  const ShaderOfCamera shaders = ShadersOf(arguments, pipeline);
+  RayDisplay display(pipeline.scene(), shaders(shots.front().camera), arguments.samples);
+  const SampledPicture& picture = display.picture();
+  const auto draw = [&](const Camera& camera) {
+    display.SetShader(shaders(camera));
+    RunInterruptible([&](const ExecutionContext& context) {
+      display.Render(camera, arguments.width, arguments.height, context);
+    });
+  };
+  std::optional<ToneMapping> tone;
+  for (const Shot& shot : shots) {
+    draw(shot.camera);
+    if (!tone) tone = ToneFor(arguments, picture.linear, picture.kind);
+    if (shot.output)
+      WriteImage(arguments, {picture.linear, picture.kind, picture.samples, 1}, *tone, *shot.output);
   }
   run.Tell();
   if (arguments.benchmark_frames > 0)
     WriteResult(std::nullopt,
-                RunBenchmark(BenchmarkOf(arguments, camera, run.pipeline()), [&](const Camera& from) {
-                  return display.RenderScreen(from, width, height, shading, tone).ms;
-                }));
-}
-
-void RenderByRays(const RenderArguments& arguments, const Camera& camera, SolveRun& run) {
-  const Pipeline& pipeline = run.pipeline();
-  RayDisplay display(pipeline.scene(),
-                     arguments.mode.method == RenderMethod::kRayShade
-                         ? RayShade(pipeline.scene(), pipeline.irradiance())
-                         : LerpShade(pipeline.scene(), pipeline.mesh()),
-                     arguments.samples);
-  const SampledPicture& picture = display.picture();
-  RunInterruptible([&](const ExecutionContext& context) {
-    display.Render(camera, arguments.width, arguments.height, context);
-  });
-  const ToneMapping tone = ToneFor(arguments, picture.linear, picture.kind);
-  if (arguments.output) WriteImage(arguments, picture.linear, picture.kind, picture.samples, 1, tone);
-  run.Tell();
-  if (arguments.benchmark_frames > 0)
-    WriteResult(std::nullopt, RunBenchmark(BenchmarkOf(arguments, camera, pipeline), [&](const Camera& from) {
+                RunBenchmark(BenchmarkOf(arguments, shots.front().camera, pipeline), [&](const Camera& from) {
                   FrameTimes times;
                   const Stopwatch casting;
-                  RunInterruptible([&](const ExecutionContext& context) {
-                    display.Render(from, arguments.width, arguments.height, context);
-                  });
+                  draw(from);
                   times.evaluate = 1e3 * casting.Seconds();
                   const Stopwatch mapping;
                   Srgb8Image screen;
-                  EncodeSrgb(Expose(picture.linear, picture.kind, tone.exposure, picture.samples),
-                             tone.dither, &screen);
+                  EncodeSrgb(Expose(picture.linear, picture.kind, tone->exposure, picture.samples),
+                             tone->dither, &screen);
                   times.tone_map = 1e3 * mapping.Seconds();
                   return times;
                 }));
@@ -171,10 +224,11 @@ void Render(RenderArguments arguments) {
   CheckRenderArguments(arguments);
   arguments.scene.outputs.Add("-o", arguments.output);
   arguments.scene.outputs.Add("--report", arguments.scene.report);
+  if (arguments.path) arguments.scene.outputs.RefuseInput(*arguments.path);
   // Whether there is OpenGL is told before the work.
   if (arguments.backend == Backend::kOpenGl) OpenGlPasses({}, arguments.coordinates);
   LoadedScene loaded = LoadToSolve(arguments.scene);
-  const Camera camera = ChooseCamera(loaded.scene, arguments.camera);
+  const std::vector<Shot> shots = ShotsOf(arguments, loaded.scene);
   SolveRun run(arguments.scene, loaded, RenderOptionsUsed(arguments));
   // A report tells the interpolants' error even where the picture does without them.
   const bool measure = WantsReport(arguments.scene);
@@ -183,9 +237,9 @@ void Render(RenderArguments arguments) {
   else
     run.Run(measure && !arguments.mode.mesh ? MeshKind::kInterpolant : arguments.mode.mesh, measure);
   if (arguments.ByRays())
-    RenderByRays(arguments, camera, run);
+    RenderByRays(arguments, shots, run);
   else
-    RenderTwoPass(arguments, camera, run);
+    RenderTwoPass(arguments, shots, run);
 }
 
 }  // namespace
@@ -196,6 +250,7 @@ Command AddRenderCommand(CLI::App& program) {
   AddSceneArguments(*app, &arguments->scene);
   AddPictureOptions(*app, arguments.get());
   AddCameraOptions(*app, &arguments->camera, &arguments->scene.reading.up);
+  AddPathOption(*app, arguments.get());
   AddDimOption(*app, &arguments->scene);
   AddSolveOptions(*app, &arguments->scene);
   AddPictureStudies(*app, arguments.get());

@@ -82,6 +82,11 @@ void CheckRenderArguments(const RenderArguments& arguments) {
     throw UsageError(
         "--supersampling is of PNG pictures by the two passes, without --false-colour or --split; leave it "
         "out");
+  for (const char* other : {"--eye", "--look-at", "--benchmark"})
+    if (arguments.path && given(other))
+      throw UsageError(fmt::format("--path has the cameras of all pictures; leave out {}", other));
+  if (arguments.path && !arguments.output)
+    throw UsageError("--path draws pictures; give the beginning of their names by -o IMAGE");
   if (arguments.scale_max && !arguments.false_colour)
     throw UsageError("--scale-max is the end of --false-colour's scale; give both");
   if ((arguments.false_colour || arguments.split) && (!arguments.output || !IsScreenImage(*arguments.output)))
@@ -114,6 +119,7 @@ bool HasOneSample(const RenderArguments& arguments) {
 nlohmann::ordered_json RenderOptionsUsed(const RenderArguments& arguments) {
   nlohmann::ordered_json options;
   options["mode"] = arguments.mode.name;
+  if (arguments.path) options["path"] = *arguments.path;
   options["size"] = fmt::format("{}x{}", arguments.width, arguments.height);
   if (arguments.ByRays()) {
     options["samples"] = arguments.samples;
@@ -200,6 +206,14 @@ void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
              "-o may be left out")
       ->default_str("")
       ->group("Running");
+}
+
+void AddPathOption(CLI::App& app, RenderArguments* arguments) {
+  app.add_option("--path", arguments->path,
+                 "A file of cameras, one a line: EYE LOOK-AT [UP [FOV]], points as x,y,z. -o walk.png then "
+                 "writes walk-0000.png and so on, all with the exposure of the first")
+      ->type_name("FILE")
+      ->group("Camera");
 }
 
 void AddPictureStudies(CLI::App& app, RenderArguments* arguments) {

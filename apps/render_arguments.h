@@ -14,6 +14,7 @@
 #include "apps/camera_arguments.h"
 #include "apps/scene_arguments.h"
 #include "display/opengl_passes.h"
+#include "display/reconstruction.h"
 #include "display/two_pass_display.h"
 #include "mesh/pipeline/pipeline.h"
 
@@ -24,6 +25,8 @@ enum class RenderMethod {
   kTwoPass,
   kRayShade,   // ray casting, with exact irradiance where a ray hits a surface
   kLerpShade,  // ray casting, with interpolated irradiance where a ray hits a surface
+  // Ray casting, with irradiance that is reconstructed from the vertices of leaves (ReconstructedLight).
+  kReconstruct,
 };
 
 struct RenderMode {
@@ -32,8 +35,9 @@ struct RenderMode {
   std::optional<MeshKind> mesh;
   ShadingMode shading;
   const char* help;
+  Reconstruction reconstruction = {};  // with RenderMethod::kReconstruct
 };
-inline constexpr std::array<RenderMode, 7> kRenderModes = {
+inline constexpr std::array<RenderMode, 11> kRenderModes = {
     {{"flat", RenderMethod::kTwoPass, MeshKind::kFlat, ShadingMode::kRadiosity, "one value an element"},
      {"gouraud", RenderMethod::kTwoPass, MeshKind::kGouraud, ShadingMode::kRadiosity,
       "exact irradiance at the elements' corners, linear between"},
@@ -45,7 +49,16 @@ inline constexpr std::array<RenderMode, 7> kRenderModes = {
       "exact irradiance at every pixel, by rays (RayShade)"},
      {"lerp", RenderMethod::kLerpShade, MeshKind::kInterpolant, ShadingMode::kRadiosity,
       "the interpolant, found by rays (LerpShade)"},
-     {"rho", RenderMethod::kTwoPass, MeshKind::kFlat, ShadingMode::kReflectance, "reflectance alone"}}};
+     {"rho", RenderMethod::kTwoPass, MeshKind::kFlat, ShadingMode::kReflectance, "reflectance alone"},
+     {"nodal", RenderMethod::kReconstruct, std::nullopt, ShadingMode::kRadiosity,
+      "means of the elements at each of their corners, bilinear between (Ashdown 1994)",
+      Reconstruction::kNodal},
+     {"gouraud-screen", RenderMethod::kReconstruct, std::nullopt, ShadingMode::kRadiosity,
+      "the same means, linear along the rows of the picture (Gouraud 1971)", Reconstruction::kGouraudScreen},
+     {"bilinear", RenderMethod::kReconstruct, std::nullopt, ShadingMode::kRadiosity,
+      "exact irradiance at the elements' corners, bilinear between", Reconstruction::kBilinear},
+     {"bicubic", RenderMethod::kReconstruct, std::nullopt, ShadingMode::kRadiosity,
+      "the same, bicubic Hermite pieces (Bastos 1996)", Reconstruction::kBicubic}}};
 
 // The back ends that draw the two passes of the display.
 enum class Backend { kSoftware, kOpenGl };
@@ -54,6 +67,7 @@ struct RenderArguments {
   SceneArguments scene;
   CameraArguments camera;
   std::optional<std::string> output;
+  std::optional<std::string> path;  // file of cameras (ReadCameraPath)
   RenderMode mode = kRenderModes[3];
   Backend backend = Backend::kSoftware;
   OpenGlCoordinates coordinates = OpenGlCoordinates::kFloat;
@@ -75,6 +89,8 @@ struct RenderArguments {
 bool HasOneSample(const RenderArguments& arguments);
 
 void AddPictureOptions(CLI::App& app, RenderArguments* arguments);
+// Adds the option --path. REQUIRES: AddCameraOptions() was called.
+void AddPathOption(CLI::App& app, RenderArguments* arguments);
 // Adds the picture options that serve only to compare methods; the help lists them in the group
 // OptionGroup::kStudies. REQUIRES: AddSolveOptions() was called.
 void AddPictureStudies(CLI::App& app, RenderArguments* arguments);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "display/camera.h"
@@ -63,6 +64,9 @@ class RayDisplay {
   const SampledPicture& Render(const Camera& camera, int width, int height, const ExecutionContext& context);
 
   const SampledPicture& picture() const { return picture_; }
+
+  // Replaces the shader for later pictures.
+  void SetShader(RayShader shader) { shader_ = std::move(shader); }
 
   // Casts the ray through the point (x, y) of a picture. Several threads may call Sample() at once.
   RaySample Sample(const PixelRays& rays, double x, double y) const;

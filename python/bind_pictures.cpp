@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "display/image_writers.h"
 #include "display/passes.h"
 #include "display/ray_display.h"
+#include "display/reconstruction.h"
 #include "display/two_pass_display.h"
 #include "python/arrays.h"
 #include "python/background_work.h"
@@ -71,8 +73,8 @@ void CheckRequest(const PictureRequest& request) {
     throw InputError(
         fmt::format("samples={} is not an integer from 1 to {}", request.samples, kMostSamplesPerPixel));
   if (request.samples > 1 && request.mode.method == RenderMethod::kTwoPass)
-    throw InputError(fmt::format("samples is of modes that cast rays, exact and lerp; mode='{}' casts none",
-                                 request.mode.name));
+    throw InputError(
+        fmt::format("samples is of modes that cast rays; mode='{}' casts none", request.mode.name));
   if (!is_side(request.width) || !is_side(request.height) ||
       std::int64_t{request.width} * request.height * request.samples > kMostSamples)
     throw InputError(
@@ -91,8 +93,12 @@ RgbImage Draw(const PythonSolution& solution, const PictureRequest& request,
     TwoPassDisplay display(scene, *mesh);
     return display.Render(request.camera, request.width, request.height, request.mode.shading).linear;
   }
+  std::optional<ReconstructedLight> light;
+  if (request.mode.method == RenderMethod::kReconstruct)
+    light.emplace(ReconstructLight(request.mode.reconstruction, solution.pipeline(), context));
   RayDisplay display(scene,
-                     request.mode.method == RenderMethod::kRayShade
+                     light ? light->Shade(request.camera, request.width, request.height)
+                     : request.mode.method == RenderMethod::kRayShade
                          ? RayShade(scene, solution.pipeline().irradiance())
                          : LerpShade(scene, solution.pipeline().mesh()),
                      request.samples);
@@ -147,8 +153,9 @@ are those of `penumbra render -o IMAGE.exr`, to the bit.
 camera: a Camera; the name or number of one of the scene's; None: the first, or one that sees the whole scene.
 size: (width, height) in pixels, which are square.
 mode: "flat", "gouraud", "gouraud-mesh", "interpolant", "lerp" (the interpolant, by rays), "exact" (exact
-    irradiance at every pixel, by rays), "rho" (the reflectance).
-samples: rays for each pixel, of "exact" and "lerp".
+    irradiance at every pixel, by rays), "rho" (the reflectance); and by rays, from the corners of the elements, "nodal",
+    "gouraud-screen", "bilinear", "bicubic".
+samples: rays for each pixel, of modes that cast rays.
 Raises InputError for a camera, size or mode that cannot be.)");
   module.def("save_picture", &SavePicture, py::arg("path"), py::arg("image"),
              "save_picture(path, image)\n\nWrites linear light, an array of shape (height, width, 3), as "

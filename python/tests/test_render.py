@@ -10,7 +10,8 @@ def test_pictures_are_those_of_the_command_line(program, cube_solution, tmp_path
     cube_solution.save(tmp_path / "cube.sol")
     for source, mode, samples in (("floating-cube", "interpolant", 1), ("floating-cube", "exact", 1),
                                   ("floating-cube", "lerp", 2), ("cube.sol", "flat", 1), ("cube.sol", "gouraud", 1),
-                                  ("cube.sol", "gouraud-mesh", 1), ("cube.sol", "rho", 1)):
+                                  ("cube.sol", "gouraud-mesh", 1), ("cube.sol", "rho", 1), ("cube.sol", "bicubic", 1),
+                                  ("floating-cube", "nodal", 2)):
         image = penumbra.render(cube_solution, size=(40, 30), mode=mode, samples=samples)
         assert image.shape == (30, 40, 3) and image.dtype == np.float32
         penumbra.save_picture(tmp_path / "ours.exr", image)

@@ -342,11 +342,12 @@ TEST(Solve, EmptySceneIsDark) {
 }
 
 // Every mode draws the furnace: its radiosity is 1 W/m^2, its reflectance 1/2, wherever one looks. The
-// constants of flat carry the error of single elements, which the exact samples of the other modes do not
-// show.
+// constants of flat, and their means, carry the error of single elements, which the exact samples of the
+// other modes do not show.
 TEST(Render, EveryModeDrawsTheFurnace) {
   const Sandbox sandbox;
-  for (const char* mode : {"flat", "gouraud", "gouraud-mesh", "interpolant", "exact", "lerp", "rho"}) {
+  for (const char* mode : {"flat", "gouraud", "gouraud-mesh", "interpolant", "exact", "lerp", "rho", "nodal",
+                           "gouraud-screen", "bilinear", "bicubic"}) {
     const Outcome render =
         sandbox.Run({"render", "furnace", "-o", "image.exr", "--mode", mode, "--size", "32x24", "--error",
                      "0.1", "--eye", "0.5,0.1,0.5", "--look-at", "0.5,1,0.5", "--fov", "60"});
@@ -355,10 +356,51 @@ TEST(Render, EveryModeDrawsTheFurnace) {
     ASSERT_EQ(image.width, 32);
     ASSERT_EQ(image.height, 24);
     const float want = std::string(mode) == "rho" ? 0.5f : 1.0f;
-    const float tolerance = std::string(mode) == "flat" ? 0.2f : 0.05f;
+    const bool by_means = std::set<std::string>{"flat", "nodal", "gouraud-screen"}.contains(mode);
+    const float tolerance = by_means ? 0.2f : 0.05f;
     for (const auto& channel : image.channel)
       for (const float value : channel) ASSERT_NEAR(value, want, tolerance) << mode;
   }
+}
+
+// A path is a picture for each camera, numbered, the same as without a path; wrong lines are refused before
+// the work.
+TEST(Render, FollowsAPath) {
+  const Sandbox sandbox;
+  sandbox.Write("walk.txt", "# two steps\n0.5,0.1,0.5 0.5,1,0.5\n\n  0.2,0.2,0.5  0.5,1,0.5\t0,1,0.5 70\r\n");
+  const std::vector<std::string> picture = {"render", "floating-cube", "--mode",  "flat",
+                                            "--size", "16x12",         "--error", "0.5"};
+  const Outcome walk = sandbox.Run(With(picture, {"--path", "walk.txt", "-o", "walk.exr", "--fov", "50"}));
+  ASSERT_EQ(walk.status, 0) << walk.err;
+  EXPECT_EQ(sandbox.Files(), (std::vector<std::string>{"walk-0000.exr", "walk-0001.exr", "walk.txt"}));
+  ASSERT_EQ(sandbox
+                .Run(With(picture,
+                          {"-o", "a.exr", "--eye", "0.5,0.1,0.5", "--look-at", "0.5,1,0.5", "--fov", "50"}))
+                .status,
+            0);
+  ASSERT_EQ(sandbox
+                .Run(With(picture, {"-o", "b.exr", "--eye", "0.2,0.2,0.5", "--look-at", "0.5,1,0.5", "--up",
+                                    "0,1,0.5", "--fov", "70"}))
+                .status,
+            0);
+  EXPECT_EQ(ReadBytes(sandbox.Path("walk-0000.exr")), ReadBytes(sandbox.Path("a.exr")));
+  EXPECT_EQ(ReadBytes(sandbox.Path("walk-0001.exr")), ReadBytes(sandbox.Path("b.exr")));
+  for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
+           {"0,0,1 1,0,1\n0,0,1\n", "c.txt:2: error: a line is EYE LOOK-AT"},
+           {"0,0,1 1,0\n", "c.txt:1: error: '1,0' is not three numbers"},
+           {"0,0,1 0,0,1\n", "eye and look-at are the same point"},
+           {"0,0,1 1,0,1 2,0,0\n", "the up direction is parallel to the view"},
+           {"0,0,1 1,0,1 0,0,1 200\n", "a field of view of 200 degrees"},
+           {"# nothing\n", "c.txt: error: it has no camera"}}) {
+    sandbox.Write("c.txt", text);
+    const Outcome wrong = sandbox.Run(With(picture, {"--path", "c.txt", "-o", "c.png"}));
+    EXPECT_EQ(wrong.status, 1) << text;
+    EXPECT_THAT(wrong.err, HasSubstr(message));
+  }
+  EXPECT_EQ(sandbox.Run(With(picture, {"--path", "walk.txt"})).status, 2);
+  EXPECT_EQ(sandbox.Run(With(picture, {"--path", "walk.txt", "-o", "d.png", "--eye", "0,0,1"})).status, 2);
+  EXPECT_EQ(sandbox.Run(With(picture, {"--path", "walk.txt", "--benchmark", "2", "-o", "d.png"})).status, 2);
+  EXPECT_EQ(sandbox.Files().size(), 6U) << "nothing was written for what was refused";
 }
 
 // RayShade shows what a probe measures: radiosity is exact irradiance x reflectance at the point that a

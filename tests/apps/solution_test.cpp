@@ -57,7 +57,8 @@ TEST(Solution, ServesLikeItsScene) {
   ASSERT_EQ(sandbox.Run(Solving({"solve", "floating-cube", "-o", "b.h5", "--threads", "1"})).status, 0);
   EXPECT_EQ(ReadBytes(sandbox.Path("a.h5")), ReadBytes(sandbox.Path("b.h5")));
 
-  for (const char* mode : {"interpolant", "gouraud-mesh", "gouraud", "flat", "rho", "exact", "lerp"}) {
+  for (const char* mode :
+       {"interpolant", "gouraud-mesh", "gouraud", "flat", "rho", "exact", "lerp", "nodal", "bicubic"}) {
     const std::vector<std::string> picture = {"--mode", mode, "--size", "48x36", "--camera", "low"};
     std::vector<std::string> stored = {"render", "a.h5", "-o", "a.exr"},
                              anew = {"render", "floating-cube", "-o", "b.exr"};
