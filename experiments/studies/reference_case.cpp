@@ -41,7 +41,14 @@ std::vector<double> ReferenceErrors(const ReferenceCase& test,
   return errors;
 }
 
-std::optional<Rgb> ShownAt(const Pipeline& pipeline, const ReceiverPoint& at) {
+namespace {
+
+struct ShownPlace {
+  PatchId patch = kNoPatch;
+  Rgb irradiance = Rgb::Zero();
+};
+
+std::optional<ShownPlace> PlaceBelow(const Pipeline& pipeline, const ReceiverPoint& at) {
   const Scene& scene = pipeline.scene();
   const double near = kOnPatch * scene.Diagonal();
   for (std::size_t i = 0; i < scene.patches.size(); ++i) {
@@ -50,9 +57,21 @@ std::optional<Rgb> ShownAt(const Pipeline& pipeline, const ReceiverPoint& at) {
         std::abs(patch.normal.dot(at.position - patch.vertex[0])) > near)
       continue;
     if (const std::optional<Rgb> shown = pipeline.Interpolated(static_cast<PatchId>(i), at.position, near))
-      return shown;
+      return ShownPlace{static_cast<PatchId>(i), *shown};
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<PatchId> PatchBelow(const Pipeline& pipeline, const ReceiverPoint& at) {
+  const std::optional<ShownPlace> place = PlaceBelow(pipeline, at);
+  return place ? std::optional(place->patch) : std::nullopt;
+}
+
+std::optional<Rgb> ShownAt(const Pipeline& pipeline, const ReceiverPoint& at) {
+  const std::optional<ShownPlace> place = PlaceBelow(pipeline, at);
+  return place ? std::optional(place->irradiance) : std::nullopt;
 }
 
 PipelineOptions ThesisSettings() {

@@ -37,6 +37,10 @@ ReferenceCase LoadReferenceCase(const std::string& name);
 std::vector<double> ReferenceErrors(const ReferenceCase& test,
                                     const std::function<std::optional<Rgb>(const ReceiverPoint&)>& value);
 
+// Returns the patch whose front contains the point, the first one of several; nullopt if there is none.
+// REQUIRES: the pipeline has a mesh.
+std::optional<PatchId> PatchBelow(const Pipeline& pipeline, const ReceiverPoint& at);
+
 // Returns the irradiance of the mesh's interpolant at a point. A point that lies on the fronts of several
 // patches belongs to the first of these patches, as in the command `probe`.
 std::optional<Rgb> ShownAt(const Pipeline& pipeline, const ReceiverPoint& at);

@@ -18,6 +18,7 @@ extern const Study kWholeSystemStudy;
 extern const Study kStabilityStudy;
 extern const Study kGrowthStudy;
 extern const Study kMethodsStudy;
+extern const Study kReconstructionStudy;
 
 const std::vector<const Study*>& Studies() {
   static const std::vector<const Study*> studies = {
@@ -37,6 +38,7 @@ const std::vector<const Study*>& Studies() {
       &kStabilityStudy,            // what can go wrong
       &kGrowthStudy,               // what bounds large scenes
       &kMethodsStudy,              // the methods of the field, side by side
+      &kReconstructionStudy,       // what shows the light of elements
   };
   return studies;
 }
