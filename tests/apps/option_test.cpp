@@ -207,7 +207,7 @@ TEST(Options, RefusalsSayWhatMayBe) {
            {{"--error", "0"}, "--error: '0' is not a number from 1e-6 to 10"},
            {{"--eee", "1e-10"}, "--eee: '1e-10' is not 0, or a number from 1e-9 to 1e9"},
            {{"--iterations", "0"}, "--iterations: '0' is not an integer from 1 to 1000000"},
-           {{"--oracle", "x"}, "--oracle: 'x' is not one of transport|visibility|gradient|thesis"},
+           {{"--weight", "x"}, "--weight: 'x' is not one of thesis|irradiance"},
            {{"--basis", "linear"},
             "--basis: it is of the dense solver; give --solver dense, or leave it out"}}) {
     std::vector<std::string> command = {"solve", "furnace"};

@@ -17,6 +17,7 @@
 #include "mesh/pipeline/thesis_options.h"
 #include "solver/scene/builtin_scenes.h"
 #include "solver/transport/form_factors/link_form_factor_methods.h"
+#include "solver/transport/links/refinement_oracles.h"
 #include "solver/transport/solvers/light_solvers.h"
 #include "tests/mesh/mesh_test_scenes.h"
 
@@ -244,7 +245,7 @@ std::map<std::string, std::string> WordsOfRanges() {
           {"source-error", relative},
           {"acceleration", "one of none|anderson"},
           {"scheme", "one of jacobi|gauss-seidel"},
-          {"oracle", "one of transport|visibility|gradient|thesis"},
+          {"oracle", OneOf(RefinementOracles().Names())},
           {"multigrid", "one of off|on"},
           {"relative-cutoff", "a number from 1e-15 to 1"},
           {"iterations", "an integer from 1 to 1000000"},
