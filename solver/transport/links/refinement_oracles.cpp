@@ -1,6 +1,7 @@
 #include "solver/transport/links/refinement_oracles.h"
 
 #include "solver/transport/links/gradient_oracle.h"
+#include "solver/transport/links/size_oracle.h"
 #include "solver/transport/links/thesis_oracle.h"
 #include "solver/transport/links/transport_oracle.h"
 #include "solver/transport/links/visibility_oracle.h"
@@ -8,8 +9,9 @@
 namespace penumbra {
 
 OracleRegistry& RefinementOracles() {
-  static OracleRegistry registry("refinement oracle", {TransportOracleMethod(), VisibilityOracleMethod(),
-                                                       GradientOracleMethod(), ThesisOracleMethod()});
+  static OracleRegistry registry("refinement oracle",
+                                 {TransportOracleMethod(), VisibilityOracleMethod(), GradientOracleMethod(),
+                                  ThesisOracleMethod(), SizeOracleMethod()});
   return registry;
 }
 
