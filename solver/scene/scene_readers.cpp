@@ -10,6 +10,7 @@
 #include "solver/scene/obj_reader.h"
 #include "solver/scene/ply_reader.h"
 #include "solver/scene/rad_reader.h"
+#include "solver/scene/triangle_table_reader.h"
 #include "solver/scene/view3d_reader.h"
 
 namespace penumbra {
@@ -18,7 +19,7 @@ SceneReaderRegistry& SceneReaders() {
   static SceneReaderRegistry registry(
       "scene reader",
       {ObjReaderMethod(), AssimpReaderMethod(), PlyReaderMethod(), MgfReaderMethod(), RadReaderMethod(),
-       View3dReaderMethod(), AshdownReaderMethod(), BuiltinSceneReaderMethod()});
+       View3dReaderMethod(), AshdownReaderMethod(), TriangleTableReaderMethod(), BuiltinSceneReaderMethod()});
   return registry;
 }
 
