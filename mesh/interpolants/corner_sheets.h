@@ -54,8 +54,9 @@ class CornerSheets {
   const Vec3& Into(std::size_t sheet) const { return into_[sheet]; }
 
  private:
-  std::vector<std::size_t> sheet_;  // number of the sheet of each corner
-  std::vector<Vec3> into_;          // result of Into() for each sheet
+  // sheet_[c] is the number of the sheet (triangles on one side of a contact) of triangle corner c.
+  std::vector<std::size_t> sheet_;
+  std::vector<Vec3> into_;  // into_[k] is the direction in which sheet k extends from its vertex
 };
 
 }  // namespace penumbra

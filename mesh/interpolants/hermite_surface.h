@@ -51,7 +51,7 @@ class HermiteSurface {
                    const VertexLight& light) const;
   Rgb ValueAt(const LatticePoint& at, int level, const VertexLight& light) const;
 
-  int levels_ = 1;  // number of levels with vertices
+  int levels_ = 1;  // the number of quadtree levels that have vertices
   // The correction at each vertex, added to the light of the coarser levels.
   std::unordered_map<LatticePoint, Jet, LatticePointHash> correction_;
 };

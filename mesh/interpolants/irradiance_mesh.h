@@ -17,15 +17,16 @@ namespace penumbra {
 
 struct IrradianceMesh {
   struct Triangle {
-    std::array<std::uint32_t, 3> vertex;  // indices in `positions`, counter-clockwise seen from the front
+    // The indices of the triangle's vertices in `positions`, counter-clockwise seen from the front.
+    std::array<std::uint32_t, 3> vertex;
     PatchId patch = kNoPatch;
     // True for edge k, from vertex k to vertex k + 1, if the edge lies on a discontinuity of the mesh.
     std::array<bool, 3> discontinuity = {false, false, false};
   };
 
   std::vector<Vec3> positions;  // positions of vertices [m]; only triangles of the same patch share vertices
-  std::vector<Triangle> triangles;               // triangles of all patches, in the order of patches
-  std::vector<QuadraticInterpolant> irradiance;  // interpolant of each triangle [W/m^2]
+  std::vector<Triangle> triangles;               // the triangles of all patches, in the order of the patches
+  std::vector<QuadraticInterpolant> irradiance;  // the interpolant of the irradiance on each triangle [W/m^2]
 };
 
 }  // namespace penumbra

@@ -47,7 +47,7 @@ struct Interpolation {
 
 struct BuiltMesh {
   IrradianceMesh mesh;
-  std::size_t point_evaluations = 0;     // number of calls of the sampler
+  std::size_t point_evaluations = 0;     // the number of points at which the irradiance was computed
   std::vector<std::uint32_t> predicted;  // indices of triangles with predicted midpoints, ascending
   // For each triangle, the numbers of its six samples, counted in the order of the calls of the sampler. The
   // list sample_numbers is empty if samples came from a cache, were predicted, or belong to linear

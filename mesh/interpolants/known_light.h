@@ -18,7 +18,7 @@ namespace penumbra {
 
 struct KnownLight {
   PatchId patch = kNoPatch;
-  Vec3 position = Vec3::Zero();  // position of the point [m]
+  Vec3 position = Vec3::Zero();  // the position of the point on its patch [m]
   Rgb irradiance = Rgb::Zero();  // exact irradiance at the point [W/m^2]
 };
 

@@ -39,7 +39,7 @@ class LeafIrradianceSamples {
   const PatchId id_;
   const Patch& patch_;
   const IrradianceSampler& sampler_;
-  const double uncertainty_;  // uncertainty of the positions of samples [m]
+  const double uncertainty_;  // the uncertainty of the positions of irradiance samples, from rounding [m]
   const SampleCache* known_;
   SampleCache samples_;
 };

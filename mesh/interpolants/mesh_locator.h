@@ -16,8 +16,10 @@ namespace penumbra {
 class MeshLocator {
  public:
   struct Location {
-    std::uint32_t triangle = 0;  // index in IrradianceMesh::triangles
-    double s = 0, t = 0;         // barycentric coordinates: s >= 0, t >= 0, s + t <= 1
+    // The index of the triangle that contains the point, in IrradianceMesh::triangles.
+    std::uint32_t triangle = 0;
+    // The barycentric coordinates of the point in the triangle: s >= 0, t >= 0, s + t <= 1.
+    double s = 0, t = 0;
   };
 
   // A point outside all triangles of a patch counts as lying on the patch's border if its distance from the

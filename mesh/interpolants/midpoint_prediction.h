@@ -28,7 +28,7 @@ class MidpointPrediction {
     // The predicted irradiance, from the cubic along the edge that has the values and gradients at both ends
     // [W/m^2].
     Rgb value;
-    Rgb bend;  // bend along the edge: value - (mean of the irradiances at both ends) [W/m^2]
+    Rgb bend;  // (irradiance at the midpoint of an edge) - (mean of the irradiances at both ends) [W/m^2]
   };
   // The prediction for the midpoint of edge k of triangle t, with the gradients on the triangle's side of
   // discontinuities.

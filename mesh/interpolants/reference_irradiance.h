@@ -39,7 +39,8 @@ class ReferenceIrradiance {
 
   const RadiositySolution& solution_;
   std::vector<double> darkest_;  // irradiance of each patch's darkest leaf, in its brightest channel [W/m^2]
-  double mean_ = 0;              // mean irradiance over the leaves [W/m^2]; 0: all factors of errors are 1
+  // The mean irradiance over all leaves [W/m^2]; if it is 0, errors are not weighted.
+  double mean_ = 0;
 };
 
 }  // namespace penumbra

@@ -32,8 +32,9 @@ struct RepresentationError {
   // the measured errors, where sigma = sqrt(0.99 * 0.01 / points). The standard deviation sigma is that of
   // the fraction of points whose error exceeds the true 99th percentile.
   double p99_at_most = 0, p99_at_least = 0;
-  std::int32_t worst_face = -1;     // face with the largest error, as numbered in the scene file
-  Vec3 worst_point = Vec3::Zero();  // point with the largest error [m]
+  // The index of the face with the largest error, in the order of the scene file.
+  std::int32_t worst_face = -1;
+  Vec3 worst_point = Vec3::Zero();  // the position of the point with the largest error [m]
 };
 
 // Irradiance of at most 1e-10 * (largest emittance) counts as zero [W/m^2]. Coplanar faces whose vertices are
@@ -71,18 +72,20 @@ inline constexpr std::size_t kPointsToTellAPart = 300;
 // The error in one part of the scene, for example an object (PartsOf).
 struct PartError {
   std::string name;
-  std::size_t part = 0;  // index of the part in PartsOf()
+  std::size_t part = 0;  // the index of the scene's part in the list that PartsOf() returns
   RepresentationError whole;
 };
 
 struct MeasuredError {
-  RepresentationError interpolant;  // interpolants compared with exact irradiance from the same sources
+  // The error of the interpolants, compared with exact irradiance from the same light sources.
+  RepresentationError interpolant;
   // Exact irradiance from the same light sources compared with exact irradiance from more accurate light
   // sources. If there are several sets of more accurate light sources, the set with the largest differences
   // counts.
   RepresentationError sources;
-  RepresentationError whole;  // interpolants compared with exact irradiance from more accurate sources
-  double above = 0;           // fraction of the errors in `whole` that exceed ErrorMeasurement::bound
+  // The error of the interpolants, compared with exact irradiance from more accurate light sources.
+  RepresentationError whole;
+  double above = 0;  // fraction of the errors in `whole` that exceed ErrorMeasurement::bound
   // The errors of the interpolants, compared with exact irradiance from more accurate sources, for each
   // reflecting part of the scene.
   std::vector<PartError> by_part;

@@ -41,7 +41,8 @@ class SampleCache {
  private:
   struct Key {
     PatchId patch = kNoPatch;
-    Vec3 position, approach;  // `approach` is zero if the sample does not depend on a direction
+    // The position of the sample, and the direction of its one-sided limit; zero if it has none.
+    Vec3 position, approach;
     bool operator==(const Key& other) const = default;
   };
   struct Hash {

@@ -24,13 +24,15 @@ struct TriangleError {
 };
 
 struct MeasuredTriangles {
-  std::vector<TriangleError> errors;  // error of each triangle of the mesh; zero for triangles not measured
+  // The error of each triangle of the mesh; 0 for triangles that were not measured.
+  std::vector<TriangleError> errors;
   std::size_t point_evaluations = 0;
 };
 
 struct TriangleSampling {
-  int samples = 1;  // number of intervals of a side; samples^2 points per triangle
-  Rgb mean;         // mean irradiance of each channel [W/m^2]
+  // Each side of a triangle is cut into `samples` intervals, and samples^2 points are measured.
+  int samples = 1;
+  Rgb mean;  // the mean irradiance over the scene, in each colour channel [W/m^2]
   // If given, points that get no light and that nobody can see count as exact.
   const Enclosure* enclosure = nullptr;
 };

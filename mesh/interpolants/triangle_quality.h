@@ -15,9 +15,9 @@ namespace penumbra {
 // divided by the same ratio of an equilateral triangle; 1 is the best. All members of TriangleQuality are
 // zero for an empty mesh.
 struct TriangleQuality {
-  double smallest_angle = 0;   // smallest angle of all triangles [degrees]
+  double smallest_angle = 0;   // the smallest angle of any triangle of the mesh [degrees]
   double median_angle = 0;     // median of the triangles' smallest angles [degrees]
-  double below_5_degrees = 0;  // fraction of triangles with an angle below 5 degrees
+  double below_5_degrees = 0;  // (number of triangles with an angle below 5 degrees) / (number of triangles)
   double slim_area = 0;        // (area of triangles with an angle below 5 degrees) / (area of all triangles)
   // Fractions of triangles whose smallest angle lies in [0, 10), [10, 20), [20, 30), [30, 40), [40, 50) and
   // [50, 60] degrees.

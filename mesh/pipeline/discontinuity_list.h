@@ -17,8 +17,9 @@
 namespace penumbra {
 
 struct DiscontinuityList {
-  std::vector<Discontinuity> all;         // discontinuities in the order of receivers
-  std::vector<std::array<Vec3, 2>> ends;  // ends of each discontinuity, in space [m]
+  // All discontinuities of the irradiance, in the order of their receivers.
+  std::vector<Discontinuity> all;
+  std::vector<std::array<Vec3, 2>> ends;  // the two end points of each discontinuity, in space [m]
 };
 
 // Returns the discontinuities on all patches that may become edges of the mesh, including those that

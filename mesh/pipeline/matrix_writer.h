@@ -17,8 +17,9 @@ namespace penumbra {
 // name.
 struct NamedMatrix {
   FormFactorMatrix matrix;
-  std::vector<std::string> names;    // name of each row
-  std::vector<std::string> objects;  // name of the object with each row's face; empty if rows are objects
+  std::vector<std::string> names;  // the name of the face or object that belongs to each row of the matrix
+  // The name of the object that contains the face of each row; empty if rows are objects.
+  std::vector<std::string> objects;
   // Area of each row's surfaces, including parts that other surfaces touch and cover [m^2].
   std::vector<double> whole_area;
   // The absorptance 1 - reflectance of each row's surfaces, averaged over area and channels.

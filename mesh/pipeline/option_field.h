@@ -30,8 +30,8 @@ enum class OptionKind : std::uint8_t { kFlag, kInteger, kNumber, kChoice };
 struct OptionField {
   OptionKind kind = OptionKind::kFlag;
   bool optional = false;  // true if the option may be omitted; its value then follows from other options
-  NumberRange numbers;    // range of values of the kind kNumber
-  IntegerRange integers;  // range of values of the kind kInteger
+  NumberRange numbers;    // the permitted values of an option whose value is a real number
+  IntegerRange integers;  // the permitted values of an option whose value is an integer
   // Returns the names of the values of an option of the kind kChoice, or the two words for the values of an
   // option of the kind kFlag.
   std::function<std::vector<std::string>()> choices;

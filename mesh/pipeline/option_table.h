@@ -61,12 +61,12 @@ struct StudyChoice {
 struct SolveOption {
   const char* name = "";  // name of the option, as in --NAME
   OptionField field = {};
-  const char* unit = "";  // unit of a number; empty if the number has no unit
+  const char* unit = "";  // the unit of an option whose value is a number; empty if it has no unit
   OptionGroup group = OptionGroup::kSolving;
   // The name, in LightSolvers(), of the first solver that uses the option. All solvers use the option if
   // `solver` and `form_factors` are empty.
   std::string solver = {};
-  std::vector<std::string> other_solvers = {};  // further solvers that use the option
+  std::vector<std::string> other_solvers = {};  // the names of further solvers that use the option
   // Names of form-factor methods in LinkFormFactorMethods() that use the option, with every solver that has
   // the option form-factors.
   std::vector<std::string> form_factors = {};
@@ -77,8 +77,9 @@ struct SolveOption {
   bool tiny_distance = false;  // true if the option's distance is at most scene diagonal / 1000
   // True if the option is --no-NAME, and sets a flag that is on by default to off.
   bool flag_clears = false;
-  const char* otherwise = "";  // words for the default of an option without a fixed default value
-  const char* help = "";       // sentence for --help, without unit, range and default
+  const char* otherwise = "";  // words that describe the default of an option without a fixed default value
+  // The sentence that --help prints about the option, without unit, range and default.
+  const char* help = "";
   std::vector<StudyChoice> study_choices = {};
   // A function that returns the value of the option that the solve uses. The function `resolved` is empty
   // unless the option is optional and its default depends on other options.
@@ -88,7 +89,7 @@ struct SolveOption {
   // OptionTable(). The function in_older_files is empty if all solution files contain the option.
   std::function<OptionValue(const PipelineOptions& before)> in_older_files = {};
   const char* label = "";    // label of the option in the window's panel, in a few words, without the unit
-  const char* setting = "";  // name of the option in the window, if different from `name`
+  const char* setting = "";  // the name of the option in the window, if it differs from `name`
 };
 
 // Returns all options of a solve, in the order of reports and solution files.

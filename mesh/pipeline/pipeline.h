@@ -36,8 +36,8 @@ namespace penumbra {
 
 // The kind of error by which the refinement of elements and mesh is controlled (thesis 4.4).
 enum class RefineBy : std::uint8_t {
-  kTransport,       // error of links only; the mesh is not refined beyond the solution's quadtree leaves
-  kRepresentation,  // error of the displayed mesh; the elements of the solution stay coarse
+  kTransport,       // only the error of links; the mesh is not finer than the solution's quadtree leaves
+  kRepresentation,  // only the error of the displayed mesh; the elements of the solution stay coarse
   kBoth,
 };
 
@@ -62,7 +62,8 @@ struct PipelineOptions {
   // and min_discontinuity_weight is given, the discontinuity weight is kThesis, because
   // min_discontinuity_weight is then a minimum of weights of this kind. If neither `weight` nor
   // min_discontinuity_weight is given, the discontinuity weight is kIrradiance.
-  std::string discontinuities = "ranked";  // name of a method in DiscontinuityChoices()
+  // The name of the method that chooses discontinuities, in DiscontinuityChoices().
+  std::string discontinuities = "ranked";
   std::optional<DiscontinuityWeight> weight;
   bool keep_hidden_discontinuities = false;
   // The largest distance of the polyline of a triple-edge (EEE) discontinuity from the true curve [m]. If
@@ -108,7 +109,8 @@ struct PipelineOptions {
   std::uint64_t seed = 1;
   // If true, the pipeline keeps the light of each emitter separately (Pipeline::emitters).
   bool by_emitter = false;
-  EmitterUnit emitter_unit = EmitterUnit::kFace;  // what counts as one emitter: faces, objects or materials
+  // Whether a face, an object or a material counts as one emitter.
+  EmitterUnit emitter_unit = EmitterUnit::kFace;
   // The name of the solver in LightSolvers(). If `solver` is omitted, SolverFor() chooses the solver for the
   // scene. Options that SolverName() does not use are refused.
   std::optional<std::string> solver;
@@ -130,7 +132,7 @@ struct PipelineOptions {
   // True if the options were set to the thesis's values by SetAsThesis(). Single options may have been
   // changed afterwards.
   bool as_thesis = {};
-  int crowded_splits = 3;  // DiscontinuityOptions::crowded_splits
+  int crowded_splits = 3;  // the number of times that a leaf crowded with discontinuities may be divided
 };
 
 // The values of all options that a solve uses, including those that the user has omitted.
@@ -144,7 +146,8 @@ struct ResolvedOptions {
   // --refine transport, refine_light is false, because links alone determine the light. With --source-error,
   // refine_light is false, because the solver's corrections divide the sources.
   bool refine_light = true;
-  std::size_t lookouts = 0;  // number of random points at which each mesh is tested
+  // The number of random points at which each mesh of a sampled solution is tested for missed shadows.
+  std::size_t lookouts = 0;
   // The occlusion method that PipelineOptions::method names; null for the fastest exact method.
   std::shared_ptr<const OcclusionMethod> occlusion = {};
 };
@@ -178,7 +181,8 @@ struct PipelineReport {
                 links_partial = 0, discontinuities = 0, dsets_active = 0, most_merged = 0, triangles = 0,
                 interpolants = 0, point_evaluations = 0, sources_renewed = 0;
   } counts;
-  InteractionCounts interactions;  // counts of receiver-source interactions, including links
+  // The numbers of pairs of a receiver and a source whose light transport was computed.
+  InteractionCounts interactions;
   std::vector<IterationReport> iterations;
   std::optional<SolverReport::Dense> dense;
   EnergyBalance energy;
@@ -213,7 +217,8 @@ struct PipelineState {
   MeshKind mesh_kind = MeshKind::kInterpolant;
   IrradianceMesh mesh;
   PipelineReport report;
-  std::vector<EmitterLight> emitters = {};  // light of each emitter alone (Pipeline::emitters)
+  // The light of each emitter alone, as Pipeline::emitters() returns it.
+  std::vector<EmitterLight> emitters = {};
 };
 
 // A Pipeline runs the stages from a scene to its irradiance mesh, and holds their results. The scene must

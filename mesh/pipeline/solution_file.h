@@ -28,10 +28,10 @@ inline constexpr int kSolutionSchema = 6, kOldestSolutionSchema = 4;
 struct StoredSolution {
   std::unique_ptr<const Scene> scene;
   PipelineState state;  // results of the solve, which refer to *scene; the report in `state` is empty
-  std::string options;  // options of the solve, as text in any format
-  std::string report;   // report on the solve, as text in any format
-  std::string version;  // version of the program that wrote the file
-  int schema = 0;       // version of the file's layout
+  std::string options;  // the options of the solve, as text in the caller's format
+  std::string report;   // the report on the solve, as text in the caller's format
+  std::string version;  // the version of the program that wrote the solution file
+  int schema = 0;       // the version number of the solution file's layout
 };
 
 // The number of bytes before the HDF5 image. HDF5 libraries look for an HDF5 image at the offset

@@ -48,7 +48,7 @@ class CoveredLight {
 
  private:
   struct Triangle {
-    std::uint32_t number;  // index of the triangle in the mesh
+    std::uint32_t number;  // the index of the triangle in the irradiance mesh
     Vec2 origin;
     Eigen::Matrix2d to_barycentric;
     double area;  // area of the whole triangle [m^2]
@@ -59,7 +59,7 @@ class CoveredLight {
   };
   struct Piece {
     std::uint32_t triangle;    // index of the triangle in *triangles_
-    std::uint32_t first, end;  // range of the corners in corners_
+    std::uint32_t first, end;  // the corners of the piece are corners_[first] to corners_[end - 1]
     double area;
   };
 

@@ -19,7 +19,7 @@
 namespace penumbra {
 
 struct EmitterLight {
-  std::vector<PatchId> patches;  // patches that form the emitter, ascending
+  std::vector<PatchId> patches;  // the indices of the patches that form the emitter, in ascending order
   // The irradiance that arises from this emitter alone, including all reflections [W/m^2], of each element,
   // and of each fragment (convex piece of a leaf).
   std::vector<Rgb> element, fragment;
@@ -40,8 +40,9 @@ void ScaleLights(std::span<const Rgb> factor, std::span<EmitterLight> lights, Ra
 // The data of a light that a SourceSet needs: radiosities of elements and fragments, and emittances of
 // patches.
 struct SourceLight {
-  std::vector<Rgb> element, fragment;  // radiosity of each element, and of each fragment [W/m^2]
-  std::vector<Rgb> emittance;          // emittance of each patch [W/m^2]
+  // The radiosity of each quadtree element and of each fragment of a cut leaf [W/m^2].
+  std::vector<Rgb> element, fragment;
+  std::vector<Rgb> emittance;  // the emittance of each patch, from the emitters that are lit [W/m^2]
 
   SourceLight() = default;
   // Takes the light of a radiosity solution.

@@ -26,13 +26,14 @@ namespace penumbra {
 
 // The mesh whose interpolants have refined the sources of a solution.
 struct SourceMesh {
-  const ElementForest& forest;  // quadtrees of the triangulations
+  const ElementForest& forest;  // the quadtrees whose leaves were triangulated
   std::span<const PatchTriangulation> triangulations;
   Interpolation how;
-  std::span<const SourceCell> cells;  // light sources that are smaller than leaves
+  std::span<const SourceCell> cells;  // pieces of quadtree leaves that act as light sources
   const PointIrradiance& exact;       // exact irradiance from the light of all emitters
-  SampleCache& samples;               // samples at the mesh's nodes, with their form factors
-  SourceSet& samples_from;            // the sources to which the form factors belong
+  // The irradiance samples at the nodes of the mesh, with their form factors.
+  SampleCache& samples;
+  SourceSet& samples_from;  // the light sources to which the form factors of `samples` belong
   // `tolerance` is the tolerance of the form factors. The iteration ends when the light of the sources
   // changes by at most `settled` (SourceCells::Change).
   double tolerance = 0, settled = 0;

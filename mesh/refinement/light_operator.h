@@ -27,13 +27,14 @@ namespace penumbra {
 
 struct OperatorInput {
   const RadiositySolution& whole;
-  const ElementForest& forest;  // quadtrees of the triangulations: the solution's or a refinement
+  // The quadtrees whose leaves were triangulated: those of the solution, or finer ones.
+  const ElementForest& forest;
   std::span<const PatchTriangulation> triangulations;
   const PointIrradiance& exact;  // exact irradiance from the solution
   // The light of each emitter alone, or an empty list. If the light of each emitter is given, the form
   // factors are accurate enough for the light of every single emitter.
   std::span<const EmitterLight> emitters;
-  double tolerance = 0;  // tolerance of the form factors
+  double tolerance = 0;  // the relative tolerance of the form factors of irradiance samples
 };
 
 class LightOperator {
@@ -55,9 +56,10 @@ class LightOperator {
 
  private:
   struct Term {
-    double factor = 0;                        // coefficient of the node's radiosity [1]
-    std::int32_t node = -1;                   // index in sources_
-    std::array<float, 3> moment = {0, 0, 0};  // coefficients of the slope of the node's radiosity [m]
+    double factor = 0;       // the coefficient of the radiosity of the source node [1]
+    std::int32_t node = -1;  // the index of the source node in the source set
+    // The coefficients of the gradient of radiosity over the source node [m].
+    std::array<float, 3> moment = {0, 0, 0};
   };
   // Rows of a sparse matrix.
   struct Matrix {
@@ -81,7 +83,7 @@ class LightOperator {
   bool ready_ = false;
   ElementForest forest_;  // quadtrees of the solution
   SourceSet sources_;
-  IrradianceMesh mesh_;  // mesh that was given to the constructor
+  IrradianceMesh mesh_;  // the irradiance mesh that was given to the constructor
   Matrix nodes_;         // matrix from radiosities to irradiance at the samples of the mesh (R)
   std::vector<std::array<std::uint32_t, 6>> samples_of_triangle_;
   // The unknowns are the irradiances of the fragments (convex pieces of leaves), followed by the irradiances

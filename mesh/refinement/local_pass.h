@@ -31,7 +31,7 @@ namespace penumbra {
 // a mesh plan, a radiosity solution and options. Refinement of a mesh adds leaves and discontinuities to the
 // mesh plan.
 struct MeshPlan {
-  ElementForest forest;  // the solution's quadtrees, or a refinement of them
+  ElementForest forest;  // the quadtrees of the solution, or finer ones
   // The discontinuities on each patch that refinement has requested as edges. A patch beyond the end of the
   // list `wanted` has no requested discontinuities.
   std::vector<std::vector<Discontinuity>> wanted;
@@ -40,7 +40,8 @@ struct MeshPlan {
 struct MeshResult {
   IrradianceMesh mesh;
   MeshPlan plan;
-  std::vector<PatchTriangulation> triangulations;  // triangulations from which `mesh` was made
+  // The triangulations of the patches from which `mesh` was made.
+  std::vector<PatchTriangulation> triangulations;
   MeshReport report;
 };
 
@@ -53,7 +54,7 @@ class LocalPassCache {
       : discontinuities(scene, visibility), leaves(scene.patches.size()) {}
 
   DiscontinuityCache discontinuities;
-  std::vector<LeafMeshCache> leaves;  // triangulated leaves of each patch
+  std::vector<LeafMeshCache> leaves;  // the triangulated quadtree leaves of each patch
 };
 
 // For each patch, the maximum radiosity over the patch's leaves and the channels [W/m^2].
@@ -128,7 +129,8 @@ class PatchTriangulator {
   struct Activation {
     // The quadtree leaves for which discontinuities were chosen; empty if none have been chosen yet.
     std::vector<ElementId> leaves;
-    std::size_t wanted = 0;  // number of discontinuities that refinement has requested
+    // The number of discontinuities that refinement of the mesh has requested as edges.
+    std::size_t wanted = 0;
     bool lists_omitted = false;
     // Quadtree elements that were split because they had no room for a discontinuity, in the order of the
     // splits, each with its first child.
@@ -141,7 +143,8 @@ class PatchTriangulator {
 // Data from an earlier local pass; each member may be null.
 struct LocalPassMemory {
   LocalPassCache* cache = nullptr;
-  SampleCache* samples = nullptr;  // samples of the sampler that is passed to RunLocalPass()
+  // The irradiance samples that are known already, from the sampler passed to RunLocalPass().
+  SampleCache* samples = nullptr;
 };
 
 // Runs the complete local pass, which computes the irradiance mesh from a radiosity solution. For constant

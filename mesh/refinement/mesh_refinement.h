@@ -41,7 +41,7 @@ struct MeshRefinementOptions {
   // object (PartsOf), the limit of the error is kPartError * error.
   double error = 0.02;
   double share_above = kShareAbove;
-  double min_area = 0;  // no leaf becomes smaller than min_area [m^2]
+  double min_area = 0;  // the smallest permitted area of a quadtree leaf of the mesh [m^2]
   // Triangles whose estimated error (GuessTriangleErrors) is below suspicion * error are not measured. The
   // error estimate of GuessTriangleErrors() holds for light that is smooth at the scale of a triangle.
   double suspicion = 0.25;
@@ -77,10 +77,13 @@ struct LightToShow {
 // Data from an earlier refinement that RefineMesh() reuses; each member may be null.
 struct RefinementMemory {
   LocalPassCache* local_pass = nullptr;
-  const MeshPlan* start = nullptr;         // leaves of the first mesh; null: the result of BeginPlan()
-  SampleCache* samples = nullptr;          // samples of LightToShow::sampler
+  // The quadtree leaves of the first mesh; null: those that BeginPlan() returns.
+  const MeshPlan* start = nullptr;
+  // The irradiance samples that are known already, from LightToShow::sampler.
+  SampleCache* samples = nullptr;
   std::span<const KnownLight> known = {};  // points with known irradiance, at which each mesh is tested
-  std::function<void(const IrradianceMesh&)> observer = {};  // called with the mesh of each round
+  // The function that receives the mesh of each round of refinement.
+  std::function<void(const IrradianceMesh&)> observer = {};
 };
 
 // Refines the mesh until the error exceeds its limit on at most the fraction share_above of the area, until

@@ -23,14 +23,15 @@ struct RefinementStep {
   // A triangle, and the part of its area that is expected to meet the error limit after a refinement step
   // [m^2].
   struct Mended {
-    std::uint32_t triangle = 0;  // index in the mesh's list of triangles
+    std::uint32_t triangle = 0;  // the index of the triangle in the list of the mesh
     double area = 0;
   };
 
   PatchId patch = kNoPatch;
   ElementId leaf = kNoElement;    // the leaf to divide; kNoElement: a discontinuity becomes an edge
   std::size_t discontinuity = 0;  // discontinuity that becomes an edge: index in OmittedOfPatch::found
-  double cost = 0;                // number of triangles that the step adds or triangulates again
+  // The number of triangles that the refinement step adds or triangulates again.
+  double cost = 0;
   std::vector<Mended> mended;
 
   bool Divides() const { return leaf != kNoElement; }

@@ -37,7 +37,7 @@ struct ShownMeshOptions {
   double error = 0.02;    // requested 99th percentile of the relative errors of irradiance
   int error_samples = 1;  // the error of each triangle is measured at error_samples^2 points
   std::uint64_t seed = 1;
-  SolverOptions solver;  // options with which the solution is computed
+  SolverOptions solver;  // the options with which the radiosity solution is computed
   // The mesh is refined until the 99th percentile of the interpolants' errors is interpolant_share * error.
   double interpolant_share = 0.6;
   // The fraction of the area of all reflecting patch fronts on which the error may exceed its limit.
@@ -181,16 +181,17 @@ class ShownMesh {
 
   IrradianceMesh mesh_;
   std::vector<PatchTriangulation> triangulations_;
-  MeshPlan plan_;  // quadtree leaves and requested discontinuities of triangulations_
+  MeshPlan plan_;  // the quadtree leaves, and the discontinuities requested as edges, of triangulations_
   std::vector<TriangleError> triangle_errors_;
   std::unique_ptr<LocalPassCache> local_pass_;  // data that local passes with visibility_ reuse
   SampleCache samples_;
-  SourceSet samples_from_;            // the sources to which the form factors of the samples belong
-  bool samples_are_current_ = false;  // true if samples_ belong to the present light
-  std::vector<SourceCell> cells_;     // the sources of the present light; empty before RefineLight()
+  SourceSet samples_from_;  // the sources to which the form factors of the samples belong
+  // True if the irradiance samples in samples_ belong to the present light.
+  bool samples_are_current_ = false;
+  std::vector<SourceCell> cells_;  // the sources of the present light; empty before RefineLight()
   MeshReport report_;
   double seconds_of_sources_ = 0;
-  bool has_looked_ = false;  // true if RefineLight() made mesh_ for the present light
+  bool has_looked_ = false;  // true if RefineLight() has made mesh_ from the present light
   // The quadtree leaves and requested discontinuities of the last mesh that RefineLight() made.
   std::optional<MeshPlan> light_plan_;
   std::optional<std::string> unmet_;

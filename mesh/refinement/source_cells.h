@@ -28,12 +28,13 @@
 namespace penumbra {
 
 struct SourceCell {
-  ElementId leaf = kNoElement;  // leaf of the solution that contains the cell
+  ElementId leaf = kNoElement;  // the quadtree leaf of the solution that contains the source cell
   SourcePolygon polygon;
-  std::int32_t parent = -1;      // index of the parent cell; -1: the cell is the whole leaf
-  std::int32_t skip = 1;         // number of cells in the cell's subtree, including the cell
-  double area = 0;               // area of the cell [m^2]
-  Rgb irradiance = Rgb::Zero();  // mean irradiance of the cell [W/m^2]
+  // The index of the cell that was divided into this cell; -1 if the cell is a whole leaf.
+  std::int32_t parent = -1;
+  std::int32_t skip = 1;         // the number of cells in the subtree of this cell, including the cell itself
+  double area = 0;               // the area of the source cell [m^2]
+  Rgb irradiance = Rgb::Zero();  // the mean irradiance of the source cell [W/m^2]
   double score = 0;              // estimated relative error at receivers if the cell is not divided [1]
 };
 

@@ -23,8 +23,8 @@ class ProcessGroup {
  public:
   virtual ~ProcessGroup() = default;
 
-  virtual int Rank() const = 0;  // number of this process, from 0
-  virtual int Size() const = 0;  // number of processes, at least 1
+  virtual int Rank() const = 0;  // the number of this process among all processes, from 0
+  virtual int Size() const = 0;  // the number of processes that work together, at least 1
   // Sends `own` to all processes. Returns what each process has sent, in the order of their ranks. Every
   // process must call Exchange() the same number of times.
   virtual std::vector<std::string> Exchange(const std::string& own) const = 0;
@@ -45,7 +45,7 @@ std::string FromFirstProcess(std::string own);
 // several threads; `write` appends the result to bytes, and `read` takes the result from bytes.
 struct DealtLoop {
   std::size_t count = 0;
-  std::size_t grain = 1;  // number of consecutive indices that one task computes
+  std::size_t grain = 1;  // the number of consecutive loop indices that one task computes
   std::function<void(std::size_t i)> compute;
   std::function<void(std::size_t i, ByteWriter& to)> write;
   std::function<void(std::size_t i, ByteReader& from)> read;

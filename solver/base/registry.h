@@ -25,9 +25,9 @@ template <class Product, class... Options>
 class Registry {
  public:
   struct Method {
-    std::string name;                     // name of the method on the command line
-    std::string help;                     // one line of help, without a full stop
-    std::vector<std::string> parameters;  // names of the options that only this method uses
+    std::string name;                     // the name of the method, as users write it on the command line
+    std::string help;                     // one line of help about the method, without a full stop at the end
+    std::vector<std::string> parameters;  // the names of the command-line options that only this method uses
     std::function<std::unique_ptr<Product>(const Options&...)> make;
   };
 

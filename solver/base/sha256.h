@@ -27,7 +27,7 @@ class Sha256 {
                                          0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   std::array<unsigned char, 64> pending_ = {};
   std::size_t pending_size_ = 0;
-  std::uint64_t length_ = 0;  // number of bytes passed to Update()
+  std::uint64_t length_ = 0;  // the number of bytes that have been passed to Update() so far
 };
 
 }  // namespace penumbra

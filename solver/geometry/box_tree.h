@@ -30,7 +30,7 @@ class BoxTree {
 
  private:
   struct Node {
-    PlaneBox box;  // bounding box of the node
+    PlaneBox box;  // the bounding box of all boxes below this tree node
     // The boxes of a leaf of the tree are the entries `first` to `first + count - 1` of order_; `count` is 0
     // in an inner node of the tree.
     std::int32_t first = 0, count = 0;
@@ -41,7 +41,7 @@ class BoxTree {
   std::int32_t BuildNode(std::int32_t first, std::int32_t count);
 
   std::span<const PlaneBox> given_;  // the boxes that were passed to Build(); valid only during Build()
-  std::vector<PlaneBox> boxes_;      // boxes_[i] is the given box with the index order_[i]
+  std::vector<PlaneBox> boxes_;      // boxes_[i] is the box that Build() was given at index order_[i]
   std::vector<std::int32_t> order_;
   std::vector<Node> nodes_;
   mutable std::vector<std::int32_t> stack_;

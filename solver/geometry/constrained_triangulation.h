@@ -33,39 +33,45 @@ inline constexpr std::int32_t kBorder = -2;
 inline constexpr double kSnapDistance = 1e-13;
 
 struct ConstraintSegment {
-  std::int32_t from = 0, to = 0;  // point indices of the segment's ends
-  std::int32_t tag = kNoTag;      // tag of the segment: kNoTag, kBorder, or a caller's tag >= 0
+  std::int32_t from = 0, to = 0;  // the indices of the two points at the ends of the segment
+  // The tag of the segment: kNoTag, kBorder, or a tag >= 0 that the caller has chosen.
+  std::int32_t tag = kNoTag;
 };
 
 struct ConstrainedTriangulation {
   struct Triangle {
-    std::array<std::int32_t, 3> vertex;  // vertex indices, counter-clockwise; the smallest index comes first
+    // The indices of the triangle's vertices, counter-clockwise, beginning with the smallest.
+    std::array<std::int32_t, 3> vertex;
     // The neighbour across edge k, which runs from vertex k to vertex k + 1; -1 if no triangle is there.
     std::array<std::int32_t, 3> neighbor;
     // Smallest tag >= 0 of the constraints on edge k; kNoTag if there is none.
     std::array<std::int32_t, 3> tag;
-    std::array<bool, 3> border;        // true if edge k lies on a constraint with the tag kBorder
-    std::array<std::int32_t, 3> edge;  // index of edge k in `edges`; -1 if no constraint lies on edge k
-    std::int32_t winding = 0;          // winding number of the border around the triangle
+    // border[k] is true if edge k lies on a constraint segment with the tag kBorder.
+    std::array<bool, 3> border;
+    // edge[k] is the index of edge k in the list `edges`, or -1 if no constraint segment lies on edge k.
+    std::array<std::int32_t, 3> edge;
+    std::int32_t winding = 0;  // the winding number of the border segments around the triangle
 
     bool Inside() const { return winding != 0; }
   };
 
   // A Cover says that a constraint segment runs along an edge of the mesh.
   struct Cover {
-    std::int32_t constraint = 0;  // index of the constraint in the input
-    bool forward = true;          // true if the constraint runs from vertex a to vertex b of the edge
+    std::int32_t constraint = 0;  // the index of the constraint segment in the list that the caller gave
+    // True if the constraint segment runs from the edge's vertex a to its vertex b.
+    bool forward = true;
   };
   struct Edge {
-    std::int32_t a = 0, b = 0;          // indices of the edge's end vertices, a < b
-    std::int32_t first = 0, count = 0;  // range of the edge's entries in `covers`
+    std::int32_t a = 0, b = 0;          // the indices of the vertices at the ends of the edge; a < b
+    std::int32_t first = 0, count = 0;  // the entries [first, first + count) of `covers` belong to this edge
   };
 
   // The vertices are the input points, followed by the crossings of segments. Of several points with equal
   // coordinates, only the first is used.
   std::vector<Vec2> vertices;
-  std::vector<Triangle> triangles;  // triangles that fill the convex hull, sorted by vertex indices
-  std::vector<Edge> edges;          // all edges that lie on constraints, sorted by (a, b)
+  // Triangles that fill the convex hull of the vertices, sorted by their vertex indices.
+  std::vector<Triangle> triangles;
+  std::vector<Edge> edges;  // all edges of the mesh that lie on constraint segments, sorted by (a, b)
   // One Cover for each constraint on each edge, sorted by edge, then by constraint.
   std::vector<Cover> covers;
 

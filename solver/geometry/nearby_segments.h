@@ -19,7 +19,8 @@
 namespace penumbra {
 
 struct PlaneSegment {
-  Vec2 a = Vec2::Zero(), b = Vec2::Zero();  // end points; a segment with equal end points is a point
+  // The end points of the segment; if they are equal, the segment is a single point.
+  Vec2 a = Vec2::Zero(), b = Vec2::Zero();
 };
 
 // Returns pairs (i, j), i < j, of indices of segments, in ascending order. The result contains all pairs

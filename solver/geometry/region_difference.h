@@ -25,7 +25,7 @@ namespace penumbra {
 // distance is at least `base`.
 struct SnapTolerance {
   double base = 0;
-  Vec2 step = Vec2::Zero();  // unit of rounding along each coordinate axis
+  Vec2 step = Vec2::Zero();  // the unit to which coordinates are rounded, along x and along y
 
   // The snap distance in the direction of `normal`, the unit normal of an edge.
   double Across(const Vec2& normal) const { return std::max(base, normal.cwiseAbs().dot(step)); }

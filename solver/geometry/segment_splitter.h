@@ -16,7 +16,7 @@ namespace penumbra {
 
 // A piece of the segment with the index `source`, in the direction of this segment.
 struct SegmentPiece {
-  std::int32_t from = 0, to = 0;  // vertex indices of the ends
+  std::int32_t from = 0, to = 0;  // the vertex indices of the two ends of the segment piece
   std::int32_t source = 0;
 };
 
@@ -36,7 +36,7 @@ class SegmentSplitter {
  private:
   struct CutPoint {
     std::int32_t piece = 0;
-    double at = 0;  // sort key of the point along the piece
+    double at = 0;  // the key by which points are sorted along a piece of a segment
     std::int32_t vertex = 0;
   };
 
@@ -56,17 +56,19 @@ class SegmentSplitter {
   std::vector<bool>* used_ = nullptr;
   std::vector<SegmentPiece>* pieces_ = nullptr;
   double snap_ = 0;
-  double rounding_ = 0;  // upper bound of a true distance whose computed value is 0
+  double rounding_ = 0;  // an upper bound of the true distance of two points whose computed distance is 0
   std::vector<CutPoint> cuts_;
   std::vector<SegmentPiece> next_;
   // For each piece: true if the piece changed since it was last tested for vertices and crossings on it.
   std::vector<char> fresh_, next_fresh_;
   // Index of the first vertex that was not yet tested against all pieces.
   std::int32_t fresh_vertex_ = 0;
-  std::vector<std::int32_t> order_;  // indices of vertices or pieces, sorted by smallest x
-  std::vector<double> low_;          // the smallest x of each entry of order_
-  std::vector<double> left_;         // smallest x of each piece
-  BoxTree tree_;                     // search tree, used if there are many vertices or pieces
+  // The indices of vertices or of segment pieces, sorted by their smallest x coordinate.
+  std::vector<std::int32_t> order_;
+  std::vector<double> low_;   // low_[i] is the smallest x coordinate of the vertex or piece order_[i]
+  std::vector<double> left_;  // left_[i] is the smallest x coordinate of segment piece i
+  // A search tree for the vertices or pieces, used if there are many of them.
+  BoxTree tree_;
   std::vector<PlaneBox> boxes_;
   std::vector<std::int32_t> found_;
 };

@@ -67,13 +67,13 @@ class AshdownLines {
 struct AshdownEntity {
   struct Patch {
     std::size_t surface = 0;  // index in AshdownEntity::surfaces
-    Polygon3 corners;         // three or four corners, in the frame of the entity
+    Polygon3 corners;         // the three or four corners of the patch, in the coordinates of the entity
   };
-  std::string name;                // name of the file, without its ending
-  std::size_t vertices = 0;        // number of vertices
-  std::vector<Material> surfaces;  // materials of the surfaces, with a name for each
-  std::vector<Patch> patches;      // the patches in the order of the file
-  std::size_t elements = 0;        // number of elements
+  std::string name;                // the name of the entity's file, without its ending
+  std::size_t vertices = 0;        // the number of vertices in the entity's file
+  std::vector<Material> surfaces;  // the materials of the entity's surfaces, each with a name
+  std::vector<Patch> patches;      // the patches of the entity, in the order of its file
+  std::size_t elements = 0;        // the number of elements in the entity's file
   Vec3 step = Vec3::Zero();        // unit to which the vertices are rounded, for each axis of the entity
 };
 

@@ -12,7 +12,8 @@
 namespace penumbra {
 
 struct AssimpImport {
-  std::string ending;  // file ending without the dot; tells Assimp the format of the bytes
+  // The ending of the file's name without the dot, which tells Assimp the format of the bytes.
+  std::string ending;
   // False if the format has no materials; materials that Assimp adds are then dropped.
   bool has_materials = true;
   bool has_default = false;  // true if Assimp adds a default material for faces without a material

@@ -19,7 +19,7 @@ namespace penumbra {
 inline constexpr int kMostRooms = 32;
 
 struct BuildingSize {
-  int rows = 1, columns = 1;  // numbers of rooms along y and x
+  int rows = 1, columns = 1;  // the building has `rows` rooms along y and `columns` rooms along x
 };
 
 // The number of rows R and of columns C in a scene name `building-RxC`; nullopt for other names. Throws

@@ -18,7 +18,7 @@ namespace penumbra {
 
 struct BuiltinScene {
   std::string name;
-  std::string description;  // description of the scene in one line
+  std::string description;  // a description of the built-in scene in one line
   std::vector<Camera> cameras;
 };
 

@@ -14,7 +14,8 @@ namespace penumbra {
 // A segment of nonzero length on a receiver along which another patch stands on the receiver or intersects
 // the receiver, or along which a patch that lies flat on the receiver ends.
 struct Contact {
-  Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // end points of the contact [m]
+  // The end points of the segment along which two surfaces touch [m].
+  Vec3 a = Vec3::Zero(), b = Vec3::Zero();
   PatchId other = kNoPatch;
 };
 
@@ -45,8 +46,10 @@ class ContactSearch {
 
  private:
   const Scene& scene_;
-  double gap_;                              // the value of ContactGap() for the scene [m]
-  std::vector<std::vector<PatchId>> near_;  // for each patch: the patches with nearby bounding boxes, sorted
+  // The largest distance at which two surfaces of the scene count as touching, ContactGap() [m].
+  double gap_;
+  // near_[p] lists the patches whose bounding boxes are near that of patch p, sorted.
+  std::vector<std::vector<PatchId>> near_;
 };
 
 }  // namespace penumbra

@@ -15,9 +15,9 @@ namespace penumbra {
 
 // The unit that counts as one emitter: a face, an object or a material.
 enum class EmitterUnit : std::uint8_t {
-  kFace,      // one face; faces that form one patch count as one emitter
-  kObject,    // all emitting faces of an object or group
-  kMaterial,  // all faces with one emitting material
+  kFace,      // each emitting face is an emitter; two faces that form one patch count as one emitter
+  kObject,    // all emitting faces of an object or group together are one emitter
+  kMaterial,  // all faces with the same emitting material together are one emitter
 };
 
 // Returns, for each emitter of the scene, the patches that form the emitter. Each patch that emits belongs to
@@ -30,7 +30,7 @@ std::vector<std::vector<PatchId>> EmittersOf(const Scene& scene, EmitterUnit uni
 // of the same name.
 struct Dimming {
   std::string name;
-  Rgb factor = Rgb::Ones();  // one factor for each channel, at least 0
+  Rgb factor = Rgb::Ones();  // the factors on the emitter's light in each colour channel, at least 0
 };
 
 // For each patch, the product of the factors of all Dimming objects that name the patch; 1 for patches that

@@ -42,13 +42,14 @@ enum class FaceCondition {
 struct FaceTolerances {
   // The largest permitted (distance of a vertex from the face's plane) / (diameter of the face).
   double cut = kCutTolerance;
-  double rounding = 0;  // largest rounding error of the difference of two vertices [m]
+  double rounding = 0;  // the largest rounding error of the difference of two of the face's vertices [m]
 };
 
 struct FaceCheck {
   FaceCondition condition = FaceCondition::kFine;
-  double off_plane = 0;  // largest distance of a vertex from the face's plane [m]; valid if the area is not 0
-  double diameter = 0;   // largest distance of two vertices of the face [m]
+  // The largest distance of a vertex from the plane of the face [m], valid if the area is not 0.
+  double off_plane = 0;
+  double diameter = 0;  // the largest distance between two vertices of the face [m]
 };
 
 // Removes vertices that equal their predecessor, and spikes: the vertices a, b, a become a. Returns the

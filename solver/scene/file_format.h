@@ -12,17 +12,17 @@
 namespace penumbra {
 
 enum class FormatKind {
-  kScene,     // a scene in another format; the user can export it as OBJ
+  kScene,     // a scene in a format that this program does not read, which the user can export as OBJ
   kPacked,    // an archive or a compressed file
   kEncoding,  // text in an encoding such as UTF-16
   kSolution,  // a solution file, written by `penumbra solve -o`
-  kHdf5,      // an HDF5 file of another program
+  kHdf5,      // an HDF5 file that another program has written
   kOther      // any other file, such as a picture, a document or a program
 };
 
 struct ForeignFormat {
   FormatKind kind = FormatKind::kOther;
-  std::string_view name;  // name of the format with its article, such as "a Blender file"
+  std::string_view name;  // the name of the file format with its article, such as "a Blender file"
 };
 
 // The number of bytes at the beginning of a file that FindForeignFormat() needs.

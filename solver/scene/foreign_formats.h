@@ -17,13 +17,14 @@
 namespace penumbra {
 
 struct ForeignFormatEntry {
-  std::string name;                  // name of the format, such as "glTF"
-  std::vector<std::string> endings;  // file endings without the dot; the first tells Assimp the format
+  std::string name;  // the name of the file format, such as "glTF"
+  // The endings of the format's files without the dot; the first one tells Assimp the format.
+  std::vector<std::string> endings;
   // The value of ForeignFormat::name for files of the format; empty if the first bytes of a file do not show
   // the format.
   std::string description;
   AssimpImport import;     // the settings of Assimp for the format, without AssimpImport::ending
-  UpAxis up = UpAxis::kZ;  // up axis, by the format's definition or by custom
+  UpAxis up = UpAxis::kZ;  // the axis that points up in files of the format, by definition or by custom
 };
 
 const std::vector<ForeignFormatEntry>& ForeignFormats();

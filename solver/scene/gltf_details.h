@@ -15,7 +15,7 @@ struct GltfDetails {
   // Maps the index of a material to the factor on its emission: `emissiveStrength` of the glTF extension
   // KHR_materials_emissive_strength.
   std::map<int, double> emissive_strength;
-  std::vector<int> metallic;  // indices of materials that are declared metallic
+  std::vector<int> metallic;  // the indices of the materials that the file declares to be metallic
   // The glTF extensions that concern the geometry and that the file declares as required.
   std::vector<std::string> required;
 };

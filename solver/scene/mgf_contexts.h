@@ -20,12 +20,13 @@ struct MgfVertex {
 };
 
 struct MgfColour {
-  Vec3 xyz = Vec3::Ones();  // the colour as CIE XYZ, scaled to the luminance 1
+  Vec3 xyz = Vec3::Ones();  // the colour in CIE XYZ, scaled so that its luminance Y is 1
 };
 
 struct MgfMaterial {
   int sides = 2;
-  Rgb reflectance = Rgb::Zero(), emittance = Rgb::Zero();  // diffuse reflectance and diffuse emittance
+  // The diffuse reflectance and the diffuse emittance of the material.
+  Rgb reflectance = Rgb::Zero(), emittance = Rgb::Zero();
   bool specular = false, transmits = false;
 };
 
@@ -58,7 +59,8 @@ class MgfContexts {
   }
 
  private:
-  std::map<std::string, Value, std::less<>> values_;  // the unnamed context has the key ""
+  // The named contexts of the MGF file; the unnamed context has the key "".
+  std::map<std::string, Value, std::less<>> values_;
   std::string name_;
 };
 

@@ -15,8 +15,10 @@ namespace penumbra {
 struct PatchReport {
   // sorted indices of faces that lost an overlap to an emitter or an earlier face
   std::vector<std::int32_t> cut_faces;
-  double largest_distance = 0;             // largest distance between two planes that were taken as equal [m]
-  std::vector<std::int32_t> narrow_faces;  // sorted indices of faces too narrow to be a patch
+  // The largest distance between two planes of faces that were taken as one plane [m].
+  double largest_distance = 0;
+  // The indices of the faces that are too narrow to become a patch, sorted.
+  std::vector<std::int32_t> narrow_faces;
 };
 
 // Fills scene.patches from scene.faces, and finds the convex solids among the patches. The patches are sorted

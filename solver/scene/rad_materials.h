@@ -17,7 +17,7 @@ namespace penumbra {
 
 struct RadMaterial {
   Material material;         // Material::emittance holds a radiance [W/(m^2 sr)]
-  bool two_sided = true;     // false for lights, which emit from their fronts only
+  bool two_sided = true;     // false for lights, because lights emit from the fronts of their faces only
   bool passed_over = false;  // true if surfaces of this material are left out: the material is clear or void
   std::string left_out;  // what is left out of the material, such as "specular parts"; empty if nothing is
 };

@@ -17,7 +17,8 @@ struct RadPrimitive {
   int line = 0;
   std::string modifier, type, identifier;
   std::vector<std::string> strings;
-  std::vector<std::string> reals;  // number arguments as written in the file; all are finite
+  // The real arguments of a Radiance primitive, as written in the file; all are finite.
+  std::vector<std::string> reals;
 };
 
 // Returns all primitives and commands of the text, in the order of the text. Comments begin with '#' at any

@@ -33,14 +33,15 @@ inline constexpr double kLargestEmittance = 1e100;
 struct Material {
   std::string name;
   Rgb reflectance = Rgb::Constant(0.5);
-  Rgb emittance = Rgb::Zero();  // emittance (radiant exitance) [W/m^2]
+  Rgb emittance = Rgb::Zero();  // the emittance (radiant exitance) of the material [W/m^2]
 };
 
 // A face is a polygon as the user gave it, such as an `f` line of an OBJ file. In output files, the index of
 // a face in Scene::faces is called `patch`. A face that is dropped because it has no area keeps its index in
 // Scene::faces.
 struct Face {
-  Polygon3 vertices;          // vertices as given; empty if the face was dropped
+  // The vertices of the face as the user gave them [m]; empty if the face was dropped.
+  Polygon3 vertices;
   std::int32_t material = 0;  // index in Scene::materials
   std::int32_t object = 0;    // index in Scene::objects
   // Texture coordinates of the vertices, in the order of the vertices: u to the right and v upwards, with the
@@ -58,13 +59,15 @@ struct Object {
 struct Patch {
   // Vertices, counter-clockwise seen from the front; vertex[3] is unused in a triangle.
   std::array<Vec3, 4> vertex;
-  std::int32_t size = 0;            // number of vertices, 3 or 4
-  std::int32_t material = 0;        // index in Scene::materials
-  std::int32_t object = 0;          // index in Scene::objects
-  Vec3 normal = Vec3::Zero();       // unit normal of the front
-  double area = 0;                  // area of the patch [m^2]
-  double extent = 0;                // the largest absolute coordinate [m], the scale of rounding errors
-  std::vector<std::int32_t> faces;  // indices of the faces that form the patch: one, or two that were joined
+  std::int32_t size = 0;       // the number of vertices of the patch, 3 or 4
+  std::int32_t material = 0;   // index in Scene::materials
+  std::int32_t object = 0;     // index in Scene::objects
+  Vec3 normal = Vec3::Zero();  // unit normal of the front
+  double area = 0;             // the area of the front of the patch [m^2]
+  // The largest absolute coordinate of the patch [m], to which rounding errors are proportional.
+  double extent = 0;
+  // The indices of the faces that form the patch: one face, or two that were joined.
+  std::vector<std::int32_t> faces;
 
   std::span<const Vec3> Vertices() const { return {vertex.data(), static_cast<std::size_t>(size)}; }
 };
@@ -80,16 +83,16 @@ struct ConvexSolid {
   struct Side {
     // First patch of the side; kNoPatch if the side is missing, as the bottom of a block may be.
     PatchId patch = kNoPatch;
-    Vec3 normal = Vec3::Zero();  // unit normal of the side, outwards
+    Vec3 normal = Vec3::Zero();  // the unit normal of the side of the solid, pointing outwards
     // Indices of the side's corners in ConvexSolid::corners, counter-clockwise seen from outside.
     std::vector<std::int32_t> corner;
     // For each corner, the number of the edge from this corner to the next; the two sides at an edge use the
     // same number.
     std::vector<std::int32_t> edge;
   };
-  Polygon3 corners;  // corners of the solid [m]
+  Polygon3 corners;  // the corners of the convex solid [m]
   std::vector<Side> sides;
-  double extent = 0;  // the largest absolute coordinate [m]
+  double extent = 0;  // the largest absolute coordinate of the solid [m]
 };
 
 struct Camera {
@@ -97,22 +100,24 @@ struct Camera {
   Vec3 eye = Vec3::Zero();
   Vec3 look_at = Vec3::UnitY();
   Vec3 up = Vec3::UnitZ();
-  double vertical_fov = 45;  // vertical angle of view in degrees
+  double vertical_fov = 45;  // the vertical angle of view of the camera, in degrees
 };
 
 struct Scene {
   std::string name;
-  std::vector<Material> materials;  // materials of the faces; not empty if there are patches
+  std::vector<Material> materials;  // the materials of the faces; not empty if the scene has patches
   std::vector<Object> objects;
   std::vector<Face> faces;
   // For each axis, the unit to which the coordinates in the file are rounded [m]; 0 if the coordinates are
   // exact. Planes, edges and corners count as equal if they differ by no more than coordinate_step.
   Vec3 coordinate_step = Vec3::Zero();
   std::vector<Patch> patches;
-  std::vector<ConvexSolid> solids;    // the convex solids that FindConvexSolids() has found among the patches
-  std::vector<SolidId> solid_of;      // index of the solid of each patch; kNoSolid if it belongs to none
-  std::vector<Camera> cameras;        // cameras of the scene; may be empty
-  std::vector<std::string> warnings;  // one line for each repair, dropped face or suspected mistake
+  std::vector<ConvexSolid> solids;  // the convex solids that FindConvexSolids() has found among the patches
+  // solid_of[p] is the index of the solid that patch p belongs to, or kNoSolid.
+  std::vector<SolidId> solid_of;
+  std::vector<Camera> cameras;  // the cameras of the scene; a scene may have none
+  // One line about each repair, each dropped face and each suspected mistake.
+  std::vector<std::string> warnings;
 
   const Material& MaterialOf(PatchId patch) const { return materials[patches[patch].material]; }
 

@@ -76,7 +76,7 @@ class SceneAssembler {
   std::string file_;
   const SceneOptions& options_;
   Scene& scene_;
-  std::vector<int> lines_;  // line in the file of each face that was added
+  std::vector<int> lines_;  // lines_[f] is the line of the file that gave face f
   double rounding_ = 0;     // the value of FaceTolerances::rounding for faces that will be added [m]
   Tally repeated_, flat_, uneven_;
   // The largest distance d of a vertex of an uneven face from the face's plane [m], and the largest ratio d /

@@ -16,7 +16,7 @@ namespace penumbra {
 // A unit of length of numerator / denominator metres. Because a unit is stored as a ratio, units such as the
 // millimetre are exact, and 2800 mm becomes the binary64 number nearest to 2.8.
 struct LengthUnit {
-  std::string name;  // name of the unit, such as "mm"
+  std::string name;  // the name of the unit of length, such as "mm"
   double numerator = 1, denominator = 1;
 
   double Metres() const { return numerator / denominator; }

@@ -16,7 +16,7 @@ struct Material;
 // Options for reading a scene file.
 struct SceneOptions {
   bool emission_is_radiance = false;  // if true, Ke is a radiance [W/(m^2 sr)], and pi * Ke is the emittance
-  bool two_sided = false;  // if true, a reversed copy with index n + i is added for each of the n faces i
+  bool two_sided = false;             // if true, each of the n faces i gets a reversed copy, the face n + i
   // The upper limit of reflectances, in [0, 1), to which larger reflectances are clamped. If max_reflectance
   // is not set, reflectances outside [0, 1) are an error.
   std::optional<double> max_reflectance = std::nullopt;

@@ -24,7 +24,7 @@ std::vector<std::array<bool, 3>> ReflectingChannels(const Scene& scene);
 
 struct ScenePart {
   std::string name;
-  std::vector<PatchId> patches;  // patches of the part, sorted by index
+  std::vector<PatchId> patches;  // the indices of the patches of the scene's part, in ascending order
 };
 
 // Divides a scene into parts, sorted by their first patch; each patch belongs to one part. If the file names

@@ -66,7 +66,8 @@ class LineReader {
 
  private:
   std::string_view rest_;
-  std::size_t line_feed_ = 0;  // position of the next LF in `rest_`; the size of `rest_` if there is none
+  // The position of the next line feed in `rest_`; the size of `rest_` if there is none.
+  std::size_t line_feed_ = 0;
   int next_line_ = 1, cr_line_ = 0;
 };
 
@@ -82,7 +83,7 @@ class StatementReader {
   std::string_view Keyword() const { return keyword_; }
   // The text of the statement behind the keyword, without surrounding blanks.
   std::string_view Arguments() const { return arguments_; }
-  std::vector<std::string_view> Words() const;  // the arguments of the statement, split at blanks
+  std::vector<std::string_view> Words() const;  // the arguments of the current statement, split at blanks
   // The arguments up to the first word that begins with #, which starts a comment. Use Values() only for
   // statements without names, because a name may contain #.
   std::vector<std::string_view> Values() const;
@@ -101,7 +102,7 @@ class StatementReader {
 
   LineReader lines_;
   std::string file_;
-  std::string joined_;  // text of a statement that extends over several lines
+  std::string joined_;  // the text of a statement that extends over several lines of the file
   std::string_view keyword_, arguments_;
   int line_ = 0;
 };

@@ -13,7 +13,8 @@ namespace penumbra {
 // the projection has an error of about 1e3 rounding errors of the patch's coordinates. The snap distance
 // exceeds the projection error by several orders of magnitude, and is far smaller than the details of
 // pictures and interpolants.
-inline constexpr double kSnap = 1e-9;  // (snap distance) / (diameter of the patch)
+// The distance within which points count as one, divided by the diameter of the patch.
+inline constexpr double kSnap = 1e-9;
 // The value of (snap distance) / (largest coordinate of the patch), about 4e3 times the relative rounding
 // error of a double.
 inline constexpr double kSnapCoordinate = 1e-12;

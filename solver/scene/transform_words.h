@@ -17,7 +17,7 @@ namespace penumbra {
 
 struct Placement {
   Eigen::Affine3d matrix = Eigen::Affine3d::Identity();
-  double scale = 1;       // factor on lengths, equal along all axes, > 0
+  double scale = 1;       // the factor by which the transformation scales lengths, equal along all axes, > 0
   bool mirrored = false;  // true if the matrix makes counter-clockwise polygons clockwise
 
   // The composition of two placements: `inner` is applied first, then this placement.

@@ -16,13 +16,14 @@ namespace penumbra {
 // A point of a grid, with its column and its row; column 0 has the smallest x, row 0 the smallest y.
 struct GridPoint {
   int column = 0, row = 0;
-  Vec3 position = Vec3::Zero();  // position of the grid point [m]
+  Vec3 position = Vec3::Zero();  // the position of the grid point [m]
 };
 
 struct WorkGrid {
   int columns = 0, rows = 0;
-  double spacing = 0;         // distance of neighbouring columns, and of neighbouring rows [m]
-  Vec2 first = Vec2::Zero();  // x and y of column 0 and row 0 [m]
+  // The distance between neighbouring columns of the grid, and between neighbouring rows [m].
+  double spacing = 0;
+  Vec2 first = Vec2::Zero();  // the coordinates x and y of the grid point in column 0 and row 0 [m]
   // Points of the grid, by row, then by column; some rows and columns may lack points.
   std::vector<GridPoint> points;
 };

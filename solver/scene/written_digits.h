@@ -24,8 +24,9 @@ class WrittenDigits {
   Vec3 Step() const;
 
  private:
-  std::map<int, int> with_decimals_, with_digits_;  // number of coordinates for each number of digits
-  Vec3 largest_ = Vec3::Zero();                     // largest absolute value for each axis
+  // The number of coordinates in the file that were written with each number of digits.
+  std::map<int, int> with_decimals_, with_digits_;
+  Vec3 largest_ = Vec3::Zero();  // the largest absolute coordinate along each axis
   // true if all coordinates may be single precision numbers, written with rounded digits
   bool single_ = true;
 };

@@ -21,7 +21,8 @@ class OcclusionMethod;
 // A convex part of the front of a patch, as a sender or receiver of light.
 struct AreaPart {
   PatchId patch = kNoPatch;
-  Polygon3 polygon;  // polygon in the patch's plane, counter-clockwise seen from the front
+  // The vertices of a polygon in the plane of the patch, counter-clockwise seen from the front [m].
+  Polygon3 polygon;
 };
 
 // The convex parts of a face (Scene::faces) that remain after overlaps with other faces have been removed.
@@ -29,10 +30,12 @@ struct AreaPart {
 std::vector<AreaPart> PartsOfFace(const Scene& scene, std::int32_t face);
 
 struct FormFactorEstimate {
-  double factor = 0;       // fraction of the diffuse flux from one area that reaches the other
-  double error = 0;        // upper estimate of |factor - true factor|
-  bool clear = false;      // true if no blocker lies between the areas
-  std::size_t points = 0;  // number of points at which the form factor was computed
+  // The form factor: the fraction of the diffuse flux from one area that reaches the other.
+  double factor = 0;
+  double error = 0;    // an upper estimate of the error |factor - true form factor|
+  bool clear = false;  // true if no blocker lies between the two areas of the form factor
+  // The number of points of one area at which the form factor to the other area was computed.
+  std::size_t points = 0;
 };
 
 struct AreaFormFactorOptions {

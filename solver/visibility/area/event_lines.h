@@ -26,32 +26,36 @@ inline constexpr double kSameLine = 1e-10;
 // The input of the search for event lines: a part of a receiver and a part of a source.
 struct SightPair {
   PatchId source = kNoPatch;
-  Frame frame;                // frame of the receiver's plane
-  Polygon2 area;              // the receiver's part, in coordinates of `frame`
-  Polygon3 local_source;      // the source's part, in coordinates of `frame`; z is the height [m]
-  double diameter = 0;        // diameter of `area` [m]
-  double source_breadth = 0;  // smallest width of the source's part [m]
+  Frame frame;    // the coordinate frame of the receiver's plane
+  Polygon2 area;  // the part of the receiver, in the coordinates of `frame` [m]
+  // The part of the source, in the coordinates of `frame`; z is the height above the receiver [m].
+  Polygon3 local_source;
+  double diameter = 0;        // the diameter of the receiver's part `area` [m]
+  double source_breadth = 0;  // the smallest width of the part of the source [m]
 };
 
 // The cause of an event line: a vertex and an edge, or an edge of a blocker that is seen edge-on.
 struct Event {
-  PatchId a = kNoPatch, b = kNoPatch;  // patches of the vertex and of the edge; kNoPatch means the source
-  Vec3 vertex, from, to;               // vertex, and end points of the edge, in the receiver's frame [m]
+  // The patches that have the vertex and the edge; kNoPatch stands for the source.
+  PatchId a = kNoPatch, b = kNoPatch;
+  // The vertex and the end points of the edge, in the receiver's frame [m].
+  Vec3 vertex, from, to;
   bool edge_on = false;
 };
 
 // A line on which the topology of the visible part of the source may change, and the interval of the line on
 // which a change is possible.
 struct EventLine {
-  Vec2 normal = Vec2::UnitX();  // unit normal of the line
+  Vec2 normal = Vec2::UnitX();  // the unit normal of the line in the receiver's plane
   double offset = 0;            // the line consists of the points p with normal . p = offset [m]
-  double low = 0, high = 0;     // ends of the interval, measured along Along() [m]
+  double low = 0, high = 0;     // the interval of the line is [low, high], measured along Along() [m]
   double weight = 1;  // number of coincident events; contacts of a blocker with the receiver count more
   // True if an edge of the source close to the receiver makes the form factor change fast near the line.
   bool grade = false;
   // Distance from the line within which the form factor of a point changes because of the events [m].
   double reach = 0;
-  std::vector<Event> events;  // events of all lines that coincide with this line
+  // The events (vertex and edge that align) of all lines that coincide with this line.
+  std::vector<Event> events;
 
   Vec2 Along() const { return {-normal.y(), normal.x()}; }
 };

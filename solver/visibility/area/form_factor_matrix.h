@@ -22,8 +22,8 @@ struct FormFactorMatrix {
   std::vector<std::size_t> first;
   std::vector<std::int32_t> column;
   std::vector<double> factor;  // form factor: fraction of the row's diffuse flux that reaches the column
-  std::vector<double> error;   // upper estimate of |factor - true factor|
-  std::size_t pairs = 0;       // number of pairs of convex parts whose form factor was computed
+  std::vector<double> error;   // upper estimates of the errors |factor - true form factor|
+  std::size_t pairs = 0;       // the number of pairs of convex parts of faces whose form factor was computed
 
   std::size_t Rows() const { return area.size(); }
   // The sum of the form factors of a row. In a closed scene, the form factors of a row add up to 1 if only

@@ -18,7 +18,8 @@ namespace penumbra {
 struct PartPair {
   PatchId receiver = kNoPatch, source = kNoPatch;
   TubeEnds ends;
-  double sender_area = 0;  // area of the unclipped part that sends the flux [m^2]
+  // The area of the part that sends the flux, before it is clipped to the receiver's front [m^2].
+  double sender_area = 0;
 };
 
 // The largest permissible error of a form factor with the value `factor`: max(tolerance * max(factor,

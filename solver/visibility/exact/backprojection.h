@@ -23,7 +23,7 @@ struct BackprojectedSource {
   };
   // An edge of the triangulation that lies on the outline of an occluder.
   struct BlockerEdge {
-    std::int32_t a = 0, b = 0;  // indices of the end vertices, a < b
+    std::int32_t a = 0, b = 0;  // the indices of the vertices at the ends of the edge; a < b
     std::int32_t occluder = 0;  // index of an occluder; an edge on the outlines of n occluders has n entries
   };
 
@@ -31,7 +31,8 @@ struct BackprojectedSource {
   // source.
   std::vector<Vec3> vertex;
   std::vector<Triangle> triangle;
-  std::vector<BlockerEdge> blocker_edge;  // edges on outlines of occluders, sorted by (a, b, occluder)
+  // The edges that lie on outlines of occluders, sorted by (a, b, occluder).
+  std::vector<BlockerEdge> blocker_edge;
 };
 
 class Backprojection final : public OcclusionMethod {

@@ -109,10 +109,12 @@ class ExactImage {
 
   // An edge, in the image, of the outline of the source or of an occluder.
   struct Edge {
-    Line line;  // line of the edge; the interior of the outline is on its positive side
+    Line line;  // the line that contains the edge; the interior of the outline is on its positive side
     EdgeOwner owner = EdgeOwner::Source();
-    bool seen = false;             // true if a part of the edge lies in the image of the source
-    std::size_t from = 0, to = 0;  // point indices of the ends of the edge's part in the source
+    // True if a part of the occluder's edge lies within the image of the source.
+    bool seen = false;
+    // The indices of the points at the ends of that part of the edge that lies within the source's image.
+    std::size_t from = 0, to = 0;
   };
 
   // The outline of a convex region, bounded by the lines of edges[first] to edges[last - 1].
@@ -125,7 +127,7 @@ class ExactImage {
   struct Place {
     Point point;
     ImageBox box;
-    Vec2 offset = Vec2::Zero();  // the coordinates of the point, rounded to doubles
+    Vec2 offset = Vec2::Zero();  // the exact coordinates of the point in the image, rounded to doubles
   };
 
   // Makes the image of a source, or of a part of a source, whose vertices all satisfy axis . vertex > 0.
@@ -282,7 +284,8 @@ class ExactImage {
 
   ImagePlane plane_;
   double diameter_ = 0;
-  std::vector<Point> point_;  // end points and crossings of edges; several of these points may coincide
+  // The end points and the crossings of edges in the image; several points may coincide.
+  std::vector<Point> point_;
   std::vector<Incidence> incidence_;
   Outline source_;
   std::vector<Outline> occluders_;
@@ -452,7 +455,7 @@ void ExactImage<Kernel>::ClipToSource(const Homogeneous& a, const Homogeneous& b
   struct End {
     Homogeneous at;
     std::int32_t cut = -1;  // index of the edge of the source's outline that cuts off the end; -1 if none
-    std::vector<std::int32_t> on;  // the edges of the source on which the point lies
+    std::vector<std::int32_t> on;  // the indices of the edges of the source's outline on which the point lies
   };
   End from, to;
   from.at = a;

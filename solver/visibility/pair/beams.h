@@ -24,7 +24,7 @@ struct Beam {
 
 struct Beams {
   std::vector<Beam> beams;  // together, the beams contain every segment between the ends that no wall blocks
-  std::vector<PatchId> wall_parts;  // the blockers that form the walls, ascending
+  std::vector<PatchId> wall_parts;  // the indices of the blockers that form the walls, in ascending order
   bool hidden() const { return beams.empty(); }
 };
 

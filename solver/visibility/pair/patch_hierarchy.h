@@ -31,16 +31,19 @@ class PatchHierarchy {
  private:
   // The nodes are in depth-first order, parents before children. A leaf of the hierarchy has one patch.
   struct Node {
-    Vec3 centre, half;                  // centre and half extent of the bounding box [m]
-    std::int32_t skip = 1;              // number of nodes in the subtree of this node, including the node
-    std::int32_t first = 0, count = 0;  // range of the subtree's patches in order_
+    Vec3 centre, half;  // the centre and the half size of the tree node's bounding box [m]
+    // The number of nodes in the subtree of this node, including the node itself.
+    std::int32_t skip = 1;
+    // The patches below this node are order_[first] to order_[first + count - 1].
+    std::int32_t first = 0, count = 0;
   };
   bool Hidden(const Node& node, std::span<const Screen> screens) const;
   void Build(const Scene& scene, std::size_t first, std::size_t last);
 
   std::vector<PatchId> order_;
   std::vector<Node> nodes_;
-  double margin_ = 0;  // bound of the rounding errors of boxes and heights [m]
+  // An upper bound of the rounding errors of bounding boxes and of heights above planes [m].
+  double margin_ = 0;
 };
 
 }  // namespace penumbra

@@ -26,7 +26,8 @@ enum class Visibility : std::uint8_t { kVisible, kPartial };
 // Rows::blockers.
 struct PatchPair {
   PatchId source = kNoPatch;
-  Visibility visibility = Visibility::kVisible;  // kVisible if and only if there are no blockers
+  // KVisible if and only if the pair of patches has no blockers.
+  Visibility visibility = Visibility::kVisible;
   std::uint32_t first_blocker = 0, blocker_count = 0;
 };
 

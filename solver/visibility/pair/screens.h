@@ -49,8 +49,8 @@ class ScreenFinder {
  private:
   const Scene* scene_ = nullptr;
   std::vector<PatchId> patch_;
-  std::array<std::vector<double>, 3> centre_;  // x, y and z of the centres of the patches [m]
-  std::vector<double> area_;                   // areas of the patches [m^2]
+  std::array<std::vector<double>, 3> centre_;  // the coordinates x, y and z of the centres of all patches [m]
+  std::vector<double> area_;                   // the areas of all patches [m^2]
 };
 
 }  // namespace penumbra

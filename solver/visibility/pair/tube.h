@@ -43,8 +43,8 @@ class Tube {
   void AddSupportingPlanes(std::span<const Vec3> from, std::span<const Vec3> to);
 
   std::span<const Vec3> a_, b_;
-  Vec3 low_, high_;      // corners of the bounding box
-  double rounding_ = 0;  // bound of the error of a computed height above a plane [m]
+  Vec3 low_, high_;      // the minimum and the maximum corner of the tube's bounding box [m]
+  double rounding_ = 0;  // an upper bound of the rounding error of a height above a plane [m]
   ConvexRegion planes_;
 };
 

@@ -89,7 +89,7 @@ DirectionPolygon ClipToHorizon(const ReceiverPoint& at, const DirectionPolygon& 
 // for all k.
 struct Cone {
   int size = 0;
-  std::array<Vec3, 12> normal;  // unit normals of the cone's planes
+  std::array<Vec3, 12> normal;  // the unit normals of the planes that bound the cone
   // Directions to the blocker's vertices; plane k of the cone contains direction[k] and end[k].
   std::array<Vec3, 12> direction;
   std::array<Vec3, 12> end;  // end[k] is the direction to the vertex after vertex k of the blocker

@@ -27,7 +27,7 @@ class Enclosure {
 
  private:
   RayCaster rays_;
-  double lift_;  // distance of the rays' origins from the surface [m]
+  double lift_;  // the distance from the surface at which rays begin [m]
 };
 
 }  // namespace penumbra

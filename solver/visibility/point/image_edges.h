@@ -38,8 +38,8 @@ class PieceOwner {
 class ImageEdges {
  public:
   struct Sum {
-    double value = 0;   // the value 2 pi * (form factor)
-    double angles = 0;  // sum of the angles of all edges [rad]
+    double value = 0;   // 2 pi times the form factor of the polygon
+    double angles = 0;  // the sum of the angles under which the point sees all edges of the polygon [rad]
   };
 
   void Clear();
@@ -68,7 +68,7 @@ class ImageEdges {
   // for each edge: x and y of its start, then x and y of (end - start)
   std::array<std::vector<double>, 4> edge_;
   std::vector<EdgeLabel> label_;
-  std::vector<std::size_t> start_;  // index of the first edge of each piece
+  std::vector<std::size_t> start_;  // start_[i] is the index of the first edge of piece i
   std::vector<PieceOwner> owner_;
   std::vector<double> term_, angle_;
 };

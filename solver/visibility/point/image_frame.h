@@ -103,9 +103,9 @@ class ImageFrame {
   static constexpr double kNearFirstSquared = 0.01;
 
   Vec3 axis_, e1_, e2_;
-  Vec3 first_;   // direction to the polygon's first vertex
+  Vec3 first_;   // the direction from the viewpoint to the polygon's first vertex
   Vec3 origin_;  // the direction first_, scaled so that axis . origin_ = 1
-  Vec2 shift_;   // coordinates of origin_ along e1 and e2
+  Vec2 shift_;   // the coordinates of the direction origin_ along the axes e1 and e2 of the image
 };
 
 // The label of an edge of a visible part of the source, which identifies the edge of the source or of a
@@ -144,7 +144,8 @@ class EdgeLabel {
 struct ImagePart {
   DirectionPolygon polygon;
   Vec3 axis;
-  std::array<EdgeLabel, DirectionPolygon::kCapacity> label;  // labels of the polygon's edges
+  // label[k] tells from which edge of the source or of an occluder edge k of the polygon comes.
+  std::array<EdgeLabel, DirectionPolygon::kCapacity> label;
 };
 
 // A projection axis for which one ImageFrame can show the whole polygon; the zero vector if no such axis

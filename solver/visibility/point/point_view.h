@@ -76,7 +76,7 @@ class PointView {
     bool in_limit = false;
     // For a solid: true if light can enter it through a missing side (SolidOutline::entered).
     bool entered = false;
-    Cone cone;  // the cone has the size 0 if the blocker hides nothing
+    Cone cone;  // the cone of directions that the blocker hides; its size is 0 if the blocker hides nothing
   };
   struct Buffers;
 

@@ -19,8 +19,9 @@ class RayCaster {
  public:
   struct Hit {
     PatchId patch = kNoPatch;  // the patch that is hit; kNoPatch if the ray leaves the scene
-    double distance = 0;       // (distance of the hit) / (length of the direction vector)
-    bool front = false;        // true if the ray hit the front of the patch
+    // The distance from the ray's origin to the hit, divided by the length of the direction vector.
+    double distance = 0;
+    bool front = false;  // true if the ray hit the front of the patch
   };
 
   explicit RayCaster(const Scene& scene);

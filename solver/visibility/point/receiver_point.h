@@ -9,8 +9,8 @@ namespace penumbra {
 // A receiver point: a point on a surface at which irradiance is computed, at the point itself or as a
 // one-sided limit.
 struct ReceiverPoint {
-  Vec3 position = Vec3::Zero();  // position of the point [m]
-  Vec3 normal = Vec3::UnitZ();   // unit normal of the surface
+  Vec3 position = Vec3::Zero();  // the position of the receiver point [m]
+  Vec3 normal = Vec3::UnitZ();   // the unit normal of the surface at the receiver point
   // For a one-sided limit, `approach` is a vector of any length from the point towards the region for which
   // the limit is taken. If `approach` is zero, no limit is taken: a polygon whose plane contains the point
   // neither lights the point nor blocks light.
