@@ -56,7 +56,7 @@ class CornerSheets {
  private:
   // sheet_[c] is the number of the sheet (triangles on one side of a contact) of triangle corner c.
   std::vector<std::size_t> sheet_;
-  std::vector<Vec3> into_;  // into_[k] is the direction in which sheet k extends from its vertex
+  std::vector<Vec3> into_;  // into_[k] is the direction that Into(k) returns
 };
 
 }  // namespace penumbra
