@@ -19,8 +19,8 @@ namespace penumbra {
 // are 0.
 struct GridStatistics {
   double mean = 0, minimum = 0, maximum = 0;
-  double overall_uniformity = 0;    // U0 = minimum / mean
-  double diversity_uniformity = 0;  // Ud = minimum / maximum
+  double overall_uniformity = 0;    // U0 = (minimum of the irradiance over the grid) / (mean)
+  double diversity_uniformity = 0;  // Ud = (minimum of the irradiance over the grid) / (maximum)
 };
 
 // Computes mean, minimum, maximum and uniformities. REQUIRES: `values` is not empty.

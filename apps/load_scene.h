@@ -18,7 +18,7 @@ namespace penumbra {
 // The contents of a solution file.
 struct StoredSolve {
   PipelineState state;             // results of the solve; unspecified after a SolveRun has taken them over
-  PipelineOptions solving;         // the options of the solve
+  PipelineOptions solving;         // the options with which the stored scene was solved
   nlohmann::ordered_json options;  // all options in the format of OptionsUsed(), without `threads`
   std::string version;             // version of the program that wrote the solution file
   int schema = 0;                  // schema number of the solution file
@@ -27,7 +27,7 @@ struct StoredSolve {
 struct LoadedScene {
   std::unique_ptr<const Scene> owner;
   const Scene& scene = *owner;
-  double seconds = 0;  // time for reading the scene [s]
+  double seconds = 0;  // the time that reading the scene took [s]
   // The contents of the solution file; nullopt if the scene does not come from a solution file.
   std::optional<StoredSolve> stored = std::nullopt;
   // The solution that the user names with --restart. The solution given with --restart has the same geometry

@@ -12,10 +12,10 @@ namespace penumbra {
 
 // A point that the user gave, at which irradiance is measured.
 struct ProbePoint {
-  Vec3 position = Vec3::Zero();  // position of the point [m]
+  Vec3 position = Vec3::Zero();  // the position of the probed point [m]
   Vec3 normal = Vec3::Zero();    // normal of any length; zero if the normal was left out
   bool has_normal = true;        // false if the normal was left out
-  int line = 0;                  // line number in the file, from 1
+  int line = 0;                  // the number of the point's line in the file, from 1
 };
 
 // If the path of the file of points is "-", the points are read from standard input.

@@ -35,7 +35,7 @@ struct RenderMode {
   std::optional<MeshKind> mesh;
   ShadingMode shading;
   const char* help;
-  Reconstruction reconstruction = {};  // with RenderMethod::kReconstruct
+  Reconstruction reconstruction = {};  // the reconstruction that RenderMethod::kReconstruct draws
 };
 inline constexpr std::array<RenderMode, 11> kRenderModes = {
     {{"flat", RenderMethod::kTwoPass, MeshKind::kFlat, ShadingMode::kRadiosity, "one value an element"},
@@ -67,7 +67,7 @@ struct RenderArguments {
   SceneArguments scene;
   CameraArguments camera;
   std::optional<std::string> output;
-  std::optional<std::string> path;  // file of cameras (ReadCameraPath)
+  std::optional<std::string> path;  // the path of a file of cameras (ReadCameraPath)
   RenderMode mode = kRenderModes[3];
   Backend backend = Backend::kSoftware;
   OpenGlCoordinates coordinates = OpenGlCoordinates::kFloat;

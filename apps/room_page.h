@@ -16,11 +16,11 @@ namespace penumbra {
 
 struct RoomPage {
   const Scene& scene;
-  const PipelineReport& report;   // of the solution
+  const PipelineReport& report;   // the report on the solve of the solution
   const std::vector<Rgb>& light;  // irradiance at the points of the grid [W/m^2]
   std::size_t left_out = 0;       // the number of points that no light can reach
   LightUnit unit = LightUnit::kWatts;
-  std::string title;  // one line: what was asked
+  std::string title;  // a title of one line that tells what was asked for
   std::string map;    // the drawing of the grid, as SVG
 };
 

@@ -17,8 +17,10 @@ namespace penumbra {
 // Pixels are square.
 struct PixelRays {
   glm::dvec3 eye{0.0};
-  glm::dvec3 corner{0.0};       // direction through (0, 0), with component 1 along the view axis
-  glm::dvec3 dx{0.0}, dy{0.0};  // change of the direction per pixel
+  // The direction from the eye through picture point (0, 0), scaled to length 1 along the view axis.
+  glm::dvec3 corner{0.0};
+  // The change of the direction from one pixel to the next, to the right and downwards.
+  glm::dvec3 dx{0.0}, dy{0.0};
 
   // The direction through the point (x, y) of the picture, scaled such that eye + z * Direction(x, y) has the
   // depth z [m].

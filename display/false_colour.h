@@ -28,7 +28,7 @@ void PaintFalseColours(const RgbImage& image, std::span<const PixelKind> kinds, 
 // The values that the ends of the colour scale stand for.
 struct FalseColourScale {
   double top = 1;
-  LightUnit unit = LightUnit::kWatts;  // of `top`: the mean of the channels [W/m^2], or [lux]
+  LightUnit unit = LightUnit::kWatts;  // the unit of `top`: W/m^2, for the mean of the channels, or lux
   // The scale begins at 0, or, where it is logarithmic, at top / kLogarithmicRange.
   bool logarithmic = false;
 
@@ -36,7 +36,7 @@ struct FalseColourScale {
   double Place(double value) const;
   // The value at a place from 0 to 1.
   double ValueAt(double place) const;
-  double ValueOf(const Rgb& light) const;  // in `unit`
+  double ValueOf(const Rgb& light) const;  // the value of the light in the unit `unit`
 };
 inline constexpr double kLogarithmicRange = 1000;
 
@@ -58,7 +58,8 @@ Srgb8Image FalseColours(const std::vector<float>& map, int width, int height);
 void PaintLegend(double top, const std::string& unit, Srgb8Image* picture);
 // The same for another scale.
 void PaintLegend(const FalseColourScale& scale, const std::string& unit, Srgb8Image* picture);
-inline constexpr int kLegendWidth = 120, kLegendHeight = 160;  // [pixels]
+// The size of the legend of a false-colour picture [pixels].
+inline constexpr int kLegendWidth = 120, kLegendHeight = 160;
 
 // A colour for an id number, for pictures that show triangle ids. Consecutive id numbers have different
 // colours.

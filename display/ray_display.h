@@ -43,7 +43,7 @@ RayShader LerpShade(const Scene& scene, const IrradianceMesh& mesh);
 struct SampledPicture {
   int samples = 1;              // number of samples per pixel; the samples of a pixel are neighbours in a row
   RgbImage linear;              // radiosity with emittance [W/m^2]; 0 where a ray meets no front
-  std::vector<PixelKind> kind;  // kind of object per sample
+  std::vector<PixelKind> kind;  // for each sample, whether its ray meets a surface, an emitter or nothing
 };
 
 // The radiosity that one ray of a picture finds, and the kind of object that the ray hits.

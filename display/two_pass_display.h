@@ -51,8 +51,10 @@ struct FrameTimes {
 // from the top.
 struct RenderedFrame {
   int width = 0, height = 0;
-  std::vector<std::uint32_t> triangle;  // index in IrradianceMesh::triangles, or kNoTriangle
-  std::vector<float> s, t;              // barycentric coordinates; unspecified without a triangle
+  // For each pixel, the index of the visible triangle in IrradianceMesh::triangles, or kNoTriangle.
+  std::vector<std::uint32_t> triangle;
+  // For each pixel, the barycentric coordinates in the visible triangle; unspecified without one.
+  std::vector<float> s, t;
   RgbImage linear;              // unexposed radiosity [W/m^2] or reflectance [1]; 0 without a triangle
   std::vector<PixelKind> kind;  // kEmitter occurs in mode kRadiosity only
   Srgb8Image screen;            // the picture for the screen, made by ToneMap()

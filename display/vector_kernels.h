@@ -17,9 +17,9 @@
 
 namespace penumbra {
 
-inline constexpr int kTileSize = 64;  // side of a tile [pixels]
+inline constexpr int kTileSize = 64;  // the side of a square tile of the picture [pixels]
 inline constexpr int kTilePixels = kTileSize * kTileSize;
-inline constexpr int kBlockSize = 4;  // side of a block [pixels]
+inline constexpr int kBlockSize = 4;  // the side of a square block of pixels in a tile [pixels]
 inline constexpr int kBlockPixels = kBlockSize * kBlockSize;
 inline constexpr int kBlocksAcross = kTileSize / kBlockSize;
 inline constexpr int kRowPixels = kBlocksAcross * kBlockPixels;  // number of pixels in a row of blocks
@@ -45,7 +45,7 @@ struct TileTriangle {
     float x, y, c;
   };
   Affine edge[3];    // signed distances to the triangle's edges [pixels], positive inside
-  Affine inverse_z;  // 1 / depth [1/m]
+  Affine inverse_z;  // 1 / (depth of the triangle), as a function of picture coordinates [1/m]
   float max_inverse_z;
   std::uint32_t id;
   int column_begin, column_end, row_begin, row_end;  // bounding box of the triangle in the tile
@@ -67,7 +67,7 @@ struct TriangleShade {
 
 // The data of a tile (64 x 64 pixels) in pass one, which finds triangle ids.
 struct Tile {
-  int x = 0, y = 0;  // upper left pixel, in picture coordinates
+  int x = 0, y = 0;  // the picture coordinates of the upper left pixel
   alignas(64) std::uint32_t ids[kTilePixels];
   alignas(64) float inverse_z[kTilePixels];  // 1 / depth of each pixel [1/m]; 0 at pixels without a triangle
 };
@@ -81,7 +81,7 @@ struct BlockRun {
 // The data of one row of 4 x 4 blocks of a tile, in pass two (barycentric coordinates) and in tone mapping. A
 // BlockRow fits into the processor's first-level cache.
 struct BlockRow {
-  int x = 0, y = 0;  // upper left pixel, in picture coordinates
+  int x = 0, y = 0;  // the picture coordinates of the upper left pixel
   alignas(64) std::uint32_t ids[kRowPixels];
   alignas(64) float s[kRowPixels], t[kRowPixels];
   alignas(64) float rgb[3][kRowPixels];
@@ -101,7 +101,8 @@ void DrawTileTriangle(const TileTriangle& triangle, Tile* tile);
 // A tile is divided into regions of 16 x 16 pixels; for each region, the depth of the farthest pixel is
 // stored. A triangle is skipped if it lies behind the farthest pixel of every region that the triangle could
 // cover.
-inline constexpr int kRegionSize = 16;  // side of a region [pixels]
+// The side of a square region of a tile, for which the farthest depth is known [pixels].
+inline constexpr int kRegionSize = 16;
 inline constexpr int kRegionsAcross = kTileSize / kRegionSize;
 using RegionDepths = std::array<float, kRegionsAcross * kRegionsAcross>;
 

@@ -23,20 +23,20 @@ inline constexpr Colour kWhite{255, 255, 255}, kPink{255, 130, 190}, kGreen{60, 
 }  // namespace colour
 
 struct OverlayLine {
-  Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // ends of the line [m]
+  Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // the end points of the drawn line [m]
   Colour colour;
   float width = 1.2F;  // width of the line [pixels]
   Selection pick;      // the object that a click on the line selects
 };
 
 struct OverlayPoint {
-  Vec3 at = Vec3::Zero();  // position of the point [m]
+  Vec3 at = Vec3::Zero();  // the position of the drawn point [m]
   Colour colour;
   float radius = 2.5F;  // radius of the drawn disc [pixels]
 };
 
 struct OverlayTriangle {
-  std::array<Vec3, 3> vertex;  // positions of the vertices [m]
+  std::array<Vec3, 3> vertex;  // the positions of the vertices of the drawn triangle [m]
   Colour colour;
   float opacity = 1;
 };

@@ -74,24 +74,27 @@ class Panels {
   static bool Try(Viewer& viewer, const Action& action);
 
   struct PanelPlace {
-    PanelRect wanted;                // place and size that the user chose
-    PanelRect shown;                 // place and size in the last frame
-    std::pair<float, float> window;  // the window's size when the user placed the panel; 0: not placed
+    PanelRect wanted;  // the place and size of the panel that the user chose
+    PanelRect shown;   // the place and size of the panel in the last frame
+    // The size of the window when the user placed the panel; 0 if the user never placed it.
+    std::pair<float, float> window;
   };
-  std::map<std::string, PanelPlace> places_;  // place of each panel, by the panel's name
-  std::string asked_;                         // name of the open dialog
-  char text_[1024] = {};                      // text in the input field of the open dialog
+  std::map<std::string, PanelPlace> places_;  // the place of each panel, under the name of the panel
+  std::string asked_;                         // the name of the dialog that is open
+  char text_[1024] = {};                      // the text in the input field of the open dialog
   std::string edited_;                        // the setting whose field the user edits
   char edit_[1024] = {};                      // text in the edited field, for example a path
-  std::string unedited_;                      // the field's text before the edit
+  std::string unedited_;                      // the text of the edited field before the user began to edit
   std::string slid_;                          // the setting whose slider the user drags
   float slid_low_ = 0, slid_high_ = 1;
-  bool slides_on_ = false;  // the drag has set a value before
-  std::string refused_;     // the setting whose field gets the keys again, for its text was refused
-  char search_[256] = {};   // the text that the outline is searched for
-  std::string refusal_;     // why the dialog's text was refused
-  std::map<std::string, Rgb> factors_before_off_;  // of lamps that were switched off here
-  std::string dragged_;                            // the lamp or the material whose widget is dragged
+  bool slides_on_ = false;  // true if the present drag of a slider has set a value before
+  std::string refused_;     // the setting whose field keeps the keyboard because its text was refused
+  char search_[256] = {};   // the text that the user searches for in the outline of the scene
+  std::string refusal_;     // the reason why the text in the dialog was refused
+  // The factors of lamps before the user switched them off in the panel.
+  std::map<std::string, Rgb> factors_before_off_;
+  // The lamp or the material whose slider or colour the user drags.
+  std::string dragged_;
 };
 
 }  // namespace penumbra::viewer

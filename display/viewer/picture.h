@@ -74,15 +74,17 @@ class PictureMaker {
 
   // Before any light is gathered: the patches in an even light, so that they can be told apart.
   std::shared_ptr<const MeshState> preview_, preview_of_;
-  bool previews_ = false;                   // the last picture shows it
-  std::shared_ptr<const MeshState> whole_;  // the mesh for the mode
-  std::shared_ptr<const MeshState> drawn_;  // whole_, or a part of it when a selection is isolated
-  std::vector<std::uint32_t> left_;         // for a part: its triangles' indices in whole_
+  bool previews_ = false;                   // true if the last picture shows the preview
+  std::shared_ptr<const MeshState> whole_;  // the mesh that the drawing mode needs
+  // The mesh that is drawn: whole_, or a part of it if the selection is isolated.
+  std::shared_ptr<const MeshState> drawn_;
+  // If a part of the mesh is drawn, the indices of its triangles in whole_.
+  std::vector<std::uint32_t> left_;
   Selection isolated_;
-  std::set<std::int32_t> hidden_;  // objects
+  std::set<std::int32_t> hidden_;  // the indices of the objects that are not drawn
   AnalysisResults isolated_by_;
   std::optional<TwoPassDisplay> display_;
-  Backend backend_ = Backend::kSoftware;  // back end that the view requests
+  Backend backend_ = Backend::kSoftware;  // the drawing back end that the view requests
   OpenGlCoordinates coordinates_ = OpenGlCoordinates::kFloat;
   std::string backend_error_;
   std::optional<DepthMap> depth_;

@@ -27,7 +27,7 @@ struct ScriptStep {
     kResize,
     kQuit
   } kind = Kind::kInput;
-  int line = 0;  // line number in the file
+  int line = 0;  // the number of the script line in its file
   InputEvent event;
   std::string text, value;  // argument of the step: a menu path, an option with its value, or a file name
   double amount = 0;        // duration of a wait, in frames or seconds
@@ -35,7 +35,7 @@ struct ScriptStep {
 };
 
 struct Script {
-  std::string name;  // file name for messages
+  std::string name;  // the name of the script's file, for messages
   std::vector<ScriptStep> steps;
 };
 

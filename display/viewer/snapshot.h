@@ -98,7 +98,7 @@ inline const char* NameOf(MeshKind kind) {
 }
 
 struct Snapshot {
-  std::uint64_t number = 0;  // ascending
+  std::uint64_t number = 0;  // the number of the snapshot; later snapshots have larger numbers
   // Which opened scene it shows; lamps that are dimmed change `scene`, but not this.
   std::uint64_t opening = 0;
   std::shared_ptr<const Scene> scene;
@@ -107,11 +107,13 @@ struct Snapshot {
   // kFlat always exists, and has irradiance 0 until the solver has made links.
   std::array<std::shared_ptr<const MeshState>, kMeshKinds> mesh;
   std::vector<IterationReport> iterations;
-  std::optional<IterationReport> begun = {};  // SolverReport::begun
+  // The report on the iteration that is not complete, if there is one.
+  std::optional<IterationReport> begun = {};
   std::size_t corrections = 0;
   bool converged = false;
-  bool complete = false;                   // no step is left
-  std::optional<PipelineReport> measured;  // energy and errors, after a request
+  bool complete = false;  // true if the solver has no step left
+  // The measured energy balance and errors, if the user has requested them.
+  std::optional<PipelineReport> measured;
 
   const std::shared_ptr<const MeshState>& Mesh(MeshKind kind) const {
     return mesh[static_cast<std::size_t>(kind)];

@@ -28,12 +28,12 @@ namespace penumbra::viewer {
 struct SessionStatus {
   bool busy = false;
   bool cancelling = false;
-  std::string phase;           // the present task
-  double fraction = 0;         // complete fraction of the chain of tasks, in [0, 1); it does not fall
-  std::string text;            // what runs, in words: the stage, its turn, the error so far
-  double seconds = 0;          // since the session began to work
-  double unsaved_seconds = 0;  // the work in the present state that no file holds
-  std::string message;         // the last error; empty: none
+  std::string phase;           // the name of the task that is running
+  double fraction = 0;         // the completed fraction of all tasks, in [0, 1), which never decreases
+  std::string text;            // a description of the running task: the stage, its round, the error so far
+  double seconds = 0;          // the time since the session began to work [s]
+  double unsaved_seconds = 0;  // the computing time in the present state that no file holds [s]
+  std::string message;         // the message of the last error; empty if there was none
 };
 
 // Any thread may call the functions of SolverSession, except the destructor; all functions return without
@@ -65,10 +65,10 @@ class SolverSession {
   void SetErrorPoints(std::size_t points);
   PipelineOptions options() const;
 
-  void Link();      // from the beginning
-  void Iterate();   // links first if there are no links
-  void Converge();  // iterates until convergence, then corrects
-  void Correct();   // by exact irradiance
+  void Link();      // starts to make links between elements, from the beginning
+  void Iterate();   // starts an iteration; makes links first if there are none
+  void Converge();  // starts iterations until convergence, then deferred corrections
+  void Correct();   // starts a deferred correction by exact irradiance
   // Makes the next of the smallest steps: links, one sweep, one level of splitting, the corrections, the
   // first interpolants, the refinement of light, that of the mesh. No effect once the snapshot is complete.
   void Step();
@@ -156,19 +156,23 @@ class SolverSession {
 
   // Only the solver's thread uses the following members.
   std::chrono::steady_clock::time_point step_since_,
-      record_since_;                              // of Publish() and of Record()
-  std::shared_ptr<HeldPipeline> held_;            // null before links
-  std::shared_ptr<const PipelineState> restart_;  // its links transport the light; null: the scene's own
-  std::shared_ptr<const Scene> opened_;           // before any change of its light
-  LightChange change_;                            // of the snapshot's scene
-  std::size_t step_ = 0;                          // SolverPlace::step
-  std::uint64_t openings_ = 0;                    // the number of scenes that were opened after the first
-  std::shared_ptr<const Snapshot> unlit_;  // of held_'s own scene, while the snapshot has another light
+      record_since_;                    // the times of the last Publish() and of the last Record()
+  std::shared_ptr<HeldPipeline> held_;  // null until the solver has made links between elements
+  // The solution whose links transport the light; null if the scene has its own links.
+  std::shared_ptr<const PipelineState> restart_;
+  // The scene as the user opened it, before lamps or materials were changed.
+  std::shared_ptr<const Scene> opened_;
+  // How the light of the snapshot's scene differs from that of the opened scene.
+  LightChange change_;
+  std::size_t step_ = 0;        // the number of step records that led to the present state
+  std::uint64_t openings_ = 0;  // the number of scenes that were opened after the first
+  // The snapshot with the light of held_'s own scene, while lamps or materials are changed.
+  std::shared_ptr<const Snapshot> unlit_;
   // The light of each lamp alone over the kept transport, in the order of LampsOf(held_->scene); empty: not
   // computed.
   std::vector<EmitterLight> lamps_;
   const HeldPipeline* lamps_of_ = nullptr;
-  std::uint64_t lamps_at_ = 0;  // HeldPipeline::changes
+  std::uint64_t lamps_at_ = 0;  // the value of HeldPipeline::changes for which light by emitter is known
 
   std::thread thread_;
 };

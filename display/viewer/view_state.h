@@ -71,7 +71,7 @@ struct ProbedPoint {
 // A line over which light is plotted, in the plane of a patch, the first end on its front.
 struct PlotLine {
   PatchId patch = kNoPatch;
-  std::array<Vec3, 2> ends = {Vec3::Zero(), Vec3::Zero()};  // [m]
+  std::array<Vec3, 2> ends = {Vec3::Zero(), Vec3::Zero()};  // the two end points of the line [m]
 
   bool operator==(const PlotLine& other) const {
     return patch == other.patch && ends[0] == other.ends[0] && ends[1] == other.ends[1];
@@ -80,18 +80,23 @@ struct PlotLine {
 
 // The settings of the overlays, which are drawn over the faces (thesis B.4).
 struct OverlaySettings {
-  std::set<std::string, std::less<>> shown;  // names of the switches that are on
-  int mesh_depth = 20;                       // deepest level of elements that is drawn
-  double link_min_irradiance = 0;            // links with less irradiance are omitted [W/m^2]
-  int link_limit = 5000;                     // largest number of the other links: the strongest are shown
+  std::set<std::string, std::less<>> shown;  // the names of the overlay switches that are on
+  int mesh_depth = 20;                       // the deepest quadtree level of elements that is drawn
+  // Links that carry less irradiance than this are not drawn [W/m^2].
+  double link_min_irradiance = 0;
+  // The largest number of links that are drawn, the strongest first.
+  int link_limit = 5000;
   // Of the discontinuities, those of this kind that weigh at least so much; no kind: all.
   std::optional<DiscontinuityKind> discontinuity_kind = {};
-  double discontinuity_min_weight = 0;   // [W/m^2]
-  bool discontinuities_by_kind = false;  // a colour for each kind
-  double graph_scale = 0.001;            // height of graphs and probes [m per W/m^2]
-  int grid_density = 12;                 // cells per side of a graph over a whole element
-  bool dynamic_grid = true;              // fewer cells for triangles that fill a small part of the element
-  bool hidden_lines = false;             // draw lines behind faces as well
+  double discontinuity_min_weight = 0;   // discontinuities with less weight are not drawn [W/m^2]
+  bool discontinuities_by_kind = false;  // if true, each kind of discontinuity is drawn in its own colour
+  // The height of irradiance graphs and probes over the surface [m per W/m^2].
+  double graph_scale = 0.001;
+  // The number of grid cells along each side of an irradiance graph over a whole element.
+  int grid_density = 12;
+  // If true, graphs over triangles much smaller than their element get fewer grid cells.
+  bool dynamic_grid = true;
+  bool hidden_lines = false;  // if true, lines behind faces are drawn as well
 
   bool Shows(std::string_view name) const { return shown.contains(name); }
   bool operator==(const OverlaySettings&) const = default;
@@ -109,20 +114,24 @@ struct ShownState {
   bool auto_exposure = true;
   double exposure = 0.01;  // linear screen value per W/m^2 of radiosity (Irradiance-2-Pixel in the thesis)
   bool false_colour = false;
-  double false_colour_max = 0;  // end of the scale, in `unit`; 0: by the values that are seen (RangeOf)
+  // The largest value of the false-colour scale, in `unit`; 0: found from the picture (RangeOf).
+  double false_colour_max = 0;
   bool false_colour_log = false;
-  LightUnit unit = LightUnit::kWatts;  // of false colours, of the line under the pointer and of plots
+  // The unit of light in false colours, plots, and the line about the point under the pointer.
+  LightUnit unit = LightUnit::kWatts;
   bool error_map = false;
-  double error_map_max = 0.1;          // end of the scale, relative
-  int supersampling = 2;               // of saved pictures: samples per side of a pixel
-  bool isolate = false;                // draw only the selection
-  std::set<std::int32_t> hidden = {};  // objects that are not drawn; rays meet them all the same
+  double error_map_max = 0.1;  // the largest relative error of the error map's colour scale
+  int supersampling = 2;       // saved pictures have supersampling^2 samples for each pixel
+  bool isolate = false;        // if true, only the selected object is drawn
+  // The indices of objects that are not drawn, though light rays meet them.
+  std::set<std::int32_t> hidden = {};
 
   OverlaySettings overlays;
   Selection selection;
-  std::optional<ProbedPoint> probe;           // of the irradiance
-  std::optional<ProbedPoint> backprojection;  // of the sources' backprojections
-  std::optional<PlotLine> line;               // over which light is plotted
+  std::optional<ProbedPoint> probe;  // the point whose irradiance is probed, if any
+  // The point from which the visible parts of light sources are shown, if any.
+  std::optional<ProbedPoint> backprojection;
+  std::optional<PlotLine> line;  // the line over which the light is plotted, if any
 
   bool operator==(const ShownState&) const = default;
 };
@@ -130,7 +139,7 @@ struct ShownState {
 struct ViewState : ShownState {
   Camera camera;
   Navigation navigation = Navigation::kArcball;
-  double walk_speed = 2;  // [m/s]
+  double walk_speed = 2;  // the speed of walking through the scene [m/s]
   bool mouse_look = false;
   glm::dvec3 up_axis{0, 0, 1};  // the vertical direction in walk mode
 };

@@ -33,8 +33,9 @@ namespace penumbra::viewer {
 struct PanelState {
   bool control = false, help = false, details = true, report = false, parameters = false;
   bool lamps = false, steps = false, hover = true, outline = false;
-  std::string dialog;    // the setting whose value a dialog requests; empty: no dialog
-  std::string question;  // before unsaved work is lost; empty: none
+  std::string dialog;  // the setting whose value a dialog requests; empty: no dialog
+  // The question that the window asks before unsaved work is lost; empty if it asks none.
+  std::string question;
   bool quit = false;
 };
 
@@ -130,8 +131,10 @@ class Viewer {
     std::optional<PipelineOptions> own_links;
     LightChange light;
     std::string scene_name;
-    std::function<void()> reading;             // ViewerFiles::keep_reading
-    std::shared_ptr<const SolverPlace> place;  // null: the action did not touch the solver
+    // The function that brings back how the scene was read (ViewerFiles::keep_reading).
+    std::function<void()> reading;
+    // The solver's state before the action; null if the action did not touch the solver.
+    std::shared_ptr<const SolverPlace> place;
   };
 
   // viewer_settings.cpp
@@ -235,7 +238,7 @@ class Viewer {
   AnalysisResults results_;
   PictureMaker picture_;
   std::string message_;
-  std::string heard_;  // the last message of the solver session that was shown
+  std::string heard_;  // the last message of the solver session that the window has shown
   std::size_t printed_ = 0;
   std::shared_ptr<const ProbeResult> printed_probe_;
   // The kinds of meshes that were requested, each with the number of the Snapshot (state of the solution) to
@@ -268,26 +271,30 @@ class Viewer {
   std::optional<Press> press_;
   std::optional<ArcballDrag> drag_;
   Camera press_camera_;
-  std::set<std::string> held_;  // keys held down
+  std::set<std::string> held_;  // the names of the keys that the user holds down
   double clock_ = 0;
   double last_click_ = -1, last_click_x_ = 0, last_click_y_ = 0;
   double seconds_a_frame_ = 0;
-  bool keep_camera_ = false;  // keep the camera when the next scene opens
-  bool fresh_ = false;        // nothing happened after the last frame
+  bool keep_camera_ = false;  // if true, the camera stays where it is when the next scene opens
+  bool fresh_ = false;        // true if nothing has happened since the last frame was drawn
 
   History<UserState> history_;
-  int depth_ = 0;         // of actions in actions: the outermost is the user's
-  bool changes_ = false;  // the present action changes the state of the solver
+  int depth_ = 0;         // the nesting depth of actions; the outermost action is the user's
+  bool changes_ = false;  // true if the present action changes the state of the solver
   LightChange light_;
-  std::shared_ptr<const LightState> ready_for_light_;  // the transport of this light has been asked for
+  // The light whose transport matrix has been requested, for dimming its lamps.
+  std::shared_ptr<const LightState> ready_for_light_;
   Comparison comparison_;
   bool compares_ = false;
-  double compare_at_ = 0.5;      // the border, as a fraction of the width
-  double ask_above_ = 10;        // seconds of unsaved work
-  bool stepping_ = false;        // the user makes the solver's steps: no mesh is made unless he asks for it
-  std::size_t wanted_step_ = 0;  // the step that was gone to last
-  bool playing_ = false;         // step follows step
-  bool draws_line_ = false;      // the next clicks set the ends of the plot's line
+  // The place of the border between two compared pictures, as a fraction of the width.
+  double compare_at_ = 0.5;
+  double ask_above_ = 10;  // the window asks before it drops more than this much unsaved work [s]
+  // True if the user makes the solver's steps one by one, so that meshes are made only on request.
+  bool stepping_ = false;
+  std::size_t wanted_step_ = 0;  // the step of the time line to which the user went last
+  bool playing_ = false;         // true if the solver makes step after step
+  // True if the next clicks set the end points of the line over which light is plotted.
+  bool draws_line_ = false;
   std::optional<ProbedPoint> line_start_;
 };
 
