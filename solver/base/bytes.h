@@ -1,6 +1,7 @@
 // solver/base/bytes.h
 //
-// Values as bytes, to pass them from one process to another on the same kind of machine.
+// Writes values as bytes and reads them back, to pass values from one process to another on the same kind of
+// machine.
 
 #pragma once
 

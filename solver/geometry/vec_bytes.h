@@ -1,6 +1,6 @@
 // solver/geometry/vec_bytes.h
 //
-// Vectors as bytes (bytes.h).
+// Writes vectors as bytes, and reads vectors from bytes (ByteWriter, ByteReader).
 
 #pragma once
 

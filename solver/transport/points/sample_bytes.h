@@ -1,6 +1,6 @@
 // solver/transport/points/sample_bytes.h
 //
-// Samples of irradiance as bytes, to pass them from one process to another (processes.h).
+// Writes samples of irradiance as bytes and reads them back, to pass samples from one process to another.
 
 #pragma once
 
