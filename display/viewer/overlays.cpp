@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "display/viewer/backprojection_overlay.h"
-#include "display/viewer/centroid_overlay.h"
 #include "display/viewer/discontinuity_overlay.h"
 #include "display/viewer/element_mesh_overlay.h"
 #include "display/viewer/graph_overlay.h"
@@ -19,10 +18,10 @@ namespace penumbra::viewer {
 
 OverlayRegistry& Overlays() {
   static OverlayRegistry registry(
-      "overlay", {ElementMeshOverlayMethod(), LinkOverlayMethod(), DiscontinuityOverlayMethod(),
-                  TriangulationOverlayMethod(), SamplePointOverlayMethod(), GraphOverlayMethod(),
-                  BackprojectionOverlayMethod(), ProbeOverlayMethod(), LineOverlayMethod(),
-                  SelectionOverlayMethod(), CentroidOverlayMethod()});
+      "overlay",
+      {ElementMeshOverlayMethod(), LinkOverlayMethod(), DiscontinuityOverlayMethod(),
+       TriangulationOverlayMethod(), SamplePointOverlayMethod(), GraphOverlayMethod(),
+       BackprojectionOverlayMethod(), ProbeOverlayMethod(), LineOverlayMethod(), SelectionOverlayMethod()});
   return registry;
 }
 

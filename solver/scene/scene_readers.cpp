@@ -10,7 +10,6 @@
 #include "solver/scene/obj_reader.h"
 #include "solver/scene/ply_reader.h"
 #include "solver/scene/rad_reader.h"
-#include "solver/scene/triangle_table_reader.h"
 #include "solver/scene/view3d_reader.h"
 
 namespace penumbra {
@@ -19,7 +18,7 @@ SceneReaderRegistry& SceneReaders() {
   static SceneReaderRegistry registry(
       "scene reader",
       {ObjReaderMethod(), AssimpReaderMethod(), PlyReaderMethod(), MgfReaderMethod(), RadReaderMethod(),
-       View3dReaderMethod(), AshdownReaderMethod(), TriangleTableReaderMethod(), BuiltinSceneReaderMethod()});
+       View3dReaderMethod(), AshdownReaderMethod(), BuiltinSceneReaderMethod()});
   return registry;
 }
 

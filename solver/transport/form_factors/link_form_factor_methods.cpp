@@ -1,7 +1,6 @@
 #include "solver/transport/form_factors/link_form_factor_methods.h"
 
 #include "solver/transport/form_factors/book_rays_form_factor.h"
-#include "solver/transport/form_factors/centroid_form_factor.h"
 #include "solver/transport/form_factors/contour_form_factor.h"
 #include "solver/transport/form_factors/cubic_tetrahedron.h"
 #include "solver/transport/form_factors/hemicube.h"
@@ -22,7 +21,7 @@ LinkFormFactorRegistry& LinkFormFactorMethods() {
       {CubatureLinkFormFactorMethod(), ExactLinkFormFactorMethod(), DiskLinkFormFactorMethod(),
        HemicubeMethod(), CubicTetrahedronMethod(), SinglePlaneMethod(), TwoPlanesMethod(),
        RaysFormFactorMethod(), BookRaysFormFactorMethod(), MalleyFormFactorMethod(),
-       MonteCarloFormFactorMethod(), ContourFormFactorMethod(), CentroidFormFactorMethod()});
+       MonteCarloFormFactorMethod(), ContourFormFactorMethod()});
   return registry;
 }
 

@@ -1,7 +1,6 @@
 #include "solver/transport/links/refinement_oracles.h"
 
 #include "solver/transport/links/gradient_oracle.h"
-#include "solver/transport/links/size_oracle.h"
 #include "solver/transport/links/thesis_oracle.h"
 #include "solver/transport/links/transport_oracle.h"
 #include "solver/transport/links/visibility_oracle.h"
@@ -9,9 +8,8 @@
 namespace penumbra {
 
 OracleRegistry& RefinementOracles() {
-  static OracleRegistry registry("refinement oracle",
-                                 {TransportOracleMethod(), VisibilityOracleMethod(), GradientOracleMethod(),
-                                  ThesisOracleMethod(), SizeOracleMethod()});
+  static OracleRegistry registry("refinement oracle", {TransportOracleMethod(), VisibilityOracleMethod(),
+                                                       GradientOracleMethod(), ThesisOracleMethod()});
   return registry;
 }
 

@@ -5,7 +5,6 @@
 #include "solver/transport/solvers/dense_solver.h"
 #include "solver/transport/solvers/full_matrix_solver.h"
 #include "solver/transport/solvers/hierarchical_solver.h"
-#include "solver/transport/solvers/bounce_solver.h"
 #include "solver/transport/solvers/progressive_solver.h"
 #include "solver/transport/solvers/rayrad_solver.h"
 #include "solver/transport/solvers/sampled_solver.h"
@@ -17,7 +16,7 @@ LightSolverRegistry& LightSolvers() {
   static LightSolverRegistry registry(
       "solver",
       {HierarchicalSolverMethod(), DenseSolverMethod(), SampledSolverMethod(), ProgressiveSolverMethod(),
-       FullMatrixSolverMethod(), StochasticSolverMethod(), RayradSolverMethod(), BounceSolverMethod()});
+       FullMatrixSolverMethod(), StochasticSolverMethod(), RayradSolverMethod()});
   return registry;
 }
 
