@@ -196,10 +196,11 @@ void AddPictureOptions(CLI::App& app, RenderArguments* arguments) {
   AddInteger(
       app, "--supersampling", &arguments->supersampling, 1, 8,
       "Samples a side of each pixel of a PNG, averaged; an EXR, false colours and --split have one, at the "
-      "pixel's centre; exact and lerp: see --samples")
+      "pixel's centre; modes that cast rays: see --samples")
       ->group("Picture");
   AddInteger(app, "--samples", &arguments->samples, 1, kMaxSamples,
-             "exact, lerp: rays a pixel, averaged; the first goes through its centre")
+             "Of modes that cast rays (exact, lerp, nodal, ...): rays a pixel, averaged; the first goes "
+             "through its centre")
       ->group("Picture");
   AddInteger(app, "--benchmark", &arguments->benchmark_frames, 1, kMaxFrames,
              "Render N frames along an orbit of the camera and print fps and milliseconds as a line of JSON; "
