@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "mesh/pipeline/thesis_options.h"
 #include "solver/scene/builtin_scenes.h"
 #include "solver/transport/links/push_pull.h"
 #include "solver/transport/solvers/light_solvers.h"
@@ -323,6 +324,23 @@ TEST(Pipeline, PointsInSpaceBesideWalls) {
   std::printf("largest error %.4f of 0.05; of whole leaves %.4f\n", largest, largest_of_leaves);
   EXPECT_LE(largest, options.error);
   EXPECT_GT(largest_of_leaves, options.error);
+}
+
+// With the settings of the thesis, the office has about as many leaves and triangles as the office of the
+// thesis (7.1): 1622 and 6576. The scenes differ, so that the numbers need not be the same.
+TEST(Pipeline, AsInTheThesisTheOfficeHasTheSizeOfTheThesis) {
+  const Scene scene = *LoadBuiltinScene("office", {});
+  PipelineOptions options;
+  SetAsThesis(true, &options);
+  Pipeline pipeline(scene, options);
+  pipeline.Solve({});
+  pipeline.BuildMesh(MeshKind::kInterpolant, {});
+  const PipelineReport::Counts& counts = pipeline.report().counts;
+  EXPECT_NEAR(static_cast<double>(counts.leaves), 1622, 0.05 * 1622);
+  EXPECT_NEAR(static_cast<double>(counts.triangles), 6576, 0.15 * 6576);
+  EXPECT_TRUE(pipeline.solution().fragments.empty());
+  EXPECT_EQ(pipeline.resolved().solver.oracle, "thesis");
+  EXPECT_EQ(pipeline.resolved().discontinuities.crowded_splits, 0);
 }
 
 }  // namespace
