@@ -136,13 +136,19 @@ RayShader ReconstructedLight::Shade(const Camera& camera, int width, int height)
   return [=](const RayPoint& point) -> Rgb { return impl->At(point).max(0.0); };
 }
 
-ReconstructedLight ReconstructLight(Reconstruction kind, const Pipeline& pipeline,
+ReconstructedLight ReconstructLight(Reconstruction kind, const RadiositySolution& solution,
+                                    const std::function<const PointIrradiance&()>& exact,
                                     const ExecutionContext& context) {
-  const RadiositySolution& solution = pipeline.solution();
   const bool by_means = kind == Reconstruction::kNodal || kind == Reconstruction::kGouraudScreen;
   return ReconstructedLight(kind, solution.forest,
                             by_means ? NodalAverages(solution.forest, solution.irradiance)
-                                     : ExactAtVertices(solution.forest, pipeline.irradiance(), context));
+                                     : ExactAtVertices(solution.forest, exact(), context));
+}
+
+ReconstructedLight ReconstructLight(Reconstruction kind, const Pipeline& pipeline,
+                                    const ExecutionContext& context) {
+  const auto exact = [&]() -> const PointIrradiance& { return pipeline.irradiance(); };
+  return ReconstructLight(kind, pipeline.solution(), exact, context);
 }
 
 }  // namespace penumbra

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "mesh/pipeline/pipeline.h"
 #include "solver/base/progress.h"
 #include "solver/transport/links/element_forest.h"
+#include "solver/transport/links/solution.h"
 
 namespace penumbra {
 
@@ -48,8 +50,13 @@ class ReconstructedLight {
   std::unique_ptr<const Impl> impl_;
 };
 
-// The light of a solved pipeline at the vertices, as the kind of reconstruction needs it. The pipeline must
-// outlive the ReconstructedLight.
+// The light of a solution at the vertices, as the kind of reconstruction needs it. `exact` returns the exact
+// irradiance from the solution, and is called only by kinds that need it. The solution must outlive the
+// ReconstructedLight. If the computation is cancelled, the light is unspecified.
+ReconstructedLight ReconstructLight(Reconstruction kind, const RadiositySolution& solution,
+                                    const std::function<const PointIrradiance&()>& exact,
+                                    const ExecutionContext& context);
+// The same for the solution of a pipeline, which must outlive the ReconstructedLight.
 ReconstructedLight ReconstructLight(Reconstruction kind, const Pipeline& pipeline,
                                     const ExecutionContext& context);
 

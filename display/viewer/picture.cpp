@@ -16,6 +16,10 @@ MeshKind MeshOf(DrawMode mode) {
   switch (mode) {
     case DrawMode::kFlat:
     case DrawMode::kRho:
+    case DrawMode::kNodal:
+    case DrawMode::kGouraudScreen:
+    case DrawMode::kBilinear:
+    case DrawMode::kBicubic:
       return MeshKind::kFlat;
     case DrawMode::kGouraud:
       return MeshKind::kGouraud;
@@ -27,6 +31,14 @@ MeshKind MeshOf(DrawMode mode) {
       break;
   }
   return MeshKind::kInterpolant;
+}
+
+std::optional<Reconstruction> ReconstructionOf(DrawMode mode) {
+  if (mode == DrawMode::kNodal) return Reconstruction::kNodal;
+  if (mode == DrawMode::kGouraudScreen) return Reconstruction::kGouraudScreen;
+  if (mode == DrawMode::kBilinear) return Reconstruction::kBilinear;
+  if (mode == DrawMode::kBicubic) return Reconstruction::kBicubic;
+  return std::nullopt;
 }
 
 const char* UnitOf(ColourScale scale) {
@@ -171,7 +183,8 @@ void PictureMaker::CastRays(const OverlayContext& context, const ViewState& view
     rays_.Clear();
     return;
   }
-  rays_.Show({context.snapshot.light, lerp ? interpolants : nullptr, view.camera, width, height});
+  rays_.Show({context.snapshot.light, lerp ? interpolants : nullptr, view.camera, width, height,
+              ReconstructionOf(view.mode)});
   ray_linear_ = display_->frame().linear;
   ray_kind_ = display_->frame().kind;
   rays_.Paint(&ray_linear_, &ray_kind_);

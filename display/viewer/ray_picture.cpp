@@ -24,15 +24,16 @@ bool SameCamera(const Camera& a, const Camera& b) {
 
 bool RayPictureKey::operator==(const RayPictureKey& other) const {
   return light == other.light && mesh == other.mesh && SameCamera(camera, other.camera) &&
-         width == other.width && height == other.height;
+         width == other.width && height == other.height && reconstruction == other.reconstruction;
 }
 
 struct RayPicture::Job {
   explicit Job(const RayPictureKey& the_key)
       : key(the_key),
         display(key.light->scene(),
-                key.mesh ? LerpShade(key.light->scene(), key.mesh->mesh())
-                         : RayShade(key.light->scene(), key.light->Exact()),
+                key.reconstruction ? RayShader()
+                : key.mesh         ? LerpShade(key.light->scene(), key.mesh->mesh())
+                                   : RayShade(key.light->scene(), key.light->Exact()),
                 1),
         rays(MakePixelRays(key.camera, key.width, key.height)),
         linear(key.width, key.height),
@@ -44,6 +45,10 @@ struct RayPicture::Job {
   }
 
   void Work() {
+    if (key.reconstruction) {
+      const auto light = key.light->Reconstructed(*key.reconstruction, context);
+      if (light) display.SetShader(light->Shade(key.camera, key.width, key.height));
+    }
     for (int stride = kCoarsest; stride > 0 && !context.Cancelled(); stride /= 2) Round(stride);
     done = true;
   }

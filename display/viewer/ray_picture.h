@@ -1,11 +1,12 @@
 // display/viewer/ray_picture.h
 //
-// Pictures by ray casting (RayShade, LerpShade), computed in the background from coarse to fine: first every
-// 16th pixel of every 16th row, then the pixels in between.
+// Pictures by ray casting (RayShade, LerpShade, ReconstructedLight), computed in the background from coarse
+// to fine: first every 16th pixel of every 16th row, then the pixels in between.
 
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "display/image.h"
@@ -20,6 +21,8 @@ struct RayPictureKey {
   std::shared_ptr<const MeshState> mesh;
   Camera camera;
   int width = 0, height = 0;
+  // The reconstruction from the vertices of leaves that the picture shows, if it shows one.
+  std::optional<Reconstruction> reconstruction = {};
 
   bool operator==(const RayPictureKey& other) const;
 };

@@ -7,11 +7,13 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
 
+#include "display/reconstruction.h"
 #include "mesh/interpolants/irradiance_mesh.h"
 #include "mesh/interpolants/mesh_locator.h"
 #include "mesh/pipeline/pipeline.h"
@@ -48,6 +50,11 @@ class LightState {
     return *exact_;
   }
 
+  // The light that is reconstructed from the vertices of leaves; the first call for each kind computes it.
+  // Returns null if the computation is cancelled. Several threads may call Reconstructed() at once.
+  std::shared_ptr<const ReconstructedLight> Reconstructed(Reconstruction kind,
+                                                          const ExecutionContext& context) const;
+
  private:
   std::shared_ptr<const Scene> scene_;
   std::shared_ptr<const PatchVisibility> visibility_;
@@ -56,6 +63,8 @@ class LightState {
   DiscontinuityOptions discontinuities_;
   mutable std::once_flag made_;
   mutable std::optional<PointIrradiance> exact_;
+  mutable std::mutex reconstructing_;
+  mutable std::map<Reconstruction, std::shared_ptr<const ReconstructedLight>> reconstructed_;
 };
 
 // A mesh of triangles with the light of a radiosity solution (LightState).

@@ -16,6 +16,7 @@
 
 #include "display/opengl_passes.h"
 #include "display/photometry.h"
+#include "display/reconstruction.h"
 #include "mesh/discontinuities/discontinuity.h"
 #include "mesh/pipeline/pipeline.h"
 #include "solver/scene/scene.h"
@@ -23,11 +24,28 @@
 namespace penumbra::viewer {
 
 // The modes in which faces are drawn, with the same meaning as in the command `penumbra render`.
-enum class DrawMode : std::uint8_t { kFlat, kGouraud, kGouraudMesh, kInterpolant, kExact, kLerp, kRho };
+enum class DrawMode : std::uint8_t {
+  kFlat,
+  kGouraud,
+  kGouraudMesh,
+  kInterpolant,
+  kExact,
+  kLerp,
+  kRho,
+  kNodal,
+  kGouraudScreen,
+  kBilinear,
+  kBicubic
+};
+
+// The reconstruction from the vertices of leaves that a drawing mode shows; nullopt for all other modes.
+std::optional<Reconstruction> ReconstructionOf(DrawMode mode);
 
 // True for drawing modes that cast rays. Until all rays of the picture have been cast, the two-pass display
 // draws the picture.
-inline bool CastsRays(DrawMode mode) { return mode == DrawMode::kExact || mode == DrawMode::kLerp; }
+inline bool CastsRays(DrawMode mode) {
+  return mode == DrawMode::kExact || mode == DrawMode::kLerp || ReconstructionOf(mode);
+}
 
 // The kind of mesh that a drawing mode shows.
 MeshKind MeshOf(DrawMode mode);

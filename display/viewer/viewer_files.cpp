@@ -141,7 +141,13 @@ void Viewer::SaveRayPicture(const std::string& path) {
       "render", [=, size = size_, light = snapshot_->light, mesh = snapshot_->Mesh(MeshKind::kInterpolant)](
                     const Snapshot&, const ExecutionContext& context) {
         const Scene& scene = light->scene();
-        RayDisplay display(scene, exact ? RayShade(scene, light->Exact()) : LerpShade(scene, mesh->mesh()),
+        const std::optional<Reconstruction> kind = ReconstructionOf(view.mode);
+        const auto reconstructed = kind ? light->Reconstructed(*kind, context) : nullptr;
+        if (kind && !reconstructed) return;
+        RayDisplay display(scene,
+                           reconstructed ? reconstructed->Shade(view.camera, size.width, size.height)
+                           : exact       ? RayShade(scene, light->Exact())
+                                         : LerpShade(scene, mesh->mesh()),
                            view.supersampling * view.supersampling);
         const SampledPicture& picture = display.Render(view.camera, size.width, size.height, context);
         if (context.Cancelled()) return;

@@ -83,6 +83,10 @@ void Viewer::AddDrawingMenu() {
   ChoiceItem("Drawing/Reflectance", "5", "mode", "rho");
   ChoiceItem("Drawing/Exact irradiance, by rays", "6", "mode", "exact");
   ChoiceItem("Drawing/Interpolants, by rays", "7", "mode", "lerp");
+  ChoiceItem("Drawing/Means at vertices, by rays", "", "mode", "nodal");
+  ChoiceItem("Drawing/Gouraud shading on the screen, by rays", "", "mode", "gouraud-screen");
+  ChoiceItem("Drawing/Bilinear pieces, by rays", "", "mode", "bilinear");
+  ChoiceItem("Drawing/Bicubic pieces, by rays", "", "mode", "bicubic");
   ChoiceItem("Drawing/Passes by the rasteriser", "", "backend", "software");
   ChoiceItem("Drawing/Passes by OpenGL", "", "backend", "opengl");
   ToggleItem("Drawing/Draw faces", "f", "faces");

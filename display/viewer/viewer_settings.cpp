@@ -100,7 +100,11 @@ void Viewer::AddViewSettings() {
             {"interpolant", DrawMode::kInterpolant},
             {"exact", DrawMode::kExact},
             {"lerp", DrawMode::kLerp},
-            {"rho", DrawMode::kRho}});
+            {"rho", DrawMode::kRho},
+            {"nodal", DrawMode::kNodal},
+            {"gouraud-screen", DrawMode::kGouraudScreen},
+            {"bilinear", DrawMode::kBilinear},
+            {"bicubic", DrawMode::kBicubic}});
   s.Choice("backend", "Drawing", "Who draws the two passes", &view_.backend,
            {{"software", Backend::kSoftware}, {"opengl", Backend::kOpenGl}});
   s.Choice("opengl-coordinates", "Drawing", "Coordinates by OpenGL", &view_.coordinates,

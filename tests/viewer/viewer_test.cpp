@@ -125,7 +125,8 @@ TEST_F(SolvedViewer, EverySettingTakesBackWhatItGives) {
 }
 
 TEST_F(SolvedViewer, EveryModeAndSizeDraws) {
-  for (const char* mode : {"flat", "gouraud", "gouraud-mesh", "interpolant", "exact", "lerp", "rho"})
+  for (const char* mode : {"flat", "gouraud", "gouraud-mesh", "interpolant", "exact", "lerp", "rho", "nodal",
+                           "gouraud-screen", "bilinear", "bicubic"})
     for (const char* split : {"off", "on"}) {
       viewer.Set("mode", mode);
       viewer.Set("split", split);
@@ -469,11 +470,23 @@ TEST_F(SolvedViewer, RaysShowWhatThePassesShow) {
   EXPECT_TRUE(Settle(viewer));
 }
 
+// Light from the vertices of leaves comes by rays, and each mode shows another light.
+TEST_F(SolvedViewer, ReconstructionsDiffer) {
+  std::vector<std::vector<float>> shown;
+  for (const char* mode : {"nodal", "gouraud-screen", "bilinear", "bicubic"}) {
+    viewer.Set("mode", mode);
+    ASSERT_TRUE(Settle(viewer));
+    ASSERT_TRUE(viewer.picture().by_rays()) << mode;
+    shown.push_back(viewer.picture().linear().channel[0]);
+    for (std::size_t i = 0; i + 1 < shown.size(); ++i) EXPECT_NE(shown[i], shown.back()) << mode;
+  }
+}
+
 // Pictures that are saved are as large as the view, whatever they are averaged from.
 TEST_F(SolvedViewer, SavesPicturesWithSupersampling) {
   const std::string folder = testing::TempDir();
   viewer.Set("element-mesh", "on");
-  for (const char* mode : {"interpolant", "lerp"})
+  for (const char* mode : {"interpolant", "lerp", "gouraud-screen"})
     for (const char* samples : {"1", "3"}) {
       viewer.Set("mode", mode);
       viewer.Set("supersampling", samples);
