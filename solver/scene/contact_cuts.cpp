@@ -33,6 +33,7 @@ struct Foot {
   Vec2 a, b;
   Vec3 ends[2];
   SolidId solid = kNoSolid;
+  PatchId other = kNoPatch;  // what stands there
 
   double Length() const { return (b - a).norm(); }
 };
@@ -82,13 +83,22 @@ class PatchCutter {
     for (const Vec3& v : patch_.Vertices()) outline_.push_back(frame_.ToPlane(v));
   }
 
-  // The pieces; empty if the patch stays whole.
-  std::vector<Polygon3> Cut(std::span<const Contact> contacts) {
+  // The pieces; empty if the patch stays whole. Appends the walls on the patch that cross other walls to
+  // `crossing`.
+  std::vector<Polygon3> Cut(std::span<const Contact> contacts, std::vector<PatchId>& crossing) {
     AddFeet(contacts);
     JoinFeet();
     std::vector<Polygon3> pieces = {Polygon3(patch_.Vertices().begin(), patch_.Vertices().end())};
-    for (std::size_t i = 0; i < feet_.size(); ++i)
-      if (const std::optional<Stretch> wall = WallOf(i)) CutAlong(*wall, pieces);
+    std::vector<const Foot*> walls;
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+      const std::optional<Stretch> wall = WallOf(i);
+      if (!wall) continue;
+      CutAlong(*wall, pieces);
+      walls.push_back(&feet_[i]);
+    }
+    for (const Foot* wall : walls)
+      if (std::any_of(walls.begin(), walls.end(), [&](const Foot* other) { return Cross(*wall, *other); }))
+        crossing.push_back(wall->other);
     if (pieces.size() == 1) return {};
     std::vector<Polygon3> small;
     for (const Polygon3& piece : pieces) AddQuadrilaterals(piece, small);
@@ -98,7 +108,8 @@ class PatchCutter {
  private:
   void AddFeet(std::span<const Contact> contacts) {
     for (const Contact& c : contacts)
-      feet_.push_back({frame_.ToPlane(c.a), frame_.ToPlane(c.b), {c.a, c.b}, scene_.SolidOf(c.other)});
+      feet_.push_back(
+          {frame_.ToPlane(c.a), frame_.ToPlane(c.b), {c.a, c.b}, scene_.SolidOf(c.other), c.other});
     std::stable_sort(feet_.begin(), feet_.end(),
                      [](const Foot& p, const Foot& q) { return p.Length() > q.Length(); });
     if (feet_.size() > kMostFeet) feet_.resize(kMostFeet);
@@ -111,6 +122,17 @@ class PatchCutter {
       return (foot.a + t * along - point).norm() <= snap_;
     };
     return on(p, q.a) || on(p, q.b) || on(q, p.a) || on(q, p.b);
+  }
+
+  // True if feet of different solids cross each other: each has an end on either side of the other.
+  bool Cross(const Foot& p, const Foot& q) const {
+    if (p.solid != kNoSolid && p.solid == q.solid) return false;
+    const auto divides = [&](const Foot& foot, const Foot& other) {
+      const Stretch line{foot.a, (foot.b - foot.a) / foot.Length()};
+      const double a = line.HeightOf(other.a), b = line.HeightOf(other.b);
+      return std::min(a, b) < -snap_ && std::max(a, b) > snap_;
+    };
+    return divides(p, q) && divides(q, p);
   }
 
   // Finds of each foot how large the box is around all that touch it, and each other.
@@ -133,17 +155,29 @@ class PatchCutter {
     for (std::size_t i = 0; i < feet_.size(); ++i) room_.push_back((high[find(i)] - low[find(i)]).norm());
   }
 
+  // Where another foot limits a stretch or crosses it, and the solid that stands there.
+  struct Stop {
+    double at;
+    SolidId solid = kNoSolid;
+  };
+  // The stops of a stretch: the nearest beyond both ends of the foot, and the outermost between the ends.
+  struct Stops {
+    Stop low, high;
+    Stop first{INFINITY}, last{-INFINITY};
+  };
+
   // The stretch along a foot that is to be cut; none if it is no wall.
   std::optional<Stretch> WallOf(std::size_t i) const {
     const Foot& foot = feet_[i];
     if (room_[i] < kLeastRoom * diameter_) return std::nullopt;
     const double length = foot.Length();
-    Stretch wall{foot.a, (foot.b - foot.a) / length, -INFINITY, INFINITY};
-    ClipTo(outline_, wall);
+    Stretch line{foot.a, (foot.b - foot.a) / length, -INFINITY, INFINITY};
+    ClipTo(outline_, line);
+    Stops stops{{line.low}, {line.high}};
     std::vector<std::pair<double, double>> in_line;
     for (const Foot& other : feet_) {
-      const double ha = wall.HeightOf(other.a), hb = wall.HeightOf(other.b);
-      const double ta = wall.PlaceOf(other.a), tb = wall.PlaceOf(other.b);
+      const double ha = line.HeightOf(other.a), hb = line.HeightOf(other.b);
+      const double ta = line.PlaceOf(other.a), tb = line.PlaceOf(other.b);
       if (std::abs(ha) <= snap_ && std::abs(hb) <= snap_) {
         in_line.push_back(std::minmax(ta, tb));
         continue;
@@ -153,11 +187,40 @@ class PatchCutter {
       const double t = std::abs(ha) <= snap_   ? ta
                        : std::abs(hb) <= snap_ ? tb
                                                : ta + (tb - ta) * ha / (ha - hb);
-      if (t <= snap_) wall.low = std::max(wall.low, t);
-      if (t >= length - snap_) wall.high = std::min(wall.high, t);
+      const bool crosses = std::min(ha, hb) < -snap_ && std::max(ha, hb) > snap_;
+      if (t <= snap_ && t > stops.low.at) stops.low = {t, other.solid};
+      if (t >= length - snap_ && t < stops.high.at) stops.high = {t, other.solid};
+      if (t <= snap_ || t >= length - snap_ || !crosses) continue;
+      if (t < stops.first.at) stops.first = {t, other.solid};
+      if (t > stops.last.at) stops.last = {t, other.solid};
     }
-    if (Covered(wall, std::move(in_line)) < kCovered * (wall.high - wall.low)) return std::nullopt;
-    return wall;
+    return CoveredPartOf(line, stops, in_line);
+  }
+
+  // The part of the line between stops of which feet cover enough. Where thick walls cross at the corner of a
+  // room, the end of a foot sticks out on the other side of the wall that it crosses, and leads away from the
+  // room. If feet cover too little of the whole stretch, the stretch therefore begins or ends where another
+  // foot crosses the foot. What lies between two feet of one solid is within the solid, and no wall of a
+  // room.
+  std::optional<Stretch> CoveredPartOf(const Stretch& line, const Stops& stops,
+                                       const std::vector<std::pair<double, double>>& in_line) const {
+    const auto part = [&](const Stop& low, const Stop& high) {
+      return Stretch{line.from, line.along, low.at, high.at};
+    };
+    const auto is_covered = [&](const Stretch& stretch) {
+      return Covered(stretch, in_line) >= kCovered * (stretch.high - stretch.low);
+    };
+    const Stretch whole = part(stops.low, stops.high);
+    if (is_covered(whole)) return whole;
+    if (!std::isfinite(stops.first.at)) return std::nullopt;
+    for (const auto& [low, high] : {std::pair(stops.first, stops.high), std::pair(stops.low, stops.last),
+                                    std::pair(stops.first, stops.last)}) {
+      const Stretch shorter = part(low, high);
+      const bool within = low.solid != kNoSolid && low.solid == high.solid;
+      if (!within && shorter.high - shorter.low >= kLeastRoom * diameter_ && is_covered(shorter))
+        return shorter;
+    }
+    return std::nullopt;
   }
 
   void CutAlong(const Stretch& wall, std::vector<Polygon3>& pieces) const {
@@ -253,14 +316,22 @@ void CutAtWalls(Scene& scene) {
       largest = std::max(largest, Diameter(scene.patches[id].Vertices()));
   std::vector<Patch> patches;
   const ContactSearch search(scene);
+  std::vector<std::vector<Polygon3>> pieces_of(scene.patches.size());
+  std::vector<PatchId> crossing, ignored;
+  for (PatchId id = 0; id < Size(scene.patches); ++id) {
+    const double least = scene.SolidOf(id) == kNoSolid ? kLeastPatch : kLeastOfSolid;
+    if (Diameter(scene.patches[id].Vertices()) >= least * largest)
+      pieces_of[id] = PatchCutter(scene, id).Cut(search.FindWalls(id), crossing);
+  }
+  // A wall that goes through another wall has parts in two rooms, however small the wall is.
+  std::sort(crossing.begin(), crossing.end());
+  crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
+  for (const PatchId id : crossing)
+    if (pieces_of[id].empty()) pieces_of[id] = PatchCutter(scene, id).Cut(search.FindWalls(id), ignored);
   for (PatchId id = 0; id < Size(scene.patches); ++id) {
     const Patch& patch = scene.patches[id];
-    std::vector<Polygon3> pieces;
-    const double least = scene.SolidOf(id) == kNoSolid ? kLeastPatch : kLeastOfSolid;
-    if (Diameter(patch.Vertices()) >= least * largest)
-      pieces = PatchCutter(scene, id).Cut(search.FindWalls(id));
-    if (pieces.empty()) patches.push_back(patch);
-    for (const Polygon3& piece : pieces) {
+    if (pieces_of[id].empty()) patches.push_back(patch);
+    for (const Polygon3& piece : pieces_of[id]) {
       if (VectorArea(piece).norm() == 0) continue;  // rounding left a straight corner
       patches.push_back(MakePatch(piece, patch.material, patch.object, patch.faces));
     }

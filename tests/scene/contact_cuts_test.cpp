@@ -140,5 +140,83 @@ TEST(CutAtWalls, Closets) {
   EXPECT_LE(worst, 1e-8);
 }
 
+// A sealed room with thick walls: boxes along the sides of a convex polygon, longer than the sides, so that
+// their ends cross.
+struct ThickRoom {
+  std::vector<Vec3> corner;  // of the room's floor, counter-clockwise
+  double thickness = 0, overlap = 0;
+
+  ThickRoom(Random& random, const Vec3& centre) {
+    const int walls = 3 + static_cast<int>(random.Uniform() * 4);
+    const double radius = 0.7 + 0.4 * random.Uniform(), turn = 2 * std::numbers::pi * random.Uniform();
+    thickness = 0.05 + 0.15 * random.Uniform();
+    overlap = thickness * (0.3 + random.Uniform());
+    for (int k = 0; k < walls; ++k) {
+      const double angle = turn + 2 * std::numbers::pi * (k + 0.5 * random.Uniform()) / walls;
+      corner.emplace_back(centre + radius * Vec3(std::cos(angle), std::sin(angle), 0));
+    }
+  }
+  const Vec3& Corner(std::size_t k) const { return corner[k % corner.size()]; }
+  Vec3 Along(std::size_t k) const { return (Corner(k + 1) - Corner(k)).normalized(); }
+  Vec3 Outwards(std::size_t k) const { return Along(k).cross(Vec3::UnitZ()); }
+  double Area() const {
+    Vec3 twice = Vec3::Zero();
+    for (std::size_t k = 0; k < corner.size(); ++k) twice += Corner(k).cross(Corner(k + 1));
+    return 0.5 * twice.z();
+  }
+  void AddWalls(Scene& scene) const {
+    for (std::size_t k = 0; k < corner.size(); ++k) {
+      const Vec3 from = Corner(k) - overlap * Along(k), to = Corner(k + 1) + overlap * Along(k),
+                 out = thickness * Outwards(k), up(0, 0, 2);
+      const Vec3 foot[4] = {from + out, to + out, to, from};
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Vec3 &a = foot[i], &b = foot[(i + 1) % 4];
+        AddGrey(scene, {a, b, b + up, a + up});
+      }
+    }
+  }
+};
+
+// Thick walls whose ends cross at the corners of a room: the room's floor is made of whole pieces, and no
+// piece of a wall's inner side reaches from the room through the next wall to the space outside.
+TEST(CutAtWalls, ThickWallsThatCross) {
+  constexpr std::uint64_t kSeed = 20261201;
+  constexpr double kNear = 1e-9;  // [m]
+  Random random(kSeed);
+  double worst = 0;
+  int through = 0;
+  for (int i = 0; i < 100; ++i) {
+    const ThickRoom room(random, {2 + 4 * random.Uniform(), 2, 0});
+    Scene scene = Floor();
+    room.AddWalls(scene);
+    const Scene cut = Cut(scene);
+    double inside = 0;
+    for (const Patch& piece : PiecesOfFloor(cut)) {
+      bool within = true;
+      for (std::size_t k = 0; k < room.corner.size(); ++k)
+        for (const Vec3& v : piece.Vertices())
+          within = within && room.Outwards(k).dot(v - room.Corner(k)) < kNear;
+      if (within) inside += piece.area;
+    }
+    worst = std::max(worst, std::abs(inside / room.Area() - 1));
+    for (std::size_t k = 0; k < room.corner.size(); ++k) {
+      const std::size_t before = k + room.corner.size() - 1;
+      for (const Patch& patch : cut.patches) {
+        bool in_room = false, outside = false, on_side = true;
+        for (const Vec3& v : patch.Vertices()) {
+          const Vec3 from_corner = v - room.Corner(k);
+          on_side = on_side && std::abs(room.Outwards(k).dot(from_corner)) < kNear;
+          in_room = in_room || room.Along(k).dot(from_corner) > kNear;
+          outside = outside || room.Outwards(before).dot(from_corner) > room.thickness + kNear;
+        }
+        if (on_side && in_room && outside) ++through;
+      }
+    }
+  }
+  std::printf("seed %llu: areas within %.2g\n", static_cast<unsigned long long>(kSeed), worst);
+  EXPECT_LE(worst, 1e-8);
+  EXPECT_EQ(through, 0);
+}
+
 }  // namespace
 }  // namespace penumbra::scene_test
