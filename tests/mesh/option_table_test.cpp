@@ -160,9 +160,9 @@ TEST(OptionTable, KeysAndTheirOrderStay) {
                         "keep_hidden_discontinuities", "eee", "error_samples", "refine", "corrections",
                         "source_error", "acceleration", "scheme", "oracle", "multigrid", "relative_cutoff",
                         "iterations", "time_limit", "memory_limit", "bounces", "nudge", "source_push_off",
-                        "min_backprojection_segment", "method", "form_factors", "solver", "rays", "resolution",
-                        "basis", "divisions", "shots", "overshoot", "ambient", "error_points", "by_emitter",
-                        "emitters", "crowded_splits"));
+                        "min_backprojection_segment", "method", "form_factors", "solver", "rays",
+                        "resolution", "basis", "divisions", "shots", "overshoot", "ambient", "error_points",
+                        "by_emitter", "emitters", "crowded_splits"));
 }
 
 std::vector<std::string> NamesWhere(bool (*holds)(const SolveOption&)) {
