@@ -8,12 +8,8 @@
 // Where a run crashes, takes longer than kLongestRun, or is wrong, its number is told: PROGRAM 1 SEED NUMBER
 // repeats it.
 
-#include <signal.h>
-#include <unistd.h>
-
 #include <Eigen/Geometry>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -29,19 +25,14 @@
 #include "solver/scene/obj_reader.h"
 #include "solver/scene/plane_overlaps.h"
 #include "solver/transport/points/point_irradiance.h"
+#include "tests/fuzz/fuzz_loop.h"
 
 namespace penumbra {
 namespace {
 
-constexpr unsigned kLongestRun = 60;       // [s], of some milliseconds' work
-constexpr std::uint64_t kRunsARoom = 400;  // of which one makes a room and solves it
+constexpr std::uint32_t kRunsARoom = 400;
 
-std::atomic<std::uint64_t> running{0};
-
-[[noreturn]] void Fail(const std::string& what) {
-  std::fprintf(stderr, "%s\n", what.c_str());
-  std::abort();
-}
+using fuzz::Fail;
 
 std::uint32_t Roll(Random& random, std::initializer_list<std::uint32_t> choices) {
   return choices.begin()[random.Index(static_cast<std::uint32_t>(choices.size()))];
@@ -356,46 +347,15 @@ void RunRoom(Random& random) {
   CheckFurnace(pipeline, setting, random);
 }
 
-void TellRun() {
-  std::array<char, 64> words{};
-  const int length = std::snprintf(words.data(), words.size(), "\nfailed in run %llu\n",
-                                   static_cast<unsigned long long>(running));
-  [[maybe_unused]] const ssize_t ignored = write(2, words.data(), static_cast<std::size_t>(length));
-}
-
-void OnSignal(int signal) {
-  TellRun();
-  ::signal(signal, SIG_DFL);
-  raise(signal);
+// One run in kRunsARoom makes a room and solves it.
+void Run(Random& random) {
+  if (random.Index(kRunsARoom) == 0)
+    RunRoom(random);
+  else
+    RunPlane(random);
 }
 
 }  // namespace
 }  // namespace penumbra
 
-int main(int argc, char** argv) {
-  using namespace penumbra;
-  const auto argument = [&](int i, std::uint64_t otherwise) {
-    return argc > i ? std::strtoull(argv[i], nullptr, 10) : otherwise;
-  };
-  const std::uint64_t runs = argument(1, 1000), seed = argument(2, 1), first = argument(3, 0);
-  for (const int fatal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGILL, SIGALRM}) signal(fatal, &OnSignal);
-  for (std::uint64_t run = first; run < first + runs; ++run) {
-    constexpr std::uint64_t kTold = 10'000;  // runs between two words
-    if (run % kTold == 0) {
-      std::printf("seed %llu, run %llu\n", static_cast<unsigned long long>(seed),
-                  static_cast<unsigned long long>(run));
-      std::fflush(stdout);
-    }
-    running = run;
-    alarm(kLongestRun);
-    Random random(seed, run);
-    if (run % kRunsARoom == kRunsARoom - 1)
-      RunRoom(random);
-    else
-      RunPlane(random);
-  }
-  alarm(0);
-  std::printf("%llu runs: no crash, no hang, no NaN, every place covered once\n",
-              static_cast<unsigned long long>(runs));
-  return 0;
-}
+int main(int argc, char** argv) { return penumbra::fuzz::Loop(argc, argv, 1000, &penumbra::Run); }

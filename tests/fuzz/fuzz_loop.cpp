@@ -1,6 +1,7 @@
 #include "tests/fuzz/fuzz_loop.h"
 
 #include <signal.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -115,19 +116,31 @@ void ChangeOnce(std::string& text, std::span<const std::string_view> dictionary,
   }
 }
 
+// Ends the program by SIGPROF when its threads have together worked for this time from now; 0: never. Seconds
+// of a clock would end runs on a busy machine. A program that waits for ever does not work: SIGALRM ends it
+// after a longer time.
+void LimitTime(unsigned seconds) {
+  constexpr unsigned kWaiting = 20;  // seconds of a clock to one of work
+  itimerval limit{};
+  limit.it_value.tv_sec = seconds;
+  setitimer(ITIMER_PROF, &limit, nullptr);
+  alarm(kWaiting * seconds);
+}
+
 }  // namespace
 
 int Loop(int argc, char** argv, std::uint64_t runs, const std::function<void(Random&)>& run) {
   runs = Argument(argc, argv, 1, runs);
   const std::uint64_t seed = Argument(argc, argv, 2, 1), first = Argument(argc, argv, 3, 0);
   constexpr std::uint64_t kTold = 100'000;  // runs between two words
-  for (const int fatal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGILL, SIGALRM}) signal(fatal, &OnSignal);
+  for (const int fatal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGILL, SIGALRM, SIGPROF})
+    signal(fatal, &OnSignal);
   if (__sanitizer_set_death_callback) __sanitizer_set_death_callback(&TellRun);
   std::printf("seed %llu, %llu runs from %llu\n", static_cast<unsigned long long>(seed),
               static_cast<unsigned long long>(runs), static_cast<unsigned long long>(first));
   for (std::uint64_t i = first; i < first + runs; ++i) {
     running = i;
-    alarm(kLongestRun);
+    LimitTime(kLongestRun);
     if (i > first && i % kTold == 0) {
       std::printf("run %llu\n", static_cast<unsigned long long>(i));
       std::fflush(stdout);
@@ -135,7 +148,7 @@ int Loop(int argc, char** argv, std::uint64_t runs, const std::function<void(Ran
     Random random(seed, i);
     run(random);
   }
-  alarm(0);
+  LimitTime(0);
   std::printf("%llu runs: no crash, no hang, no NaN\n", static_cast<unsigned long long>(runs));
   return 0;
 }

@@ -22,8 +22,8 @@ namespace penumbra::fuzz {
 // program.
 int Loop(int argc, char** argv, std::uint64_t runs, const std::function<void(Random&)>& run);
 
-// The longest allowed time of one run of a fuzzer [s]. Even with sanitizers, a run of a fuzzer normally takes
-// a few milliseconds.
+// The longest time that all threads of a fuzzer may work for one run [s]. Even with sanitizers, a run of a
+// fuzzer normally takes a few milliseconds.
 inline constexpr unsigned kLongestRun = 60;
 
 // Prints the text `what`, which says what is wrong, and ends the program.
